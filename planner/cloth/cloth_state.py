@@ -1,0 +1,47 @@
+"""The cloth as a stack of layers, bottom to top."""
+
+from collections.abc import Sequence
+from functools import cached_property
+
+from planner.cloth.layer import Layer
+from planner.errors import FoldError
+from planner.geometry.isometry import Isometry
+from planner.geometry.region import Region
+
+LAYERS_MAX = 2000
+"""A stack of more layers is refused."""
+
+
+class ClothState:
+    """A stack of layers in the article frame; never changed after it is made.
+
+    Attributes:
+        layers: from bottom to top.
+        moved: how many of the top layers the last fold moved; 0 before the first fold.
+    """
+
+    def __init__(self, layers: Sequence[Layer], moved: int = 0) -> None:
+        if len(layers) > LAYERS_MAX:
+            raise FoldError("", f"leaves {len(layers)} layers, more than {LAYERS_MAX}")
+        self.layers = tuple(layers)
+        self.moved = moved
+
+    @staticmethod
+    def spread_out(pattern: Region) -> "ClothState":
+        """The cloth as it lies at the start: one layer, front face up."""
+        return ClothState([Layer(pattern, Isometry())])
+
+    @cached_property
+    def silhouette(self) -> Region:
+        """What the whole stack covers, article frame."""
+        return Region.union(layer.region for layer in self.layers)
+
+    @property
+    def flap(self) -> tuple[Layer, ...]:
+        """The layers that the last fold moved, bottom to top."""
+        return self.layers[len(self.layers) - self.moved :]
+
+    @cached_property
+    def area(self) -> float:
+        """The summed area of all layers (m^2)."""
+        return sum(layer.region.area for layer in self.layers)

@@ -1,0 +1,68 @@
+"""A layer: one piece of the pattern, and where folding has carried it."""
+
+from functools import cached_property
+from typing import Any
+
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.split import cut_like
+
+
+class Layer:
+    """A connected piece of cloth lying flat in a stack; never changed after it is made.
+
+    The piece is kept in the pattern's own coordinates together with the isometry that carried it, so that every
+    point can be traced to the pattern and folding to and fro leaves no error behind.
+
+    Attributes:
+        pattern_piece: the piece as it lay in the pattern.
+        isometry: from the pattern to where the piece lies now, article frame.
+    """
+
+    def __init__(self, pattern_piece: Region, isometry: Isometry) -> None:
+        self.pattern_piece = pattern_piece
+        self.isometry = isometry
+
+    @cached_property
+    def region(self) -> Region:
+        """Where the layer lies, article frame."""
+        return self.pattern_piece.moved(self.isometry)
+
+    @property
+    def face(self) -> str:
+        """Which face of the cloth looks up: "front" or "back"."""
+        return "back" if self.isometry.is_mirrored else "front"
+
+    def reflected(self, line: Segment) -> "Layer":
+        """The layer folded over a line of the article frame."""
+        return Layer(self.pattern_piece, Isometry.reflection(line).after(self.isometry))
+
+    def cut(self, line: Segment, moving: Region) -> tuple[tuple["Layer", ...], tuple["Layer", ...]]:
+        """The layer's parts inside the moving part of the silhouette, and its other parts.
+
+        Args:
+            line: the fold line, article frame.
+            moving: the part of the silhouette to the left of the line.
+        """
+        back = self.isometry.inverse
+        line_in_pattern = Segment(back.apply_point(line.start), back.apply_point(line.end))
+        inside, outside = cut_like(
+            self.pattern_piece, line_in_pattern, lambda p: moving.contains(self.isometry.apply_point(p))
+        )
+        if not (inside and outside):
+            return ((self,), ()) if inside else ((), (self,))
+        return (
+            tuple(Layer(p, self.isometry) for p in inside),
+            tuple(Layer(p, self.isometry) for p in outside),
+        )
+
+    def to_pattern(self, point: Point2) -> Point2:
+        """Where a point of the layer, article frame, was in the pattern (m)."""
+        return self.isometry.inverse.apply_point(point)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The layer as JSON: its polygon in the article frame and the face that looks up."""
+        ring = self.region.ring
+        return {"polygon": [[float(x), float(y)] for x, y in ring], "face": self.face}

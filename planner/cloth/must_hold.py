@@ -1,0 +1,72 @@
+"""Which vertices of a piece of cloth must be held (paper, Theorems 1 and 2).
+
+Cloth that hangs stays as it is when every vertex that is also a vertex of the convex hull is held, lies on
+the baseline, or has cloth straight above it. Cloth that is dragged keeps its shape under the same rule, "up"
+being the direction of the drag; cloth that is being folded hangs from the grips, "up" leading away from
+the fold line.
+"""
+
+import math
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
+
+
+def must_hold(
+    piece: Region, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float
+) -> FloatArray:
+    """The vertices of a piece of cloth that must be held.
+
+    Args:
+        piece: the cloth; if it has several parts, the hull is that of all.
+        up: the unit vector against which the cloth pulls.
+        baseline: where the piece is held already; vertices on it need no grip.
+        support_angle_rad: a vertex counts as supported when any direction within this angle of `up` leads
+            into the cloth (rad); a direction along an edge leads into it.
+
+    Returns:
+        Shape (n, 2), counter-clockwise, in the frame of `piece` (m).
+    """
+    return np.vstack([_of_ring(ring, piece.hull, up, baseline, support_angle_rad) for ring in piece.rings])
+
+
+def _of_ring(
+    ring: FloatArray, hull: FloatArray, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float
+) -> FloatArray:
+    free = ~_is_supported(ring, up, support_angle_rad) & _is_on_hull(ring, hull)
+    for segment in baseline:
+        free &= segment.distances(ring) > LENGTH_M
+    return ring[free]
+
+
+def _is_on_hull(ring: FloatArray, hull: FloatArray) -> BoolArray:
+    gaps = np.abs(ring[:, None, :] - hull[None, :, :]).max(axis=2)
+    return np.asarray(gaps.min(axis=1) <= LENGTH_M)
+
+
+def _is_supported(ring: FloatArray, up: Point2, support_angle_rad: float) -> BoolArray:
+    """Whether some direction within the support angle of `up` leads into the ring at each vertex.
+
+    At a vertex the cloth fills the directions from the edge that leaves it, counter-clockwise, to the edge
+    that arrives. Directions are compared by how far the neighbouring vertex is from them.
+    """
+    leaving = np.roll(ring, -1, axis=0) - ring
+    arriving = np.roll(ring, 1, axis=0) - ring
+    slack = LENGTH_M / np.minimum(np.hypot(*leaving.T), np.hypot(*arriving.T))
+    first = _angle_from(up, leaving)
+    width = np.mod(_angle_from(up, arriving) - first, math.tau)
+    reach = support_angle_rad + slack
+    meets_before = (first <= reach) & (first + width >= -reach)
+    meets_after = first + width - math.tau >= -reach
+    return np.asarray(meets_before | meets_after)
+
+
+def _angle_from(up: Point2, vectors: FloatArray) -> FloatArray:
+    """Angles of vectors from `up`, counter-clockwise, in (-pi, pi]."""
+    x, y = vectors.T
+    ux, uy = up
+    return np.asarray(np.arctan2(ux * y - uy * x, ux * x + uy * y))

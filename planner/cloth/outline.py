@@ -1,0 +1,63 @@
+"""Whether a ring of points can be the outline of a garment."""
+
+import math
+from collections.abc import Sequence
+
+from planner.errors import GarmentError
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import ANGLE_RAD
+
+POINTS_MAX = 400
+EDGE_MIN_M = 1e-3
+AREA_MIN_M2 = 1e-4
+
+
+def require_simple_outline(outline: Sequence[Point2]) -> None:
+    """Refuse an outline that is no simple polygon of a sensible size.
+
+    Raises:
+        GarmentError: fewer than 3 or more than 400 points, an edge shorter than 1 mm, edges that cross
+            or touch, less than 1 cm^2 of cloth; the field names the point or the edge.
+    """
+    count = len(outline)
+    if not 3 <= count <= POINTS_MAX:
+        raise GarmentError("outline", f"has {count} points, it needs 3 to {POINTS_MAX}")
+    _require_long_edges(outline)
+    _require_no_crossing(outline)
+    area = Region.polygon(outline).area
+    if area < AREA_MIN_M2:
+        raise GarmentError("outline", f"its area is {area:.6f} m^2, less than {AREA_MIN_M2} m^2")
+
+
+def _require_long_edges(outline: Sequence[Point2]) -> None:
+    for i, point in enumerate(outline):
+        following = (i + 1) % len(outline)
+        length = math.dist(point, outline[following])
+        if length < EDGE_MIN_M * (1.0 - ANGLE_RAD):
+            raise GarmentError(
+                f"outline[{following}]",
+                f"edge {i} from point {i} to point {following} is {length * 1000:.3f} mm long, "
+                f"less than {EDGE_MIN_M * 1000:g} mm",
+            )
+
+
+def _require_no_crossing(outline: Sequence[Point2]) -> None:
+    count = len(outline)
+    edges = [Segment(outline[i], outline[(i + 1) % count]) for i in range(count)]
+    for i in range(count):
+        for j in range(i + 1, count):
+            are_neighbours = j == i + 1 or (i == 0 and j == count - 1)
+            meeting = _fold_back(edges, i, j) if are_neighbours else edges[i].meeting_point(edges[j])
+            if meeting is not None:
+                x, y = meeting
+                raise GarmentError(f"outline[{j}]", f"edges {i} and {j} cross at ({x:.3f}, {y:.3f}) m")
+
+
+def _fold_back(edges: list[Segment], i: int, j: int) -> Point2 | None:
+    """Where neighbouring edges run back over one another: their common point, or None."""
+    first, second = (edges[j], edges[i]) if i == 0 and j == len(edges) - 1 and j > 1 else (edges[i], edges[j])
+    (ax, ay), (bx, by) = first.direction, second.direction
+    is_reversed = ax * bx + ay * by < 0.0 and abs(ax * by - ay * bx) <= ANGLE_RAD
+    return second.start if is_reversed else None

@@ -1,0 +1,95 @@
+"""Everything that Pleat raises, as one tree.
+
+::
+
+    FoldingError                     the root; catch this one
+    ├── FieldError                   bad input: names the field and says what is wrong
+    │   ├── GarmentError             a garment's outline, numbers, names
+    │   ├── FoldError                a fold that is not legal on the cloth as it is then
+    │   ├── SceneError               table, stations, robot settings, costs
+    │   └── RequestError             the options of a plan request
+    ├── GarmentFileError             a file that cannot be read as a garment (or scene) at all
+    ├── UnknownGarmentError          no garment of that name
+    ├── ReadOnlyGarmentError         a shipped garment was to be changed
+    └── UnsolvedPlanError            a timeline was asked of a plan that has none
+
+"No plan exists" is never an error: it is a `planner.plan.Plan` whose status says so.
+"""
+
+from dataclasses import dataclass
+
+
+class FoldingError(Exception):
+    """The root of all errors that Pleat raises on purpose."""
+
+
+class FieldError(FoldingError):
+    """Bad input, with the path of the field it stands in.
+
+    Attributes:
+        field: where, as in ``outline[3]`` or ``folds[0].start``; relative to the value
+            that was being built until an outer layer prefixes it (see `within`).
+        message: what is wrong, with the numbers and their units.
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(f"{field}: {message}" if field else message)
+        self.field = field
+        self.message = message
+
+    def within(self, prefix: str) -> "FieldError":
+        """The same error, its field seen from further out."""
+        if not prefix:
+            return self
+        joined = f"{prefix}.{self.field}" if self.field else prefix
+        return type(self)(joined.replace(".[", "["), self.message)
+
+
+class GarmentError(FieldError):
+    """A garment that is not valid: outline, density, radius, name."""
+
+
+class FoldError(FieldError):
+    """A fold that is not legal on the cloth as it is when its turn comes (paper, section 6)."""
+
+
+class SceneError(FieldError):
+    """A scene that is not valid: table, stations, torso, friction, costs."""
+
+
+class RequestError(FieldError):
+    """An option of a plan request that is out of range."""
+
+
+class GarmentFileError(FoldingError):
+    """A file that cannot be read at all: missing, not text, not JSON."""
+
+
+@dataclass
+class UnknownGarmentError(FoldingError):
+    """No garment of this name is shipped or stored."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return f"there is no garment named {self.name!r}"
+
+
+@dataclass
+class ReadOnlyGarmentError(FoldingError):
+    """A shipped garment cannot be replaced or removed."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.name!r} is shipped with Pleat and read-only; save yours under another name"
+
+
+@dataclass
+class UnsolvedPlanError(FoldingError):
+    """A timeline exists only for a solved plan."""
+
+    status: str
+
+    def __str__(self) -> str:
+        return f"the plan is {self.status}, so there is nothing to play"

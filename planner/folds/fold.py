@@ -1,0 +1,66 @@
+"""A fold as it is used: its line snapped to the silhouette, its place in the sequence."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.cloth.garment import DrawnFold
+from planner.errors import FoldError
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import SNAP_M
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """A legal fold of a sequence.
+
+    Attributes:
+        index: its place in the user's order.
+        name: what the user calls it.
+        is_red: whether it folds only the layers that the fold before it moved.
+        line: the fold line in the article frame, ends on the silhouette's boundary; its left moves.
+        grip_radius_m: how far round itself one grip holds the cloth (m).
+    """
+
+    index: int
+    name: str
+    is_red: bool
+    line: Segment
+    grip_radius_m: float
+
+    @property
+    def label(self) -> str:
+        """The fold as messages name it."""
+        return f"fold {self.index} '{self.name}'"
+
+
+def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
+    """The drawn line with its ends put on the silhouette's boundary.
+
+    Raises:
+        FoldError: an end is more than 5 mm from the boundary, both ends fall on one point, or the line
+            does not run inside the silhouette.
+    """
+    ends = np.array([drawn.start, drawn.end])
+    nearest = silhouette.nearest_boundary_points(ends)
+    for name, end, foot in zip(("start", "end"), ends, nearest, strict=True):
+        gap = float(np.hypot(*(foot - end)))
+        if gap > SNAP_M:
+            raise FoldError(
+                name,
+                f"({end[0]:.4f}, {end[1]:.4f}) m is {gap * 1000:.1f} mm from the silhouette's boundary, "
+                f"at most {SNAP_M * 1000:g} mm are snapped",
+            )
+    start, end = (_point(p) for p in nearest)
+    if np.hypot(*(nearest[1] - nearest[0])) <= SNAP_M:
+        raise FoldError("end", "both ends of the line snap to nearly the same point of the boundary")
+    line = Segment(start, end)
+    if not silhouette.contains_segment(line):
+        raise FoldError("end", "the line between its ends leaves the silhouette")
+    return line
+
+
+def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point2:
+    return (float(row[0]), float(row[1]))

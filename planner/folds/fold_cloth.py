@@ -1,0 +1,87 @@
+"""Folding a stack of layers: cut along the segment, reflect the left part, lay it on top (paper, section 6)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.layer import Layer
+from planner.errors import FoldError
+from planner.geometry.isometry import Isometry
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.split import split_along
+from planner.geometry.tolerance import LENGTH_M
+
+
+@dataclass(frozen=True)
+class Folded:
+    """One fold done.
+
+    Attributes:
+        cloth: the stack afterwards.
+        moving: the silhouette of the part that moved, where it was.
+        layers: the layers that moved, where they were, bottom to top.
+    """
+
+    cloth: ClothState
+    moving: Region
+    layers: tuple[Layer, ...]
+
+
+def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segment | None = None) -> Folded:
+    """Fold what lies to the left of a line over it.
+
+    Args:
+        cloth: the stack before.
+        line: the fold line, article frame.
+        is_red: only the layers that the last fold moved take part.
+        crease: for a red fold, the line of the fold before, which joins those layers to the rest.
+
+    Raises:
+        FoldError: nothing lies to the left or right of the line, the line does not part the cloth, or a red
+            fold would tear it.
+    """
+    active = cloth.flap if is_red else cloth.layers
+    below = cloth.layers[: len(cloth.layers) - len(active)]
+    moving = _moving_part(active, cloth.silhouette, line, is_red=is_red)
+    if is_red and crease is not None:
+        _require_no_tear(moving, line, crease)
+    stays: list[Layer] = []
+    moves: list[Layer] = []
+    for layer in active:
+        inside, outside = layer.cut(line, moving)
+        moves.extend(inside)
+        stays.extend(outside)
+    landed = [layer.reflected(line) for layer in reversed(moves)]
+    return Folded(ClothState([*below, *stays, *landed], moved=len(landed)), moving, tuple(moves))
+
+
+def flap_silhouette(cloth: ClothState, *, is_red: bool) -> Region:
+    """What a fold of this kind sees: the whole stack's silhouette, or that of the layers moved last."""
+    return Region.union(layer.region for layer in cloth.flap) if is_red else cloth.silhouette
+
+
+def _moving_part(active: tuple[Layer, ...], whole: Region, line: Segment, *, is_red: bool) -> Region:
+    silhouette = Region.union(layer.region for layer in active) if is_red else whole
+    parts = split_along(silhouette, line)
+    if parts is None:
+        raise FoldError("end", "the line does not part the cloth: it hangs together round one of the line's ends")
+    moving, staying = parts
+    if moving.is_sliver:
+        raise FoldError("start", "no cloth lies to the left of the line, so nothing would move")
+    if staying.is_sliver:
+        raise FoldError("start", "all the cloth lies to the left of the line, so nothing would stay")
+    return moving
+
+
+def _require_no_tear(moving: Region, line: Segment, crease: Segment) -> None:
+    """A red fold must leave the crease that joins its layers to the rest where it is."""
+    for end_a, end_b in moving.overlaps_with(crease):
+        off_line = np.abs(line.left_distances(np.array([end_a, end_b])))
+        if off_line.max() > LENGTH_M:
+            raise FoldError(
+                "start",
+                f"the part that moves reaches {off_line.max() * 1000:.1f} mm along the crease of the fold before: "
+                "it would tear",
+            )

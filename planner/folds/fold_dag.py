@@ -1,0 +1,77 @@
+"""The Fold-DAG: which fold must precede which (paper, section 5.1)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+
+from planner.geometry.region import Region
+
+
+@dataclass(frozen=True, slots=True)
+class FoldDag:
+    """The order that folding demands: a fold waits for every fold whose folded part its own overlaps.
+
+    A blue fold and the red folds that follow it are a chain that nothing interrupts.
+
+    Attributes:
+        chains: each chain's folds in order; every fold is in one.
+        edges: pairs (a, b), a before b, redundant ones left out, in ascending order.
+    """
+
+    chains: tuple[tuple[int, ...], ...]
+    edges: tuple[tuple[int, int], ...]
+
+    @property
+    def folds(self) -> int:
+        """The number of folds."""
+        return sum(len(chain) for chain in self.chains)
+
+    def available(self, done: int) -> tuple[int, ...]:
+        """The folds that may come next.
+
+        Args:
+            done: the folds finished, as a bit mask.
+        """
+        for chain in self.chains:
+            rest = [i for i in chain if not done >> i & 1]
+            if 0 < len(rest) < len(chain):
+                return (rest[0],)
+        open_chains = (c for c in self.chains if not done >> c[0] & 1)
+        return tuple(c[0] for c in open_chains if self._is_free(c, done))
+
+    def follows_at_once(self, fold: int) -> bool:
+        """Whether a red fold comes directly after this one."""
+        return any(fold in chain[:-1] for chain in self.chains)
+
+    def _is_free(self, chain: tuple[int, ...], done: int) -> bool:
+        before = (a for a, b in self.edges if b in chain and a not in chain)
+        return all(done >> a & 1 for a in before)
+
+
+def build_fold_dag(folded_parts: Sequence[Region], red: Sequence[bool]) -> FoldDag:
+    """The Fold-DAG of a sequence.
+
+    Args:
+        folded_parts: for each fold what its part covers, where it was and where it lands, article frame.
+        red: for each fold whether it is red.
+    """
+    graph: nx.DiGraph[int] = nx.DiGraph()
+    graph.add_nodes_from(range(len(folded_parts)))
+    for b, part in enumerate(folded_parts):
+        if red[b]:
+            graph.add_edge(b - 1, b)
+        for a in range(b):
+            if not part.intersection(folded_parts[a]).is_sliver:
+                graph.add_edge(a, b)
+    return FoldDag(_chains(red), tuple(sorted(nx.transitive_reduction(graph).edges)))
+
+
+def _chains(red: Sequence[bool]) -> tuple[tuple[int, ...], ...]:
+    chains: list[list[int]] = []
+    for index, is_red in enumerate(red):
+        if is_red:
+            chains[-1].append(index)
+        else:
+            chains.append([index])
+    return tuple(tuple(chain) for chain in chains)

@@ -1,0 +1,83 @@
+"""How cloth and grips move in a g-fold (paper, section 6).
+
+A baseline sweeps from the far end of the moving part to the fold line, the cloth beyond it standing vertical over
+it, and goes on to lay the cloth down on the other side. With D the moving part's largest distance from the
+fold line and b the baseline's, a point at distance d rests until b = d, rises along (b, d - b) to the apex (0, d),
+comes down along (-b, d - b) and rests. Every part is vertical or horizontal at every moment.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.segment import Segment
+from planner.geometry.table_top import TableTop
+
+REST_HEIGHT_M = 0.02
+"""The tool frame's height over the table's plane at rest: closed fingertips just clear the table (m)."""
+
+SPACING_M = 0.05
+"""Waypoints of a path are at most this far apart (m)."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoldPath:
+    """The motion of one fold at one placement.
+
+    Attributes:
+        line: the fold line in the table frame, unrolled plane.
+        depth_m: the largest distance of the moving part from it, D (m).
+        top: the table's top.
+        rising_top: the top until the apex: where cloth beyond an edge starts out held at the table's
+            height, not hanging, it moves as if the table went on there.
+    """
+
+    line: Segment
+    depth_m: float
+    top: TableTop
+    rising_top: TableTop
+
+    def swept(self, points: FloatArray, sweep: float) -> FloatArray:
+        """Where points of the moving part are in the unrolled plane.
+
+        Args:
+            points: where they lie before the fold, table frame, shape (n, 2), m.
+            sweep: 0 all lies flat, 1 all stands over the fold line, 2 all is laid down.
+
+        Returns:
+            Shape (n, 3): place in the unrolled plane and height above it (m).
+        """
+        distances, along = self.line.left_distances(points), self.line.positions(points)
+        baseline = self.depth_m * abs(1.0 - sweep)
+        flat = np.minimum(distances, baseline)
+        offsets = flat if sweep <= 1.0 else -flat
+        feet = np.array(self.line.start) + along[:, None] * np.array(self.line.direction)
+        places = feet + offsets[:, None] * np.array(self.line.left)
+        return np.column_stack([places, distances - flat])
+
+    def top_at(self, sweep: float) -> TableTop:
+        """The top over which cloth does not hang at a moment."""
+        return self.rising_top if sweep < 1.0 else self.top
+
+    def tool_points(self, grips: FloatArray, sweep: float) -> FloatArray:
+        """Where the tools are that hold the given points of the cloth, shape (n, 2) -> (n, 3), table frame."""
+        unrolled = self.swept(grips, sweep) + np.array([0.0, 0.0, REST_HEIGHT_M])
+        return self.top_at(sweep).over_edge(unrolled)
+
+    def sweeps(self, grips: FloatArray) -> FloatArray:
+        """Waypoints: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
+        farthest = float(self.line.left_distances(grips).max())
+        count = max(1, math.ceil(farthest / self._baseline_step(grips)))
+        rising = 1.0 - np.linspace(farthest, 0.0, count + 1) / self.depth_m
+        return np.concatenate([rising, 2.0 - rising[-2::-1]])
+
+    def _baseline_step(self, grips: FloatArray) -> float:
+        """How far the baseline may go between waypoints (m).
+
+        A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge.
+        """
+        ends = np.vstack([self.swept(grips, 0.0), self.swept(grips, 1.0), self.swept(grips, 2.0)])
+        is_over_table = bool(np.all(self.top.beyond(ends) == 0.0))
+        return SPACING_M / (math.sqrt(2.0) if is_over_table else 2.0)

@@ -1,0 +1,90 @@
+"""A garment with its folds made legal, and the cloth after any of them.
+
+The folds are replayed once in the user's order: that snaps each line, finds what moves and where it lands, and
+yields the Fold-DAG. By the DAG's law every order it allows leaves the same stack, so the cloth after a set of
+folds is found by doing that set in the user's order; it is kept for the next time it is asked for.
+"""
+
+from dataclasses import dataclass
+
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.garment import Garment
+from planner.cloth.grips import GripCovers, grip_covers
+from planner.cloth.must_hold import must_hold
+from planner.errors import FoldError
+from planner.folds.fold import Fold, snapped_line
+from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_dag import FoldDag, build_fold_dag
+from planner.geometry.isometry import Isometry
+from planner.geometry.region import Region
+
+
+@dataclass(frozen=True)
+class FoldSequence:
+    """The folds of one garment.
+
+    Attributes:
+        garment: the garment.
+        folds: the legal folds in the user's order.
+        dag: which waits for which.
+        final: the stack after all of them.
+    """
+
+    garment: Garment
+    folds: tuple[Fold, ...]
+    dag: FoldDag
+    final: ClothState
+    _folded: dict[tuple[int, int], Folded]
+    _cloths: dict[int, ClothState]
+
+    @staticmethod
+    def of(garment: Garment) -> "FoldSequence":
+        """Replay a garment's folds in the user's order.
+
+        Raises:
+            FoldError: a fold is not legal; the field names it, as ``folds[2].start``.
+        """
+        cloth = ClothState.spread_out(garment.pattern)
+        folds: list[Fold] = []
+        parts: list[Region] = []
+        for index in range(len(garment.folds)):
+            try:
+                fold, folded = _replay(garment, index, cloth, folds)
+            except FoldError as error:
+                raise error.within(f"folds[{index}]") from None
+            folds.append(fold)
+            parts.append(Region.union([folded.moving, folded.moving.moved(Isometry.reflection(fold.line))]))
+            cloth = folded.cloth
+        dag = build_fold_dag(parts, [f.is_red for f in folds])
+        start = ClothState.spread_out(garment.pattern)
+        return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start})
+
+    def cloth(self, done: int) -> ClothState:
+        """The stack after a set of folds, given as a bit mask."""
+        if done not in self._cloths:
+            last = done.bit_length() - 1
+            self._cloths[done] = self.folded(done & ~(1 << last), last).cloth
+        return self._cloths[done]
+
+    def folded(self, done: int, index: int) -> Folded:
+        """One more fold on the stack after a set of folds."""
+        key = (done, index)
+        if key not in self._folded:
+            fold = self.folds[index]
+            crease = self.folds[index - 1].line if fold.is_red else None
+            self._folded[key] = fold_cloth(self.cloth(done), fold.line, is_red=fold.is_red, crease=crease)
+        return self._folded[key]
+
+    def covers(self, done: int, index: int, support_angle_rad: float, arms: int) -> GripCovers:
+        """What must be held during a fold, and the best grips for it."""
+        fold, moving = self.folds[index], self.folded(done, index).moving
+        vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
+        return grip_covers(moving, vertices, fold.grip_radius_m, arms)
+
+
+def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold]) -> tuple[Fold, Folded]:
+    drawn = garment.folds[index]
+    line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
+    fold = Fold(index, drawn.name, drawn.is_red, line, drawn.grip_radius_m)
+    crease = before[-1].line if drawn.is_red else None
+    return fold, fold_cloth(cloth, line, is_red=drawn.is_red, crease=crease)

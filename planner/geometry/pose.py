@@ -1,0 +1,111 @@
+"""Poses in the plane, and the directions from which a tool may come."""
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.tolerance import ANGLE_RAD
+
+Point2: TypeAlias = tuple[float, float]
+Point3: TypeAlias = tuple[float, float, float]
+FloatArray: TypeAlias = NDArray[np.float64]
+BoolArray: TypeAlias = NDArray[np.bool_]
+
+
+def wrapped_angle(angle_rad: float) -> float:
+    """The same direction as an angle in (-pi, pi]."""
+    wrapped = math.remainder(angle_rad, math.tau)
+    return math.pi if wrapped <= -math.pi else wrapped
+
+
+@dataclass(frozen=True, slots=True)
+class Pose2:
+    """Where a plane figure or a base stands in another frame.
+
+    Attributes:
+        x_m: origin's x in the outer frame (m).
+        y_m: origin's y in the outer frame (m).
+        yaw_rad: heading of the inner x axis in the outer frame (rad), wrapped to (-pi, pi].
+    """
+
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "yaw_rad", wrapped_angle(self.yaw_rad))
+
+    def to_outer(self, points: FloatArray) -> FloatArray:
+        """Points of the inner frame, shape (..., 2) or (..., 3), seen from the outer one (m)."""
+        return _rotated(points, self.yaw_rad) + self._offset(points.shape[-1])
+
+    def to_inner(self, points: FloatArray) -> FloatArray:
+        """Points of the outer frame, shape (..., 2) or (..., 3), seen from the inner one (m)."""
+        return _rotated(points - self._offset(points.shape[-1]), -self.yaw_rad)
+
+    def ahead(self, distance_m: float) -> "Pose2":
+        """The pose `distance_m` further along its own x axis (backwards if negative)."""
+        return Pose2(
+            self.x_m + distance_m * math.cos(self.yaw_rad),
+            self.y_m + distance_m * math.sin(self.yaw_rad),
+            self.yaw_rad,
+        )
+
+    def moved(self, dx_m: float, dy_m: float) -> "Pose2":
+        """The pose moved in the outer frame, heading kept."""
+        return Pose2(self.x_m + dx_m, self.y_m + dy_m, self.yaw_rad)
+
+    def between(self, other: "Pose2", fraction: float) -> "Pose2":
+        """The pose a fraction of the way to another, turning the short way."""
+        turn = wrapped_angle(other.yaw_rad - self.yaw_rad)
+        return Pose2(
+            self.x_m + fraction * (other.x_m - self.x_m),
+            self.y_m + fraction * (other.y_m - self.y_m),
+            self.yaw_rad + fraction * turn,
+        )
+
+    def to_dict(self) -> dict[str, float]:
+        """The pose as JSON: ``{"x_m", "y_m", "yaw_rad"}``."""
+        return {"x_m": self.x_m, "y_m": self.y_m, "yaw_rad": self.yaw_rad}
+
+    def _offset(self, dimensions: int) -> FloatArray:
+        return np.array((self.x_m, self.y_m, 0.0)[:dimensions])
+
+
+def _rotated(points: FloatArray, angle_rad: float) -> FloatArray:
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    turned = np.array(points, dtype=float)
+    turned[..., 0] = cos * points[..., 0] - sin * points[..., 1]
+    turned[..., 1] = sin * points[..., 0] + cos * points[..., 1]
+    return turned
+
+
+@dataclass(frozen=True, slots=True)
+class Approach:
+    """The direction in which a tool's fingers point, in the frame of the robot's base.
+
+    Attributes:
+        heading_rad: direction of the fingers in the horizontal plane, from the base's x axis (rad).
+        pitch_rad: how far they point below the horizontal, 0..pi/2 (rad).
+    """
+
+    heading_rad: float
+    pitch_rad: float
+
+    @property
+    def is_vertical(self) -> bool:
+        """Whether the fingers point straight down."""
+        return abs(self.pitch_rad - math.pi / 2) <= ANGLE_RAD
+
+    @property
+    def rotation(self) -> FloatArray:
+        """The tool frame's axes in the base frame as columns, shape (3, 3), without roll.
+
+        x is the approach axis, y horizontal, z = x cross y; fingers close along y.
+        """
+        ch, sh = math.cos(self.heading_rad), math.sin(self.heading_rad)
+        cp, sp = math.cos(self.pitch_rad), math.sin(self.pitch_rad)
+        return np.array([[cp * ch, -sh, sp * ch], [cp * sh, ch, sp * sh], [-sp, 0.0, cp]])

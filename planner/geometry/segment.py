@@ -1,0 +1,87 @@
+"""A directed segment: a fold line, a table edge."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import ANGLE_RAD
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A directed segment of positive length.
+
+    Attributes:
+        start: first end (m).
+        end: second end (m).
+    """
+
+    start: Point2
+    end: Point2
+
+    def __post_init__(self) -> None:
+        """Refuse a segment without a direction; raises `ValueError`."""
+        if self.start == self.end:
+            raise ValueError(f"a segment needs two different ends, both are {self.start}")
+
+    @property
+    def length(self) -> float:
+        """The length (m)."""
+        return math.dist(self.start, self.end)
+
+    @property
+    def direction(self) -> Point2:
+        """The unit vector from start to end."""
+        length = self.length
+        return ((self.end[0] - self.start[0]) / length, (self.end[1] - self.start[1]) / length)
+
+    @property
+    def left(self) -> Point2:
+        """The unit normal to the left of the direction."""
+        ux, uy = self.direction
+        return (-uy, ux)
+
+    def left_distances(self, points: FloatArray) -> FloatArray:
+        """Signed distances of points, shape (n, 2), from the whole line, positive on its left (m)."""
+        return (points - np.array(self.start)) @ np.array(self.left)
+
+    def positions(self, points: FloatArray) -> FloatArray:
+        """Where points, shape (n, 2), project onto the line, from the start along the direction (m)."""
+        return (points - np.array(self.start)) @ np.array(self.direction)
+
+    def at(self, position_m: float) -> Point2:
+        """The point of the line this far from the start."""
+        ux, uy = self.direction
+        return (self.start[0] + position_m * ux, self.start[1] + position_m * uy)
+
+    def distances(self, points: FloatArray) -> FloatArray:
+        """Distances of points, shape (n, 2), from the segment itself (m)."""
+        along = np.clip(self.positions(points), 0.0, self.length)
+        feet = np.array(self.start) + along[:, None] * np.array(self.direction)
+        return np.hypot(*(points - feet).T)
+
+    def meeting_point(self, other: "Segment") -> Point2 | None:
+        """A point that two segments share, ends included; None if they are apart."""
+        (px, py), (qx, qy) = self.start, other.start
+        rx, ry = self.end[0] - px, self.end[1] - py
+        sx, sy = other.end[0] - qx, other.end[1] - qy
+        cross = rx * sy - ry * sx
+        if abs(cross) <= ANGLE_RAD * self.length * other.length:
+            return self._shared_end(other)
+        t = ((qx - px) * sy - (qy - py) * sx) / cross
+        u = ((qx - px) * ry - (qy - py) * rx) / cross
+        return (px + t * rx, py + t * ry) if 0.0 <= t <= 1.0 and 0.0 <= u <= 1.0 else None
+
+    def _shared_end(self, other: "Segment") -> Point2 | None:
+        """Of parallel segments: an end of one that lies on the other."""
+        for one, point in ((self, other.start), (self, other.end), (other, self.start), (other, self.end)):
+            if one.distances(np.array([point]))[0] <= ANGLE_RAD:
+                return point
+        return None
+
+    @property
+    def reversed(self) -> "Segment":
+        """The same segment, walked the other way."""
+        return Segment(self.end, self.start)

@@ -1,0 +1,84 @@
+"""From the unrolled plane over the table's edge.
+
+Cloth beyond the table hangs straight down. In the unrolled plane it lies flat beyond the edge; a point there at
+distance h beyond the table and at height z above the plane is in space the nearest point of the table at height
+z - h. The map keeps lengths and has a crease at the edge.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.segment import Segment
+from planner.geometry.table import Table
+from planner.geometry.tolerance import LENGTH_M
+
+
+@dataclass(frozen=True, slots=True)
+class TableTop:
+    """The rectangle over which cloth does not hang.
+
+    Attributes:
+        low: smallest x and y (m).
+        high: largest x and y (m); a side may be at infinity where cloth is held out beyond it.
+    """
+
+    low: Point2
+    high: Point2
+
+    @staticmethod
+    def of(table: Table) -> "TableTop":
+        """A table's top."""
+        x, y = table.depth_m / 2, table.width_m / 2
+        return TableTop((-x, -y), (x, y))
+
+    def open_towards(self, points: FloatArray) -> "TableTop":
+        """The top as if it went on beyond every edge over which one of the points lies, shape (n, 2)."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        return TableTop(
+            (
+                -math.inf if low[0] < self.low[0] - LENGTH_M else self.low[0],
+                -math.inf if low[1] < self.low[1] - LENGTH_M else self.low[1],
+            ),
+            (
+                math.inf if high[0] > self.high[0] + LENGTH_M else self.high[0],
+                math.inf if high[1] > self.high[1] + LENGTH_M else self.high[1],
+            ),
+        )
+
+    @property
+    def edges(self) -> tuple[Segment, ...]:
+        """The sides at finite places, the top to the left of each; ends cut off far away."""
+        far = 100.0
+        (x0, y0), (x1, y1) = self.low, self.high
+        sides = (
+            (y0, Segment((-far, y0), (far, y0))),
+            (x1, Segment((x1, -far), (x1, far))),
+            (y1, Segment((far, y1), (-far, y1))),
+            (x0, Segment((x0, far), (x0, -far))),
+        )
+        return tuple(edge for place, edge in sides if math.isfinite(place))
+
+    def beyond(self, points: FloatArray) -> FloatArray:
+        """How far points, shape (..., 2 or 3), lie beyond the top in the unrolled plane (m); 0 on it."""
+        out = points[..., :2] - np.clip(points[..., :2], self.low, self.high)
+        return np.asarray(np.hypot(out[..., 0], out[..., 1]))
+
+    def over_edge(self, points: FloatArray, gap_m: float = 0.0) -> FloatArray:
+        """Points of the unrolled plane with their heights, shape (..., 3), taken over the edge.
+
+        Args:
+            points: place in the unrolled plane, table frame, and height above it (m).
+            gap_m: set off by so much: upwards on the top, outwards beside it.
+
+        Returns:
+            The same points in space, table frame (m).
+        """
+        nearest = np.clip(points[..., :2], self.low, self.high)
+        out = points[..., :2] - nearest
+        beyond = np.hypot(out[..., 0], out[..., 1])
+        outwards = out / np.where(beyond > 0.0, beyond, 1.0)[..., None]
+        z = points[..., 2] - beyond + np.where(beyond > 0.0, 0.0, gap_m)
+        return np.concatenate([nearest + outwards * gap_m, z[..., None]], axis=-1)

@@ -1,0 +1,36 @@
+"""The one place where "equal" is made precise.
+
+Cloth is measured in metres, so a micrometre is far below anything that matters and far above the
+rounding of double precision at the size of a room. Every comparison of places in Pleat rests on
+these numbers; no other module has its own.
+"""
+
+from typing import Final
+
+GRID_M: Final = 1e-6
+"""The precision grid on which polygons live after every cut and reflection (m)."""
+
+LENGTH_M: Final = 1e-5
+"""Two points nearer than this are one point (m): ten steps of the grid."""
+
+AREA_M2: Final = 1e-5
+"""A piece of cloth smaller than this is a sliver, dropped when it arises (m^2)."""
+
+TIME_S: Final = 1e-9
+"""Two durations nearer than this are the same (s)."""
+
+ANGLE_RAD: Final = 1e-9
+"""Two angles nearer than this are the same (rad), where no length gives a better measure."""
+
+SNAP_M: Final = 5e-3
+"""A fold's end point may lie this far from the silhouette's boundary and is put onto it (m)."""
+
+
+def is_same_length(a_m: float, b_m: float) -> bool:
+    """Whether two lengths or coordinates (m) agree to `LENGTH_M`."""
+    return abs(a_m - b_m) <= LENGTH_M
+
+
+def grid_key(value: float) -> int:
+    """The number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad)."""
+    return round(value / LENGTH_M)

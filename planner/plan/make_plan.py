@@ -1,0 +1,176 @@
+"""From a garment and its folds to the quickest sequence of primitives that the robot can perform.
+
+The algorithm of the paper (section 5), from top to bottom:
+
+1. Replay the folds once in the user's order; that makes them legal and yields the Fold-DAG.
+2. Search with A* over states (folds done, placement, base, what is held). Its edges are primitives: any fold that
+   the DAG makes available, drags towards the robot, moves between stations.
+3. The path found is the plan. If the states run out first, no plan exists, and the obstacles met say why.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+
+from planner.cloth.garment import Garment
+from planner.errors import RequestError
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import Pose2
+from planner.plan.heuristic import HEURISTICS
+from planner.plan.plan import Plan, PlannedPrimitive, Statistics
+from planner.plan.reasons import Reason, reasons
+from planner.primitives.obstacle import Code
+from planner.primitives.primitive import Step
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.scene import Scene
+from planner.primitives.state import State
+from planner.primitives.work import Work
+from planner.plan.machine import Machine
+from planner.robot.pr2 import load_robot
+from planner.search.a_star import Edge, Outcome, SearchResult, a_star
+
+COMFORT_MAX_M = 0.1
+TIME_LIMIT_S = (0.01, 60.0)
+EXPANDED_MAX = 1_000_000
+
+
+def make_plan(
+    garment: Garment,
+    scene: Scene | None = None,
+    *,
+    placement: Pose2 | None = None,
+    start_station: str = "front",
+    robot: str = "pr2",
+    comfort_radius_m: float = 0.03,
+    heuristic: str = "arm_time",
+    time_limit_s: float = 10.0,
+    max_expanded: int = 100_000,
+    should_stop: Callable[[], bool] | None = None,
+) -> Plan:
+    """Plan how a robot folds a garment in the least time.
+
+    Args:
+        garment: the garment, its folds in the user's order.
+        scene: table, stations and costs; None for the default scene.
+        placement: the article frame in the table frame at the start; None for the garment's own.
+        start_station: where the robot stands at the start.
+        robot: the robot's name.
+        comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m, 0..0.1).
+        heuristic: "arm_time" or "zero".
+        time_limit_s: the budget of the search (s, 0.01..60).
+        max_expanded: its budget in states (1..1,000,000).
+        should_stop: asked while searching; true ends the search as out of budget.
+
+    Returns:
+        The plan; that none exists, or none was found within the budget, is an answer too.
+
+    Raises:
+        FoldError: a fold is not legal on the cloth as it is then.
+        RequestError: an option is out of range.
+    """
+    scene = scene or Scene()
+    _require_options(scene, start_station, comfort_radius_m, heuristic, time_limit_s, max_expanded)
+    machine = load_robot(robot)
+    reach = machine.reach(scene.torso_m, comfort_radius_m)
+    sequence = FoldSequence.of(garment)
+    work = Work(sequence, scene, reach, placement or garment.placement, machine.card.base_radius_m)
+    station = [name for name, _ in scene.stations].index(start_station)
+    return _Planner(work, machine, heuristic, time_limit_s, max_expanded, should_stop).plan(station)
+
+
+class _Planner:
+    """One search: its budget, and what it met on the way."""
+
+    def __init__(
+        self,
+        work: Work,
+        robot: Machine,
+        heuristic: str,
+        time_limit_s: float,
+        max_expanded: int,
+        should_stop: Callable[[], bool] | None,
+    ) -> None:
+        self._work = work
+        self._robot = robot
+        self._heuristic = HEURISTICS[heuristic](work)
+        self._max_expanded = max_expanded
+        self._started = time.perf_counter()
+        self._deadline = self._started + time_limit_s
+        self._should_stop = should_stop or (lambda: False)
+        self._primitives = [kind(work) for kind in PRIMITIVES]
+        self._achieved = 0
+
+    def plan(self, station: int) -> Plan:
+        start = State(0, (0.0, 0.0), station, 0)
+        unrest = self._work.unrest(0, start.offset)
+        if unrest is not None:
+            message = f"as the cloth lies at the start, {unrest.message}"
+            nothing: SearchResult[State, Step] = SearchResult(Outcome.INFEASIBLE, (), 0.0, 0.0, 0, 0)
+            return self._answer(nothing, (Reason(None, Code(unrest.code), message),))
+        result = a_star(
+            start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over
+        )
+        is_proof = result.outcome is Outcome.INFEASIBLE
+        return self._answer(result, reasons(self._work, self._achieved) if is_proof else ())
+
+    def _successors(self, state: State) -> Iterator[Edge[State, Step]]:
+        for primitive in self._primitives:
+            for step in primitive.successors(state):
+                self._achieved |= step.after.done
+                yield Edge(step, step.duration_s, step.after)
+
+    def _is_goal(self, state: State) -> bool:
+        return state.done == (1 << len(self._work.sequence.folds)) - 1
+
+    def _is_over(self) -> bool:
+        return time.perf_counter() > self._deadline or self._should_stop()
+
+    def _answer(self, result: SearchResult[State, Step], why: tuple[Reason, ...]) -> Plan:
+        is_solved = result.outcome is Outcome.SOLVED
+        primitives, end_s = self._schedule([edge.action for edge in result.path])
+        last = result.path[-1].after.offset if result.path else (0.0, 0.0)
+        bound = {Outcome.SOLVED: end_s, Outcome.INFEASIBLE: None}.get(result.outcome, result.bound)
+        reach = self._work.reach
+        elapsed = time.perf_counter() - self._started
+        statistics = Statistics(
+            result.expanded, result.explored, reach.queries, reach.query_time_s, elapsed, bound
+        )
+        return Plan(
+            result.outcome.value,
+            primitives,
+            end_s if is_solved else None,
+            self._work.placed(last) if is_solved else None,
+            why,
+            statistics,
+            self._work,
+            self._robot,
+        )
+
+    def _schedule(self, steps: list[Step]) -> tuple[tuple[PlannedPrimitive, ...], float]:
+        planned, now = [], 0.0
+        for step in steps:
+            planned.append(PlannedPrimitive(step, now, self._work.base_stop(step.after)))
+            now += step.duration_s
+        return tuple(planned), now
+
+
+def _require_options(
+    scene: Scene,
+    start_station: str,
+    comfort_radius_m: float,
+    heuristic: str,
+    time_limit_s: float,
+    max_expanded: int,
+) -> None:
+    names = [name for name, _ in scene.stations]
+    if start_station not in names:
+        raise RequestError("start_station", f"{start_station!r} is none of {', '.join(names)}")
+    if heuristic not in HEURISTICS:
+        raise RequestError("heuristic", f"{heuristic!r} is none of {', '.join(HEURISTICS)}")
+    _require_between("comfort_radius_m", comfort_radius_m, 0.0, COMFORT_MAX_M)
+    _require_between("time_limit_s", time_limit_s, *TIME_LIMIT_S)
+    _require_between("max_expanded", max_expanded, 1, EXPANDED_MAX)
+
+
+def _require_between(field: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise RequestError(field, f"{value} is not between {low:g} and {high:g}")

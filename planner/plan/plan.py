@@ -1,0 +1,167 @@
+"""The answer to a planning request."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from planner.cloth.garment import Garment
+from planner.cloth.layer import Layer
+from planner.errors import UnsolvedPlanError
+from planner.folds.fold_dag import FoldDag
+from planner.geometry.pose import Pose2
+from planner.plan.reasons import Reason
+from planner.plan.timeline import Timeline
+from planner.primitives.grip import BaseStop, Grip
+from planner.primitives.primitive import Step
+from planner.primitives.scene import Scene
+from planner.primitives.work import Work
+from planner.plan.machine import Machine
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedPrimitive:
+    """One primitive of a plan.
+
+    Attributes:
+        step: the primitive as it is performed.
+        start_s: when it starts (s).
+        base: where it leaves the base.
+    """
+
+    step: Step
+    start_s: float
+    base: BaseStop
+
+    @property
+    def kind(self) -> str:
+        """The primitive's name: "fold", "drag" or "move"."""
+        return self.step.kind
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes (s)."""
+        return self.step.duration_s
+
+    @property
+    def grips(self) -> tuple[Grip, ...]:
+        """Where the hands go."""
+        return self.step.grips
+
+    @property
+    def summary(self) -> str:
+        """What it does, in a few words."""
+        return self.step.summary
+
+    def to_dict(self) -> dict[str, Any]:
+        """The primitive as JSON."""
+        return {
+            "kind": self.kind,
+            "start_s": self.start_s,
+            "duration_s": self.duration_s,
+            **self.step.details,
+            "base": self.base.to_dict(),
+            "grips": [g.to_dict() for g in self.grips],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """What the search did (paper, Table 1).
+
+    Attributes:
+        expanded: states expanded.
+        explored: successors pushed.
+        ik_queries: queries put to the exact inverse kinematics, comfort points counted.
+        ik_time_s: time spent in them (s).
+        search_time_s: time of the whole search (s).
+        bound_s: no plan costs less (s); None when there is no plan at all.
+    """
+
+    expanded: int
+    explored: int
+    ik_queries: int
+    ik_time_s: float
+    search_time_s: float
+    bound_s: float | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The statistics as JSON."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A plan, or why there is none.
+
+    Attributes:
+        status: "solved", "infeasible" (a proof that these primitives cannot do it) or "budget_exceeded".
+        primitives: what to do, in order; empty unless solved.
+        cost_s: the whole duration (s); None unless solved.
+        final_placement: the article frame in the table frame at the end; None unless solved.
+        reasons: why there is no plan; empty unless infeasible.
+        statistics: what the search did.
+        work: the problem.
+        robot: the robot.
+    """
+
+    status: str
+    primitives: tuple[PlannedPrimitive, ...]
+    cost_s: float | None
+    final_placement: Pose2 | None
+    reasons: tuple[Reason, ...]
+    statistics: Statistics
+    work: Work
+    robot: Machine
+
+    @property
+    def garment(self) -> Garment:
+        """The garment."""
+        return self.work.sequence.garment
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.work.scene
+
+    @property
+    def dag(self) -> FoldDag:
+        """The Fold-DAG."""
+        return self.work.sequence.dag
+
+    @property
+    def final_layers(self) -> tuple[Layer, ...]:
+        """The stack after all folds, bottom to top; the folds alone decide it."""
+        return self.work.sequence.final.layers
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether there is a plan."""
+        return self.status == "solved"
+
+    @cached_property
+    def _timeline(self) -> Timeline:
+        phases = [(i, phase) for i, p in enumerate(self.primitives) for phase in p.step.phases()]
+        return Timeline.of(phases, self.work, self.robot)
+
+    def timeline(self) -> Timeline:
+        """What robot and cloth do at every moment.
+
+        Raises:
+            UnsolvedPlanError: the plan is not solved.
+        """
+        if not self.is_solved:
+            raise UnsolvedPlanError(self.status)
+        return self._timeline
+
+    def to_dict(self) -> dict[str, Any]:
+        """The plan as JSON."""
+        return {
+            "status": self.status,
+            "cost_s": self.cost_s,
+            "primitives": [p.to_dict() for p in self.primitives],
+            "dag": {"folds": self.dag.folds, "edges": [list(e) for e in self.dag.edges]},
+            "final_layers": [layer.to_dict() for layer in self.final_layers],
+            "final_placement": None if self.final_placement is None else self.final_placement.to_dict(),
+            "reasons": [r.to_dict() for r in self.reasons],
+            "statistics": self.statistics.to_dict(),
+        }

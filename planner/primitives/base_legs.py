@@ -1,0 +1,103 @@
+"""The base's legs while the hands follow a path: where it stands at each waypoint, least travel in all.
+
+At every waypoint the path can be reached from some back-offs, given as a bit mask. The base may drive between
+waypoints, the hands resting, if every back-off on the way is in the mask. This is a shortest path in a
+strip of (waypoints x back-offs); the strips are many and small, so the sweep over them is compiled.
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+IMPOSSIBLE = 1 << 20
+"""A number of steps that stands for "no way"."""
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
+    """Drive to and fro within the mask at one waypoint."""
+    for j in range(count):
+        if not (mask >> j) & 1:
+            steps[j] = 1 << 20
+        elif j > 0 and steps[j - 1] + 1 < steps[j]:
+            steps[j] = steps[j - 1] + 1
+    for j in range(count - 2, -1, -1):
+        if (mask >> j) & 1 and steps[j + 1] + 1 < steps[j]:
+            steps[j] = steps[j + 1] + 1
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _travel(
+    strips: NDArray[np.uint32], count: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    best = np.full((count, count), 1 << 20, dtype=np.int64)
+    choice = np.full((count, count), -1, dtype=np.int64)
+    steps = np.empty(count, dtype=np.int64)
+    for number in range(strips.shape[0]):
+        for start in range(count):
+            if not (np.int64(strips[number, 0]) >> start) & 1:
+                continue
+            steps[:] = 1 << 20
+            steps[start] = 0
+            for waypoint in range(strips.shape[1]):
+                _relax(steps, np.int64(strips[number, waypoint]), count)
+            for end in range(count):
+                if steps[end] < best[start, end]:
+                    best[start, end] = steps[end]
+                    choice[start, end] = number
+    return best, choice
+
+
+def travel(strips: NDArray[np.uint32], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The least travel along a path for each pair of back-offs, over several strips.
+
+    Args:
+        strips: bit masks of back-offs, shape (strips, waypoints).
+        count: the number of back-offs.
+
+    Returns:
+        Two arrays of shape (count, count), from the back-off at the first waypoint to that at the last: the
+        number of steps driven (`IMPOSSIBLE` if there is no way), and which strip needs so few.
+    """
+    best, choice = _travel(strips, count)
+    return best, choice
+
+
+def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[int, ...]:
+    """The back-off at each waypoint on a way of least travel, driving as late as can be.
+
+    Args:
+        strip: bit masks of back-offs, shape (waypoints,).
+        start: back-off at the first waypoint, before any driving there.
+        end: back-off after the last.
+        count: the number of back-offs.
+
+    Returns:
+        For each waypoint where the base stands when the hands leave it.
+    """
+    remaining = _remaining(strip, end, count)
+    stands: list[int] = []
+    at = start
+    for waypoint in range(len(strip)):
+        at = _next_stand(remaining, waypoint, at, count) if waypoint + 1 < len(strip) else end
+        stands.append(at)
+    return tuple(stands)
+
+
+def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[NDArray[np.int64]]:
+    """For each waypoint the steps from each back-off, before driving there, to the end."""
+    steps = np.full(count, IMPOSSIBLE, dtype=np.int64)
+    steps[end] = 0
+    table: list[NDArray[np.int64]] = []
+    for mask in strip[::-1]:
+        _relax(steps, int(mask), count)
+        table.append(steps.copy())
+    return table[::-1]
+
+
+def _next_stand(remaining: list[NDArray[np.int64]], waypoint: int, at: int, count: int) -> int:
+    """Where to stand when leaving a waypoint: the nearest place from which the way stays shortest."""
+    total = remaining[waypoint][at]
+    after = remaining[waypoint + 1]
+    ways = [j for j in range(count) if after[j] + abs(j - at) == total]
+    return min(ways, key=lambda j: (abs(j - at), j))

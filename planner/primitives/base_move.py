@@ -1,0 +1,205 @@
+"""The base's way from one station to another, round the table (paper, section 6, Move).
+
+The base backs out until the circle round it is clear of the table, turns in place, drives the shortest polyline
+that stays outside the table grown by that circle (with square corners), turning at each bend, turns to the
+station's heading and drives in.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import networkx as nx
+
+from planner.geometry.pose import Point2, Pose2, wrapped_angle
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.grip import Grip
+from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.state import State
+from planner.primitives.work import Work
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """A way of the base.
+
+    Attributes:
+        waypoints: base poses from start to end, table frame; between two the base either drives straight
+            on or turns in place.
+    """
+
+    waypoints: tuple[Pose2, ...]
+
+    def durations_s(self, speed_m_s: float, turn_rad_s: float) -> tuple[float, ...]:
+        """The time for each leg (s)."""
+        legs = zip(self.waypoints[:-1], self.waypoints[1:], strict=True)
+        return tuple(
+            math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) / speed_m_s
+            + abs(wrapped_angle(b.yaw_rad - a.yaw_rad)) / turn_rad_s
+            for a, b in legs
+        )
+
+
+@dataclass(frozen=True)
+class MoveStep:
+    """One move as it is performed.
+
+    Attributes:
+        work: the problem.
+        route: the way.
+        before: the state it starts in.
+        after: the state it leads to.
+    """
+
+    work: Work
+    route: Route
+    before: State
+    after: State
+    kind: str = "move"
+    grips: tuple[Grip, ...] = ()
+
+    @cached_property
+    def _durations_s(self) -> tuple[float, ...]:
+        scene = self.work.scene
+        return self.route.durations_s(scene.base_speed_m_s, scene.base_turn_rad_s)
+
+    @property
+    def duration_s(self) -> float:
+        """Driving and turning (s)."""
+        return sum(self._durations_s)
+
+    @property
+    def details(self) -> dict[str, Any]:
+        """From where, to where, and the way."""
+        names = [name for name, _ in self.work.scene.stations]
+        waypoints = [[p.x_m, p.y_m, p.yaw_rad] for p in self.route.waypoints]
+        return {
+            "from": names[self.before.station],
+            "to": names[self.after.station],
+            "waypoints": waypoints,
+        }
+
+    @property
+    def summary(self) -> str:
+        """From where to where."""
+        return f"{self.details['from']} to {self.details['to']}"
+
+    def phases(self) -> tuple[Phase, ...]:
+        """One phase for each leg, the hands free."""
+        placement = self.work.placed(self.before.offset)
+        still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.work.scene.table))
+        free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
+        legs = zip(self.route.waypoints[:-1], self.route.waypoints[1:], strict=True)
+        return tuple(
+            Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True)
+        )
+
+
+class BaseMove:
+    """Drives from station to station with free hands."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._routes: dict[tuple[int, int, int], Route] = {}
+
+    def successors(self, state: State) -> Iterable[MoveStep]:
+        """One step for each other station."""
+        if state.held:
+            return
+        for station in range(len(self._work.scene.stations)):
+            if station != state.station:
+                after = State(state.done, state.offset, station, 0)
+                yield MoveStep(self._work, self._route(state, station), state, after)
+
+    def _route(self, state: State, station: int) -> Route:
+        key = (state.station, state.back_off, station)
+        if key not in self._routes:
+            work = self._work
+            start = work.base_pose(state.station, state.back_off)
+            out = clear_of_table(start, work.scene.table, work.circle_m)
+            goal = work.station_pose(station)
+            outside = clear_of_table(goal, work.scene.table, work.circle_m)
+            bends = shortest_way(_place(out), _place(outside), work.scene.table, work.circle_m)
+            self._routes[key] = route_along(start, out, bends, outside, goal)
+        return self._routes[key]
+
+
+def clear_of_table(pose: Pose2, table: Table, circle_m: float) -> Pose2:
+    """The pose backed out, no further than needed, until its circle is clear of the table.
+
+    A pose facing such that backing out never clears the table is left where it is.
+    """
+    half_x, half_y = table.depth_m / 2 + circle_m, table.width_m / 2 + circle_m
+    if abs(pose.x_m) >= half_x - LENGTH_M or abs(pose.y_m) >= half_y - LENGTH_M:
+        return pose
+    dx, dy = -math.cos(pose.yaw_rad), -math.sin(pose.yaw_rad)
+    ways = [
+        (math.copysign(half, step) - place) / step
+        for place, step, half in ((pose.x_m, dx, half_x), (pose.y_m, dy, half_y))
+        if abs(step) > LENGTH_M
+    ]
+    return pose.ahead(-min(ways))
+
+
+def shortest_way(start: Point2, goal: Point2, table: Table, circle_m: float) -> tuple[Point2, ...]:
+    """The bends of the shortest polyline between two places outside the grown table, ends included."""
+    half_x, half_y = table.depth_m / 2 + circle_m, table.width_m / 2 + circle_m
+    corners = [(-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y)]
+    graph: nx.Graph[Point2] = nx.Graph()
+    places = [start, goal, *corners]
+    for i, a in enumerate(places):
+        for b in places[i + 1 :]:
+            if a != b and not _crosses(a, b, half_x, half_y):
+                graph.add_edge(a, b, weight=math.dist(a, b))
+    ways = list(nx.all_shortest_paths(graph, start, goal, weight="weight")) if start != goal else [[start]]
+    return tuple(min(ways, key=_turning))
+
+
+def route_along(start: Pose2, out: Pose2, bends: tuple[Point2, ...], outside: Pose2, goal: Pose2) -> Route:
+    """Back out, turn and drive from bend to bend, turn to the goal's heading, drive in."""
+    poses = [start, out]
+    for a, b in zip(bends[:-1], bends[1:], strict=True):
+        if math.dist(a, b) > LENGTH_M:
+            heading = math.atan2(b[1] - a[1], b[0] - a[0])
+            poses += [Pose2(*a, heading), Pose2(*b, heading)]
+    poses += [Pose2(outside.x_m, outside.y_m, goal.yaw_rad), goal]
+    distinct = [poses[0]]
+    for pose in poses[1:]:
+        if not _is_same(pose, distinct[-1]):
+            distinct.append(pose)
+    return Route(tuple(distinct) if len(distinct) > 1 else (start, goal))
+
+
+def _place(pose: Pose2) -> Point2:
+    return (pose.x_m, pose.y_m)
+
+
+def _is_same(a: Pose2, b: Pose2) -> bool:
+    is_same_place = math.dist(_place(a), _place(b)) <= LENGTH_M
+    return is_same_place and abs(wrapped_angle(a.yaw_rad - b.yaw_rad)) <= LENGTH_M
+
+
+def _turning(way: list[Point2]) -> float:
+    """The turning at the bends of a way (rad)."""
+    headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in zip(way[:-1], way[1:], strict=True)]
+    return sum(abs(wrapped_angle(b - a)) for a, b in zip(headings[:-1], headings[1:], strict=True))
+
+
+def _crosses(a: Point2, b: Point2, half_x: float, half_y: float) -> bool:
+    """Whether a segment runs through the inside of the rectangle (Liang-Barsky)."""
+    low, high = 0.0, 1.0
+    for place, step, half in ((a[0], b[0] - a[0], half_x), (a[1], b[1] - a[1], half_y)):
+        inner = half - LENGTH_M
+        if abs(step) <= LENGTH_M:
+            if abs(place) >= inner:
+                return False
+            continue
+        first, second = sorted(((-inner - place) / step, (inner - place) / step))
+        low, high = max(low, first), min(high, second)
+    return low < high
+
+

@@ -1,0 +1,262 @@
+"""The g-drag: the base backs off with the arms still and the cloth comes along (paper, section 6)."""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from planner.cloth.grips import GripCovers, grip_covers
+from planner.cloth.must_hold import must_hold
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
+from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.primitives.fold_way import held_covers
+from planner.primitives.g_fold import unbeaten
+from planner.primitives.grasping import (
+    GRIPS_APART_M,
+    approaches_from_outside,
+    arm_options,
+    assignments,
+    nearest_pair_m,
+)
+from planner.primitives.grip import Grip
+from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.state import Held, State
+from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
+
+DRAGS_PER_M = 10
+"""The grid of drag distances: one every 10 cm."""
+
+_STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
+
+
+@dataclass(frozen=True, eq=False)
+class DragWay:
+    """One choice of arms for the grips of a drag.
+
+    Attributes:
+        arms: the arm that holds each grip.
+        grips: what is held, article frame (m).
+        picks: the same as tool points in the table frame, shape (grips, 3), m.
+        approaches: for each back-off each arm's approach, shape (back-offs, grips); -1 where out of reach.
+    """
+
+    arms: tuple[int, ...]
+    grips: tuple[Point2, ...]
+    picks: FloatArray
+    approaches: FloatArray
+
+    @property
+    def stands(self) -> list[int]:
+        """The back-offs from which all grips are in reach."""
+        return [int(b) for b in np.flatnonzero((self.approaches >= 0).all(axis=1))]
+
+
+@dataclass(frozen=True)
+class DragStep:
+    """One drag as it is performed.
+
+    Attributes:
+        work: the problem.
+        way: grips and arms.
+        before: the state it starts in.
+        after: the state it leads to.
+        first_stand: back-off at which the grips are reached.
+    """
+
+    work: Work
+    way: DragWay
+    before: State
+    after: State
+    first_stand: int
+    kind: str = "drag"
+
+    @property
+    def distance_m(self) -> float:
+        """How far the article goes (m)."""
+        return (self.after.back_off - self.first_stand) / BACK_OFFS_PER_M
+
+    @property
+    def duration_s(self) -> float:
+        """The drive, the reach and the drag (s)."""
+        steps = abs(self.before.back_off - self.first_stand) + self.after.back_off - self.first_stand
+        return self.work.scene.arm_motion_s + self.work.drive_s(steps)
+
+    @property
+    def grips(self) -> tuple[Grip, ...]:
+        """Each hand's pick and place, from the leftmost arm to the rightmost."""
+        names = self.work.reach.arm_names
+        ends = self._ends()
+        found = [
+            (arm, Grip(names[arm], _point(self.way.picks[i]), None, _point(ends[i])))
+            for i, arm in enumerate(self.way.arms)
+        ]
+        return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
+
+    @property
+    def details(self) -> dict[str, Any]:
+        """How far, and whether the hands keep hold afterwards."""
+        return {"distance_m": self.distance_m, "holds": bool(self.after.held)}
+
+    @property
+    def summary(self) -> str:
+        """How far."""
+        return f"{self.distance_m:.1f} m" + (", hold on" if self.after.held else "")
+
+    def phases(self) -> tuple[Phase, ...]:
+        """Drive, reach, back off with the cloth."""
+        work = self.work
+        begin, stand, end = (
+            work.base_pose(self.before.station, b)
+            for b in (self.before.back_off, self.first_stand, self.after.back_off)
+        )
+        start, goal = work.placed(self.before.offset), work.placed(self.after.offset)
+        top = TableTop.of(work.scene.table)
+        still = ClothMotion(self.before.done, start, start, top)
+        carried = ClothMotion(self.before.done, start, goal, top.open_towards(self._ends()[:, :2]))
+        free: tuple[Hand | None, ...] = (None,) * len(work.reach.arm_names)
+        drive = work.drive_s(abs(self.before.back_off - self.first_stand))
+        drag = work.drive_s(self.after.back_off - self.first_stand)
+        return (
+            Phase(drive, (begin, stand), free, still),
+            Phase(work.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
+            Phase(drag, (stand, end), self._hands(is_reaching=False), carried),
+        )
+
+    def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
+        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
+        ends = self._ends()
+        for i, arm in enumerate(self.way.arms):
+            pick, place = _point(self.way.picks[i]), _point(ends[i])
+            points = (pick,) if is_reaching else (pick, place)
+            hands[arm] = Hand(self._approach(i), points, not is_reaching, is_reaching)
+        return tuple(hands)
+
+    def _approach(self, grip: int) -> Approach:
+        return self.work.reach.approaches[int(self.way.approaches[self.first_stand, grip])]
+
+    def _ends(self) -> FloatArray:
+        dx = self.after.offset[0] - self.before.offset[0]
+        dy = self.after.offset[1] - self.before.offset[1]
+        return self.way.picks + np.array([dx, dy, 0.0])
+
+
+class GDrag:
+    """Drags the article towards the robot, in steps of 10 cm."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
+        self._grips: dict[tuple[object, ...], GripCovers] = {}
+
+    def successors(self, state: State) -> Iterable[DragStep]:
+        """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
+        if state.held:
+            return
+        ways = self._ways(state)
+        for count in range(1, self._longest() + 1) if ways else ():
+            offset = self._offset(state, count)
+            if self._work.unrest(state.done, offset) is None:
+                yield from self._letting_go(state, ways, count, offset)
+                for way in ways:
+                    yield from self._holding(state, way, count, offset)
+
+    def _longest(self) -> int:
+        return math.floor(self._work.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
+
+    def _offset(self, state: State, count: int) -> Point2:
+        yaw = self._work.station_pose(state.station).yaw_rad
+        x, y = state.offset
+        distance = count / DRAGS_PER_M
+        return (x - distance * math.cos(yaw), y - distance * math.sin(yaw))
+
+    def _ways(self, state: State) -> tuple[DragWay, ...]:
+        _, x, y, station, *_ = state.key
+        key = (state.done, x, y, station)
+        if key not in self._found:
+            self._found[key] = tuple(w for w in self._search(state) if w.stands)
+        return self._found[key]
+
+    def _search(self, state: State) -> Iterator[DragWay]:
+        work = self._work
+        placement = work.placed(state.offset)
+        heading = work.station_pose(state.station).yaw_rad + math.pi - placement.yaw_rad
+        towards = (math.cos(heading), math.sin(heading))
+        if self._hangs_ahead(state, towards):
+            return
+        for cover in self._covers(state, towards).covers:
+            points = placement.to_outer(np.array(cover).reshape(-1, 2))
+            if cover and nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+                for arms in assignments(work, state.station, points):
+                    yield self._way(state, cover, arms, points, placement)
+
+    def _hangs_ahead(self, state: State, towards: Point2) -> bool:
+        """Whether cloth hangs from an edge towards which the drag would go already."""
+        top = self._work.table_in_article(state.offset)
+        coordinates = self._work.sequence.cloth(state.done).silhouette.coordinates
+        for edge in top.edges:
+            outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
+            if outwards > ANGLE_RAD and edge.left_distances(coordinates).min() < -LENGTH_M:
+                return True
+        return False
+
+    def _covers(self, state: State, towards: Point2) -> GripCovers:
+        """The grips that Theorem 2 asks for on the part that lies on the table."""
+        work = self._work
+        silhouette = work.sequence.cloth(state.done).silhouette
+        lying = silhouette.intersection(work.table_in_article(state.offset).region)
+        vertices = must_hold(lying, towards, (), work.scene.support_angle_rad)
+        radius = work.sequence.garment.grip_radius_m
+        return grip_covers(lying, vertices, radius, len(work.reach.arm_names))
+
+    def _way(
+        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], points: FloatArray, placement: Pose2
+    ) -> DragWay:
+        work = self._work
+        picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
+        turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
+        chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
+        for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
+            allowed = approaches_from_outside(work, state.done, turn, grip)
+            option = arm_options(work, state.station, arm, picks[i : i + 1], allowed, BACK_OFF_STEP_M)
+            for index, mask in reversed(list(zip(option.approaches, option.masks[:, 0], strict=True))):
+                stands = [b for b in range(work.back_offs) if int(mask) >> b & 1]
+                chosen[stands, i] = index
+        return DragWay(arms, cover, picks, chosen)
+
+    def _letting_go(
+        self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2
+    ) -> Iterator[DragStep]:
+        """The cheapest way to each end back-off, where driving on from another end is no cheaper."""
+        best: dict[int, DragWay] = {}
+        for way in ways:
+            for stand in way.stands:
+                best.setdefault(stand, way)
+        steps = np.full(self._work.back_offs, np.inf)
+        for stand in best:
+            end = stand + count * _STEPS_PER_DRAG
+            if end < len(steps):
+                steps[end] = abs(state.back_off - stand) + end - stand
+        for end in unbeaten(steps):
+            stand = end - count * _STEPS_PER_DRAG
+            after = State(state.done, offset, state.station, end)
+            yield DragStep(self._work, best[stand], state, after, stand)
+
+    def _holding(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
+        work = self._work
+        held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
+        blue = (f for f in work.sequence.dag.available(state.done) if not work.sequence.folds[f].is_red)
+        if not any(held_covers(work, state.done, f, held) for f in blue):
+            return
+        for stand in way.stands:
+            end = stand + count * _STEPS_PER_DRAG
+            if end < work.back_offs:
+                after = State(state.done, offset, state.station, end, held, is_dragged=True)
+                yield DragStep(work, way, state, after, stand)
+
+
+def _point(row: FloatArray) -> Point3:
+    return (float(row[0]), float(row[1]), float(row[2]))

@@ -1,0 +1,11 @@
+"""The set of primitives. It is open: write a primitive's file and add its class here."""
+
+from collections.abc import Callable
+
+from planner.primitives.base_move import BaseMove
+from planner.primitives.g_drag import GDrag
+from planner.primitives.g_fold import GFold
+from planner.primitives.primitive import Primitive
+from planner.primitives.work import Work
+
+PRIMITIVES: tuple[Callable[[Work], Primitive], ...] = (GFold, GDrag, BaseMove)

@@ -1,0 +1,55 @@
+"""What the primitives ask of a robot. They own the question; `planner.robot` answers it."""
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import Approach, FloatArray
+
+
+class Reach(Protocol):
+    """The reach of one robot with its lift at one height, to one comfort radius (paper, section 8).
+
+    Arms are numbered from left to right as the robot sees them; `arm_names` has their names.
+    """
+
+    @property
+    def arm_names(self) -> tuple[str, ...]:
+        """The arms from left to right."""
+        ...
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions from which this robot's grippers may pinch cloth, base frame."""
+        ...
+
+    def back_offs(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> NDArray[np.uint32]:
+        """For each approach and point, the back-offs from which the arm's tool is there in comfort.
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame as it stands at back-off 0, z above the floor (m),
+                shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are, at most 32.
+            step_m: from one back-off to the next (m).
+
+        Returns:
+            Bit masks, shape (k, n): bit j is set where the point is reachable with comfort when the
+            base has backed off by j * step_m. A path is followed in one orientation, so where any
+            point of it is reachable from no back-off in an approach, that approach's whole row is 0.
+        """
+        ...
+
+    @property
+    def queries(self) -> int:
+        """Inverse-kinematics queries put to the exact kernel so far, comfort points counted."""
+        ...
+
+    @property
+    def query_time_s(self) -> float:
+        """Time spent in them (s)."""
+        ...

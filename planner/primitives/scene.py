@@ -1,0 +1,91 @@
+"""The scene: table, stations, and every number of the cost model, with its default. Nowhere else.
+
+The default scene is one in which a PR2 can fold all the shipped garments: a table 1.60 m deep and
+0.98 m wide, the base centre standing 0.15 m outside the edge at each of five stations.
+"""
+
+import math
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+from typing import Any
+
+from planner.errors import SceneError
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
+
+_QUARTER = math.pi / 2
+
+DEFAULT_STATIONS: MappingProxyType[str, Pose2] = MappingProxyType(
+    {
+        "front": Pose2(-0.95, 0.0, 0.0),
+        "front_left": Pose2(-0.10, 0.64, -_QUARTER),
+        "left": Pose2(0.45, 0.64, -_QUARTER),
+        "front_right": Pose2(-0.10, -0.64, _QUARTER),
+        "right": Pose2(0.45, -0.64, _QUARTER),
+    }
+)
+"""Where the base may stand, in the table frame, by name (paper, Figure 7a)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """The table, where the robot may stand, and what its motions cost.
+
+    Attributes:
+        table: the table.
+        stations: named base poses in the table frame, in the order given.
+        torso_m: how far the robot's lift is raised (m).
+        friction: static friction coefficient between cloth and table, mu.
+        support_angle_rad: a vertex also counts as supported when cloth lies within this angle of
+            straight above it (rad); 0 is the bare theory.
+        approach_cone_rad: a pinch comes from within this angle of the bisector of the directions
+            into the cloth (rad); pi asks nothing.
+        back_off_max_m: the furthest that the base may back off from a station (m).
+        arm_motion_s: the time of one arm motion (s).
+        base_speed_m_s: the base's speed (m/s).
+        base_turn_rad_s: the base's turning speed (rad/s).
+    """
+
+    table: Table = field(default_factory=Table)
+    stations: tuple[tuple[str, Pose2], ...] = tuple(DEFAULT_STATIONS.items())
+    torso_m: float = 0.29
+    friction: float = 1.0
+    support_angle_rad: float = math.radians(5.0)
+    approach_cone_rad: float = math.radians(75.0)
+    back_off_max_m: float = 0.8
+    arm_motion_s: float = 3.0
+    base_speed_m_s: float = 0.25
+    base_turn_rad_s: float = 0.5
+
+    def __post_init__(self) -> None:
+        """Refuse what is no scene; raises `SceneError` naming the field and the number."""
+        for name in ("depth_m", "width_m", "height_m"):
+            _require_between(f"table.{name}", getattr(self.table, name), 0.1, 10.0)
+        if not self.stations:
+            raise SceneError("stations", "a scene needs at least one station")
+        for name, pose in self.stations:
+            for axis in ("x_m", "y_m"):
+                _require_between(f"stations.{name}.{axis}", getattr(pose, axis), -10.0, 10.0)
+        _require_between("torso_m", self.torso_m, 0.0, 1.0)
+        _require_between("friction", self.friction, 0.0, 10.0)
+        _require_between("support_angle_rad", self.support_angle_rad, 0.0, _QUARTER)
+        _require_between("approach_cone_rad", self.approach_cone_rad, 0.0, math.pi)
+        _require_between("back_off_max_m", self.back_off_max_m, 0.0, 1.5)
+        for name in ("arm_motion_s", "base_speed_m_s", "base_turn_rad_s"):
+            _require_between(name, getattr(self, name), 1e-3, 1e3)
+
+    def station(self, name: str) -> Pose2:
+        """The base pose of a station; raises `KeyError` for an unknown name."""
+        return dict(self.stations)[name]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as JSON, every field filled in."""
+        plain = {f.name: getattr(self, f.name) for f in fields(self)[2:]}
+        table = {f.name: getattr(self.table, f.name) for f in fields(self.table)}
+        stations = {name: pose.to_dict() for name, pose in self.stations}
+        return {"table": table, "stations": stations, **plain}
+
+
+def _require_between(name: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise SceneError(name, f"{value} is not between {low} and {high}")

@@ -1,0 +1,60 @@
+"""What the search tells apart: folds done, placement, where the base stands, what is held."""
+
+from dataclasses import dataclass
+
+from planner.geometry.pose import Point2
+from planner.geometry.tolerance import grid_key
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Held:
+    """One grip that has not been let go.
+
+    Attributes:
+        arm: the arm's number, from left to right.
+        point: what it holds, article frame (m).
+    """
+
+    arm: int
+    point: Point2
+
+    @property
+    def key(self) -> tuple[int, int, int]:
+        """The grip to the grid."""
+        return (self.arm, grid_key(self.point[0]), grid_key(self.point[1]))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A node of the search. Two states are equal if they agree to the grid.
+
+    Attributes:
+        done: the folds finished, as a bit mask.
+        offset: how far drags have carried the article since the start, table frame (m).
+        station: index of the base's station in the scene's order.
+        back_off: how many steps the base has backed off from it.
+        held: what is held; empty when the hands are free.
+        is_dragged: whether what is held is held from a drag (else from a fold, for a red fold).
+    """
+
+    done: int
+    offset: Point2
+    station: int
+    back_off: int
+    held: tuple[Held, ...] = ()
+    is_dragged: bool = False
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The state to the grid."""
+        x, y = self.offset
+        held = tuple(h.key for h in self.held)
+        return (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.is_dragged)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same to the grid."""
+        return isinstance(other, State) and self.key == other.key
+
+    def __hash__(self) -> int:
+        """The key's hash."""
+        return hash(self.key)

@@ -1,0 +1,94 @@
+"""One planning problem: the garment's folds, the scene, the robot's reach, where the article lies."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.primitives.grip import BaseStop
+from planner.primitives.obstacle import Obstacles
+from planner.primitives.reach import Reach
+from planner.primitives.scene import Scene
+from planner.primitives.state import State
+
+BACK_OFFS_PER_M = 20
+"""The grid of back-offs: one every 5 cm."""
+
+BACK_OFF_STEP_M = 1 / BACK_OFFS_PER_M
+"""From one back-off to the next (m)."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """What all primitives of one planning problem share.
+
+    Attributes:
+        sequence: the garment and its legal folds.
+        scene: table, stations, costs.
+        reach: the robot's reach.
+        placement: the article frame in the table frame at the start.
+        circle_m: radius of the circle round the base that must clear the table when it turns (m).
+        obstacles: why primitives were not possible, collected for the reasons.
+    """
+
+    sequence: FoldSequence
+    scene: Scene
+    reach: Reach
+    placement: Pose2
+    circle_m: float
+    obstacles: Obstacles = field(default_factory=Obstacles)
+    _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
+
+    @property
+    def back_offs(self) -> int:
+        """The number of places on the back-off grid."""
+        return math.floor(self.scene.back_off_max_m * BACK_OFFS_PER_M + LENGTH_M) + 1
+
+    def placed(self, offset: Point2) -> Pose2:
+        """The article's placement after drags by `offset`."""
+        return self.placement.moved(*offset)
+
+    def station_pose(self, station: int) -> Pose2:
+        """A station's base pose, table frame."""
+        return self.scene.stations[station][1]
+
+    def base_pose(self, station: int, back_off: int) -> Pose2:
+        """The base's pose at a station, backed off by so many steps."""
+        return self.station_pose(station).ahead(-back_off / BACK_OFFS_PER_M)
+
+    def base_stop(self, state: State) -> BaseStop:
+        """Where the base stands in a state."""
+        name = self.scene.stations[state.station][0]
+        pose = self.base_pose(state.station, state.back_off)
+        return BaseStop(name, state.back_off / BACK_OFFS_PER_M, pose)
+
+    def drive_s(self, steps: float) -> float:
+        """The time to drive so many steps of the back-off grid (s)."""
+        return steps / BACK_OFFS_PER_M / self.scene.base_speed_m_s
+
+    def in_base(self, station: int, points: FloatArray) -> FloatArray:
+        """Tool points of the table frame, shape (n, 3), in the base frame at back-off 0 (m)."""
+        above_floor = points + np.array([0.0, 0.0, self.scene.table.height_m])
+        return self.station_pose(station).to_inner(above_floor)
+
+    def table_in_article(self, offset: Point2) -> TableInArticle:
+        """The table top in the article frame after drags by `offset`."""
+        return TableInArticle.seen_from(self.placed(offset), self.scene.table)
+
+    def unrest(self, done: int, offset: Point2) -> Unrest | None:
+        """Why the cloth after some folds would not stay at a placement; None if it is in a g-state."""
+        key = (done, grid_key(offset[0]), grid_key(offset[1]))
+        if key not in self._unrest:
+            scene = self.scene
+            self._unrest[key] = unrest(
+                self.sequence.cloth(done),
+                self.placed(offset),
+                scene.table,
+                scene.friction,
+                scene.support_angle_rad,
+            )
+        return self._unrest[key]

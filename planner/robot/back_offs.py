@@ -1,0 +1,169 @@
+"""From which back-offs is a tool comfortable at each of many points? The search's questions, compiled.
+
+Asked naively this is points x approaches x back-offs x five comfort points of exact queries, and a search
+asks again and again. Three things make it cheap without changing an answer:
+
+- *Dying early.* A path is followed in one orientation, so an approach is dropped at the first point that
+  can be had from no back-off. A path's ends and middle are asked first: they are the likeliest to fail.
+- *Centre first.* The comfort points are asked only where the point itself is reachable.
+- *Memory.* Back-offs lie on a grid of 5 cm and drags on one of 10 cm, so the same places return in the
+  base frame. Every place is put onto the grid of `LENGTH_M` before it is asked, so that what is remembered
+  for it is exact, whichever question came first. Mirroring has both arms share the memory.
+
+The memory is a hash table in one array of integers: an entry is twice its key, plus the answer; 0 is
+empty; an entry that finds its place taken moves on to the next. When it is three quarters full it
+learns no more, and the answers stay the same.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import LENGTH_M
+from planner.robot.arm import ArmShape
+from planner.robot.kernel import MOST_ARCS, Aim, aim_at, is_reachable, is_within_length
+
+CELL_BITS = 18
+"""A coordinate is kept as this many bits of `LENGTH_M` steps: 1.3 m either way from the shoulder."""
+
+_SCATTER = 0x1E3779B97F4A7C15
+
+
+class Memory(NamedTuple):
+    """What has been answered: the hash table, its length a power of two, and how many entries it has."""
+
+    table: NDArray[np.int64]
+    entries: NDArray[np.int64]
+
+
+def empty_memory(bits: int = 19) -> Memory:
+    """A memory with room for 2 ** bits entries, of which it uses three quarters."""
+    return Memory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
+
+
+@njit(cache=True, nogil=True)
+def _steps(value: float) -> int:
+    """A coordinate in steps of `LENGTH_M`."""
+    return round(value / LENGTH_M)
+
+
+@njit(cache=True, nogil=True)
+def _key(label: int, x: int, y: int, z: int) -> int:
+    """The key of a place, in steps of `LENGTH_M` from the shoulder, and an approach's label."""
+    half = 1 << (CELL_BITS - 1)
+    return (((((label << CELL_BITS) + x + half) << CELL_BITS) + y + half) << CELL_BITS) + z + half
+
+
+@njit(cache=True, nogil=True)
+def _slot(table: NDArray[np.int64], key: int) -> int:
+    """Where in the table a key is, or should go."""
+    scattered = key * _SCATTER
+    slot = (scattered ^ (scattered >> 32)) & (len(table) - 1)
+    while table[slot] != 0 and table[slot] >> 1 != key:
+        slot = (slot + 1) & (len(table) - 1)
+    return slot
+
+
+@njit(cache=True, nogil=True)
+def is_comfortable(shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray) -> tuple[bool, int]:
+    """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made."""
+    if not is_reachable(shape, aim, arcs):
+        return False, 1
+    if comfort <= 0.0:
+        return True, 1
+    queries = 1
+    for dx, dy in ((comfort, 0.0), (-comfort, 0.0), (0.0, comfort), (0.0, -comfort)):
+        queries += 1
+        if not is_reachable(shape, Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az), arcs):
+            return False, queries
+    return True, queries
+
+
+@njit(cache=True, nogil=True)
+def _recalled(
+    shape: ArmShape,
+    memory: Memory,
+    shoulder: FloatArray,
+    point: tuple[float, float, float],
+    axis: FloatArray,
+    label: int,
+    comfort: float,
+    arcs: FloatArray,
+) -> tuple[bool, int]:
+    """Whether a tool point is comfortable, from memory if it is known there; queries made."""
+    x, y, z = _steps(point[0]), _steps(point[1]), _steps(point[2])
+    ahead, left, up = x * LENGTH_M - shoulder[0], y * LENGTH_M - shoulder[1], z * LENGTH_M - shoulder[2]
+    aim = aim_at(shape, ahead, left, up, axis[0], axis[1], axis[2])
+    if not is_within_length(shape, aim):
+        return False, 0
+    key = _key(label, x - _steps(shoulder[0]), y - _steps(shoulder[1]), z - _steps(shoulder[2]))
+    slot = _slot(memory.table, key)
+    if memory.table[slot] != 0:
+        return memory.table[slot] & 1 == 1, 0
+    answer, queries = is_comfortable(shape, aim, comfort, arcs)
+    if 4 * memory.entries[0] < 3 * len(memory.table):
+        memory.table[slot] = 2 * key + (1 if answer else 0)
+        memory.entries[0] += 1
+    return answer, queries
+
+
+@njit(cache=True, nogil=True)
+def back_off_masks(
+    shape: ArmShape,
+    memory: Memory,
+    shoulder: FloatArray,
+    points: FloatArray,
+    axes: FloatArray,
+    labels: NDArray[np.int64],
+    count: int,
+    step: float,
+    comfort: float,
+) -> tuple[NDArray[np.uint32], int]:
+    """For each approach and point the back-offs from which the tool is there in comfort; queries made.
+
+    Args:
+        shape: the arm.
+        memory: what was answered before, for this comfort; added to.
+        shoulder: where the shoulder is, in the frame of the points (m), shape (3,).
+        points: tool points at back-off 0 (m), shape (n, 3).
+        axes: approach axes, shape (k, 3).
+        labels: what to call each approach in the memory, 1..63, shape (k,).
+        count: how many back-offs there are, at most 32.
+        step: from one back-off to the next (m): the points move along x by it.
+        comfort: radius of the circle (m).
+    """
+    arcs = np.empty((MOST_ARCS, 2))
+    masks = np.zeros((len(axes), len(points)), dtype=np.uint32)
+    queries = 0
+    for approach in range(len(axes)):
+        for turn in range(len(points)):
+            i = _extremes_first(turn, len(points))
+            mask = 0
+            for back_off in range(count):
+                point = (points[i, 0] + back_off * step, points[i, 1], points[i, 2])
+                answer, asked = _recalled(
+                    shape, memory, shoulder, point, axes[approach], labels[approach], comfort, arcs
+                )
+                queries += asked
+                mask |= (1 if answer else 0) << back_off
+            masks[approach, i] = mask
+            if mask == 0:
+                masks[approach, :] = 0
+                break
+    return masks, queries
+
+
+@njit(cache=True, nogil=True)
+def _extremes_first(turn: int, count: int) -> int:
+    """Which point is visited at a turn: the first, the last, the middle one, then the others in order."""
+    middle = count // 2
+    if turn == 0 or count <= 2:
+        return turn
+    if turn == 1:
+        return count - 1
+    if turn == 2:
+        return middle
+    return turn - 2 if turn - 2 < middle else turn - 1

@@ -1,0 +1,108 @@
+"""A robot's card: what anyone who shows, places or describes the robot has to know of it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from planner.geometry.pose import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class GripperCard:
+    """Two fingers on parallelograms: they swing out and stay parallel.
+
+    Attributes:
+        joint_name: the joint that drives both fingers; the others mimic it.
+        link_x_m: where the fingertip's hinge is ahead of the driven one, gripper closed (m).
+        link_y_m: how far it is to the side of it (m).
+        opening_max_m: the widest opening (m).
+        finger_width_m: how wide a finger is across the closing direction (m).
+    """
+
+    joint_name: str
+    link_x_m: float
+    link_y_m: float
+    opening_max_m: float
+    finger_width_m: float
+
+    def angle(self, opening_m: float) -> float:
+        """The driven joint (rad) at which the fingers are an opening apart (m), kept to 0..opening_max_m.
+
+        The hinge is at y = link_x sin(q) + link_y cos(q) from the driven joint, and that has grown by
+        half of the opening since q = 0.
+        """
+        half = 0.5 * min(max(opening_m, 0.0), self.opening_max_m)
+        length = math.hypot(self.link_x_m, self.link_y_m)
+        return math.asin((half + self.link_y_m) / length) - math.asin(self.link_y_m / length)
+
+
+@dataclass(frozen=True, slots=True)
+class ArmCard:
+    """One arm.
+
+    Attributes:
+        name: what people call it.
+        joint_names: its seven joints in the URDF, from the shoulder outwards.
+        speeds_rad_s: how fast each of them may turn (rad/s).
+        tool_frame: the URDF frame between the fingertips, x along the approach axis.
+        home: the joints when the arm is out of the way (rad).
+        gripper: its gripper.
+    """
+
+    name: str
+    joint_names: tuple[str, ...]
+    speeds_rad_s: tuple[float, ...]
+    tool_frame: str
+    home: tuple[float, ...]
+    gripper: GripperCard
+
+
+@dataclass(frozen=True, slots=True)
+class RobotCard:
+    """One robot.
+
+    Attributes:
+        name: the name it is asked for by.
+        title: the name for people.
+        arms: its arms, from left to right as the robot sees them.
+        base_kind: how the base moves.
+        base_size_m: length and width of the base (m).
+        base_radius_m: radius of a circle that holds the base as it turns, a margin included (m).
+        lift_joint: the joint that raises the shoulders.
+        lift_limits_m: its lowest and highest value (m).
+        resting: all other actuated joints and where they rest, as (name, rad).
+        urdf_path: the robot's description.
+        package_dir: the directory to which its ``package://`` addresses are relative.
+    """
+
+    name: str
+    title: str
+    arms: tuple[ArmCard, ...]
+    base_kind: str
+    base_size_m: tuple[float, float]
+    base_radius_m: float
+    lift_joint: str
+    lift_limits_m: tuple[float, float]
+    resting: tuple[tuple[str, float], ...]
+    urdf_path: Path
+    package_dir: Path
+
+    def joint_values(
+        self, torso_m: float, arm_joints: Sequence[FloatArray], openings_m: Sequence[float]
+    ) -> dict[str, float]:
+        """Every actuated joint of the URDF by name (rad; m for the lift), as plain floats.
+
+        Args:
+            torso_m: how far the lift is raised (m).
+            arm_joints: the seven joints of each arm, from left to right.
+            openings_m: how far each gripper is open (m).
+
+        Raises:
+            ValueError: there are not as many of each as the robot has arms, or not seven joints.
+        """
+        values = {self.lift_joint: float(torso_m), **dict(self.resting)}
+        for arm, joints, opening_m in zip(self.arms, arm_joints, openings_m, strict=True):
+            values |= {name: float(q) for name, q in zip(arm.joint_names, joints, strict=True)}
+            values[arm.gripper.joint_name] = arm.gripper.angle(float(opening_m))
+        return values

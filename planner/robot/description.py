@@ -1,0 +1,37 @@
+"""Where the PR2's description lies on disk, and how it is read."""
+
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
+
+import pinocchio as pin
+
+from planner.errors import FoldingError
+
+_DISTRIBUTION = "example-robot-data"
+_SHARE = "cmeel.prefix/share"
+_URDF = "example-robot-data/robots/pr2_description/urdf/pr2.urdf"
+
+
+def package_directory() -> Path:
+    """The directory to which the URDF's ``package://`` addresses are relative.
+
+    Raises:
+        FoldingError: the package that carries the PR2 is not installed, or came without it.
+    """
+    try:
+        directory = Path(str(distribution(_DISTRIBUTION).locate_file(_SHARE)))
+    except PackageNotFoundError as error:
+        raise FoldingError(f"the PR2's model is missing: install the package {_DISTRIBUTION!r}") from error
+    if not (directory / _URDF).is_file():
+        raise FoldingError(f"the package {_DISTRIBUTION!r} carries no PR2: there is no {directory / _URDF}")
+    return directory
+
+
+def urdf_path() -> Path:
+    """The PR2's URDF; raises `FoldingError` like `package_directory`."""
+    return package_directory() / _URDF
+
+
+def read_model() -> pin.Model:
+    """The kinematic tree of the PR2, its root fixed to ``base_footprint`` (4 ms)."""
+    return pin.buildModelFromUrdf(str(urdf_path()))

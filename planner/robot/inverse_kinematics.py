@@ -1,0 +1,173 @@
+"""All seven joints for a whole pose of the tool, as near as possible to where the arm is now.
+
+`planner.robot.kernel` says that some pan will do; here one is chosen. With pan and branch fixed the
+other six joints follow in closed form, so the nearest solution is the lowest point of a distance
+along the closed curves of the arcs. It is sampled, with the present pan and a known witness among the
+samples, and the best sample is settled by halving steps. Wrist and forearm roll are continuous
+joints: they are unwound to the turn nearest to where they are, so that joints may be interpolated.
+
+As in the kernel the arm is a left one and poses are in its shoulder's frame (m, rad).
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.robot.arm import ArmShape, Sector
+from planner.robot.kernel import MOST_ARCS, Aim, aim_at, pan_arcs, pan_on, witness
+
+SAMPLES = 16
+"""Samples for each branch of the elbow along an arc."""
+
+FINEST = 1e-7
+"""Settling ends when its step along the curve is smaller than this (rad)."""
+
+X, Y, Z = 0, 1, 2
+
+
+@njit(cache=True, nogil=True)
+def turn(frame: FloatArray, i: int, j: int, angle: float) -> None:
+    """Turn a frame's axis i towards its axis j: (X, Y) turns about z, (Y, Z) about x, (Z, X) about y."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    for row in range(3):
+        a, b = frame[row, i], frame[row, j]
+        frame[row, i], frame[row, j] = cos * a + sin * b, cos * b - sin * a
+
+
+@njit(cache=True, nogil=True)
+def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The tool's position, shape (3,), and rotation, shape (3, 3), at seven joint angles."""
+    frame = np.eye(3)
+    turn(frame, X, Y, joints[0])
+    position = shape.offset * frame[:, 0]
+    turn(frame, Z, X, joints[1])
+    turn(frame, Y, Z, joints[2])
+    position += shape.upper * frame[:, 0]
+    turn(frame, Z, X, joints[3])
+    turn(frame, Y, Z, joints[4])
+    position += shape.fore * frame[:, 0]
+    turn(frame, Z, X, joints[5])
+    turn(frame, Y, Z, joints[6])
+    position += shape.tool * frame[:, 0]
+    return position, frame
+
+
+@njit(cache=True, nogil=True)
+def _within(limits: Sector, angle: float) -> float:
+    """The same direction as an angle within limits, or nan; what rounding put outside is put back."""
+    angle += math.tau * math.ceil((limits.low - ANGLE_RAD - angle) / math.tau)
+    return min(max(angle, limits.low), limits.high) if angle <= limits.high + ANGLE_RAD else math.nan
+
+
+@njit(cache=True, nogil=True)
+def _unwound(angle: float, near: float) -> float:
+    """The same direction as an angle within half a turn of another."""
+    return angle - math.tau * math.floor((angle - near) / math.tau + 0.5)
+
+
+@njit(cache=True, nogil=True)
+def _place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: FloatArray) -> None:
+    """Set pan, lift, roll and elbow so that the wrist's centre is where it must be; nan where it cannot."""
+    cos_pan, sin_pan = math.cos(pan), math.sin(pan)
+    u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
+    bones_2 = shape.upper * shape.upper + shape.fore * shape.fore
+    cos_elbow = (u * u + v * v + w * w - bones_2) / (2.0 * shape.upper * shape.fore)
+    bent = math.sqrt(max(1.0 - cos_elbow * cos_elbow, 0.0))
+    side = shape.fore * bent
+    sin_roll, rest = -v, math.sqrt(max(side * side - v * v, 0.0))
+    a, b = shape.upper + shape.fore * cos_elbow, branch * rest
+    joints[0] = pan
+    joints[1] = _within(shape.lift, math.atan2(b, a) - math.atan2(w, u))
+    joints[2] = _within(shape.roll, math.atan2(sin_roll, b))
+    joints[3] = _within(shape.elbow, -math.atan2(bent, cos_elbow))
+
+
+@njit(cache=True, nogil=True)
+def _along(frame: FloatArray, aim: Aim, axis: int) -> float:
+    """The component of the approach axis along an axis of a frame."""
+    component: float = aim.ax * frame[0, axis] + aim.ay * frame[1, axis] + aim.az * frame[2, axis]
+    return component
+
+
+@njit(cache=True, nogil=True)
+def _turn_hand(
+    shape: ArmShape, aim: Aim, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
+) -> None:
+    """Set the last three joints so that the tool has a rotation; `frame` is scratch space, shape (3, 3)."""
+    frame[:] = 0.0
+    frame[0, 0] = frame[1, 1] = frame[2, 2] = 1.0
+    turn(frame, X, Y, joints[0])
+    turn(frame, Z, X, joints[1])
+    turn(frame, Y, Z, joints[2])
+    turn(frame, Z, X, joints[3])
+    ahead, left, up = _along(frame, aim, X), _along(frame, aim, Y), _along(frame, aim, Z)
+    sideways = math.hypot(left, up)
+    joints[4] = near[4] if sideways <= ANGLE_RAD else _unwound(math.atan2(-left, up), near[4])
+    joints[5] = _within(shape.wrist, -math.atan2(sideways, ahead))
+    turn(frame, Y, Z, joints[4])
+    turn(frame, Z, X, joints[5])
+    cos, sin = 0.0, 0.0
+    for row in range(3):
+        cos += frame[row, Y] * rotation[row, Y]
+        sin += frame[row, Z] * rotation[row, Y]
+    joints[6] = _unwound(math.atan2(sin, cos), near[6])
+
+
+@njit(cache=True, nogil=True)
+def _solve_on(
+    shape: ArmShape,
+    aim: Aim,
+    rotation: FloatArray,
+    near: FloatArray,
+    arc: FloatArray,
+    theta: float,
+    joints: FloatArray,
+    frame: FloatArray,
+) -> float:
+    """Set the joints at a place of an arc's curve; the squared distance from `near`, or infinity."""
+    _place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
+    _turn_hand(shape, aim, rotation, near, joints, frame)
+    distance = 0.0
+    for i in range(7):
+        distance += (joints[i] - near[i]) * (joints[i] - near[i])
+    return math.inf if math.isnan(distance) else distance
+
+
+@njit(cache=True, nogil=True)
+def _theta_of(arc: FloatArray, pan: float) -> float:
+    """Where on an arc's curve the pan is nearest to another, on the first branch."""
+    return math.acos(min(max((arc[0] - pan) / max(arc[1], ANGLE_RAD), -1.0), 1.0))
+
+
+@njit(cache=True, nogil=True)
+def nearest_joints(
+    shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
+) -> tuple[bool, FloatArray]:
+    """The joints nearest to `near`, shape (7,), that bring the tool to a pose, and whether there are any."""
+    aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
+    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    step = math.pi / SAMPLES
+    best_arc, best_theta = witness(shape, aim, arcs)
+    best = math.inf
+    if best_arc >= 0:
+        best = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    for arc in range(pan_arcs(shape, aim, arcs)):
+        present = _theta_of(arcs[arc], near[0])
+        for sample in range(-2, 2 * SAMPLES):
+            theta = (sample + 0.5) * step if sample >= 0 else (2 * sample + 3) * present
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            if distance < best:
+                best, best_arc, best_theta = distance, arc, theta
+    if best == math.inf:
+        return False, joints
+    while step > FINEST:
+        step *= 0.5
+        for theta in (best_theta - step, best_theta + step):
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)
+            if distance < best:
+                best, best_theta = distance, theta
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    return True, joints

@@ -1,0 +1,109 @@
+"""The PR2: a robot by name, its card, its reach and its joints."""
+
+import math
+from functools import cache
+
+import numpy as np
+
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.arm import read_arm
+from planner.robot.card import RobotCard
+from planner.robot.description import read_model
+from planner.robot.pr2_card import pr2_card
+from planner.robot.reach import Pr2Reach
+from planner.robot.sided_arm import SidedArm
+
+ROBOT_NAMES = ("pr2",)
+
+
+class Pr2:
+    """A PR2. It does not change, so one may be shared by everyone.
+
+    Arms are numbered from left to right as the robot sees them. Poses are of the tool frame, in the
+    base frame (``base_footprint``: x ahead, z up from the floor), in m.
+    """
+
+    def __init__(self) -> None:
+        """Read the robot's description (10 ms); raises `FoldingError` where it is missing."""
+        model = read_model()
+        shape = read_arm(model)
+        self._card = pr2_card(model)
+        self._arms = (SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True))
+
+    @property
+    def card(self) -> RobotCard:
+        """What the robot is."""
+        return self._card
+
+    def home(self, arm: int) -> FloatArray:
+        """The joints of an arm that is out of the way (rad), shape (7,)."""
+        return np.array(self._card.arms[arm].home)
+
+    def reach(self, torso_m: float, comfort_m: float) -> Pr2Reach:
+        """The reach with the torso raised so far, to a comfort radius (m).
+
+        Raises:
+            SceneError: the torso does not go there.
+            RequestError: the radius is negative or no number.
+        """
+        low, high = self._card.lift_limits_m
+        if not low <= torso_m <= high:
+            raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
+        if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
+            raise RequestError("comfort_m", f"{comfort_m} m is no radius")
+        names = tuple(arm.name for arm in self._card.arms)
+        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m))
+
+    def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
+        """Which tool poses an arm can take with every joint within its limits, shape (n,).
+
+        Only the approach axis is looked at: forearm and wrist roll are continuous, so a PR2's tool
+        that reaches a point along an axis does so at any roll about it.
+
+        Args:
+            arm: which arm.
+            positions: tool points (m), shape (n, 3).
+            rotations: tool rotations, shape (n, 3, 3).
+            torso_m: how far the torso is raised (m).
+        """
+        return self._arms[arm].can_reach(positions, rotations[:, :, 0], float(torso_m))
+
+    def joints_near(
+        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
+    ) -> FloatArray | None:
+        """The joints nearest to given ones that bring an arm's tool to a pose.
+
+        Args:
+            arm: which arm.
+            position: the tool's place (m), shape (3,).
+            rotation: the tool's axes as columns, shape (3, 3).
+            torso_m: how far the torso is raised (m).
+            near: joints to be near to (rad), shape (7,).
+
+        Returns:
+            Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of
+            `near`; or None where the pose is out of reach.
+        """
+        return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
+
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """The tool's position (m), shape (3,), and rotation, shape (3, 3), at seven joint angles."""
+        return self._arms[arm].tool_pose(joints, float(torso_m))
+
+
+@cache
+def load_robot(name: str) -> Pr2:
+    """The robot of a name; raises `RequestError` for an unknown one."""
+    if name not in ROBOT_NAMES:
+        raise RequestError("robot", f"there is no robot {name!r}, only {', '.join(ROBOT_NAMES)}")
+    return Pr2()
+
+
+def warm_up() -> None:
+    """Compile every kernel, or load it from the cache, so that the first plan need not wait for it."""
+    robot = load_robot("pr2")
+    position, rotation = robot.tool_pose(0, robot.home(0), 0.0)
+    robot.can_reach(0, position[None], rotation[None], 0.0)
+    robot.joints_near(0, position, rotation, 0.0, robot.home(0))
+    robot.reach(0.0, 0.01).back_offs(0, position[None], np.array([0]), 1, 0.05)

@@ -1,0 +1,126 @@
+"""The PR2's answer to what the primitives ask of a robot's reach."""
+
+import math
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import Approach, FloatArray
+from planner.robot.back_offs import back_off_masks, empty_memory
+from planner.robot.sided_arm import SidedArm
+
+_PITCHES_DEG = (15, 30, 45, 60)
+_HEADINGS_DEG = range(-90, 91, 15)
+_MOST_BACK_OFFS = 32
+
+APPROACHES = (
+    *(
+        Approach(math.radians(heading), math.radians(pitch))
+        for pitch in _PITCHES_DEG
+        for heading in _HEADINGS_DEG
+    ),
+    Approach(0.0, math.pi / 2),
+)
+"""The directions from which a gripper may pinch: a fan at four pitches, and straight down."""
+
+
+def _mirror_images() -> NDArray[np.int64]:
+    """For each approach the index of its mirror image, shape (len(APPROACHES),)."""
+    fan = len(_HEADINGS_DEG)
+    inner = [index - index % fan + fan - 1 - index % fan for index in range(len(APPROACHES) - 1)]
+    return np.array([*inner, len(APPROACHES) - 1], dtype=np.int64)
+
+
+class Pr2Reach:
+    """The reach of a PR2 with its torso at one height, to one comfort radius.
+
+    It remembers its answers and counts its queries, so each plan should have one of its own; it is
+    not to be shared between threads. Places are asked on the grid of `LENGTH_M`, base frame.
+    """
+
+    def __init__(
+        self, arm_names: tuple[str, ...], arms: tuple[SidedArm, ...], torso_m: float, comfort_m: float
+    ) -> None:
+        """Start with nothing remembered: names and arms from left to right, torso and comfort in m."""
+        self._arm_names = arm_names
+        self._arms = arms
+        self._torso_m = torso_m
+        self._comfort_m = comfort_m
+        self._memory = empty_memory()
+        self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
+        self._mirror_images = _mirror_images()
+        self._queries = 0
+        self._query_time_s = 0.0
+
+    @property
+    def arm_names(self) -> tuple[str, ...]:
+        """The arms from left to right."""
+        return self._arm_names
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions from which the grippers may pinch cloth, base frame."""
+        return APPROACHES
+
+    @property
+    def torso_m(self) -> float:
+        """How far the torso is raised (m)."""
+        return self._torso_m
+
+    @property
+    def comfort_m(self) -> float:
+        """The comfort radius (m)."""
+        return self._comfort_m
+
+    @property
+    def queries(self) -> int:
+        """Queries computed by the exact kernel so far, comfort points counted.
+
+        What is remembered, or further away than the arm is long, is answered without one.
+        """
+        return self._queries
+
+    @property
+    def query_time_s(self) -> float:
+        """Time spent answering (s), memory included."""
+        return self._query_time_s
+
+    def back_offs(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> NDArray[np.uint32]:
+        """Bit masks, shape (k, n): from which back-offs each point is within comfortable reach.
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are, at most 32; raises `ValueError` beyond.
+            step_m: from one back-off to the next (m).
+
+        Returns:
+            Bit j is set where the base may have backed off by j * step_m; a row is 0 as soon as one
+            of its points is reachable from nowhere.
+        """
+        if count > _MOST_BACK_OFFS:
+            raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
+        started = perf_counter()
+        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        masks, queries = back_off_masks(
+            sided.shape,
+            self._memory,
+            sided.shoulder(self._torso_m),
+            sided.mirrored_places(np.reshape(points, (-1, 3))),
+            self._axes[seen],
+            seen + 1,
+            count,
+            float(step_m),
+            self._comfort_m,
+        )
+        self._queries += queries
+        self._query_time_s += perf_counter() - started
+        return masks
+
+    def _as_left_arm_sees(self, arm: int, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
+        indices = np.asarray(approaches, dtype=np.int64)
+        return self._mirror_images[indices] if self._arms[arm].is_mirrored else indices

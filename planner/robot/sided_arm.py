@@ -1,0 +1,61 @@
+"""One arm on its side of the robot: questions in the base frame, asked of the left arm's closed form."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.arm import MIRROR, ArmShape
+from planner.robot.inverse_kinematics import nearest_joints, tool_pose
+from planner.robot.kernel import reachable_batch
+
+_MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
+_MIRRORED_ROTATION = np.outer(_MIRRORED_PLACE, _MIRRORED_PLACE)
+
+
+@dataclass(frozen=True, slots=True)
+class SidedArm:
+    """An arm of the robot.
+
+    Attributes:
+        shape: lengths and limits of the left arm.
+        is_mirrored: whether this is the right one.
+    """
+
+    shape: ArmShape
+    is_mirrored: bool
+
+    def shoulder(self, torso_m: float) -> FloatArray:
+        """The shoulder of the left arm in the base frame (m), shape (3,)."""
+        return np.array([self.shape.shoulder_x, self.shape.shoulder_y, self.shape.shoulder_z + torso_m])
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        """Points or directions, shape (..., 3), as the left arm would see them; a new array."""
+        return np.array(places * _MIRRORED_PLACE if self.is_mirrored else places, dtype=float, order="C")
+
+    def can_reach(self, positions: FloatArray, axes: FloatArray, torso_m: float) -> BoolArray:
+        """Which tool points and approach axes, each of shape (n, 3) in the base frame, are within reach."""
+        points = self.mirrored_places(positions) - self.shoulder(torso_m)
+        return reachable_batch(self.shape, points, self.mirrored_places(axes))
+
+    def joints_near(
+        self, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
+    ) -> FloatArray | None:
+        """The joints nearest to `near`, shape (7,), with the tool at a pose in the base frame, or None."""
+        point = self.mirrored_places(position) - self.shoulder(torso_m)
+        found, joints = nearest_joints(
+            self.shape, point, self._mirrored_rotation(rotation), self._mirrored_joints(near)
+        )
+        return self._mirrored_joints(joints) if found else None
+
+    def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
+        position, rotation = tool_pose(self.shape, self._mirrored_joints(joints))
+        return self.mirrored_places(position + self.shoulder(torso_m)), self._mirrored_rotation(rotation)
+
+    def _mirrored_joints(self, joints: FloatArray) -> FloatArray:
+        return np.array(joints * MIRROR if self.is_mirrored else joints, dtype=float, order="C")
+
+    def _mirrored_rotation(self, rotation: FloatArray) -> FloatArray:
+        mirrored = rotation * _MIRRORED_ROTATION if self.is_mirrored else rotation
+        return np.array(mirrored, dtype=float, order="C")
