@@ -39,23 +39,22 @@ class FoldPath:
     top: TableTop
     rising_top: TableTop
 
-    def swept(self, points: FloatArray, sweep: float) -> FloatArray:
+    def swept(self, points: FloatArray, sweep: float | FloatArray) -> FloatArray:
         """Where points of the moving part are in the unrolled plane.
 
         Args:
             points: where they lie before the fold, table frame, shape (n, 2), m.
-            sweep: 0 all lies flat, 1 all stands over the fold line, 2 all is laid down.
+            sweep: 0 all lies flat, 1 all stands over the fold line, 2 all is laid down; or several, shape (k, 1).
 
         Returns:
-            Shape (n, 3): place in the unrolled plane and height above it (m).
+            Shape (n, 3), or (k, n, 3): place in the unrolled plane and height above it (m).
         """
         distances, along = self.line.left_distances(points), self.line.positions(points)
-        baseline = self.depth_m * abs(1.0 - sweep)
-        flat = np.minimum(distances, baseline)
-        offsets = flat if sweep <= 1.0 else -flat
+        flat = np.minimum(distances, self.depth_m * np.abs(1.0 - np.asarray(sweep)))
+        offsets = np.where(np.asarray(sweep) <= 1.0, flat, -flat)
         feet = np.array(self.line.start) + along[:, None] * np.array(self.line.direction)
-        places = feet + offsets[:, None] * np.array(self.line.left)
-        return np.column_stack([places, distances - flat])
+        places = feet + offsets[..., None] * np.array(self.line.left)
+        return np.concatenate([places, (distances - flat)[..., None]], axis=-1)
 
     def top_at(self, sweep: float) -> TableTop:
         """The top over which cloth does not hang at a moment."""
@@ -63,11 +62,17 @@ class FoldPath:
 
     def tool_points(self, grips: FloatArray, sweep: float) -> FloatArray:
         """Where the tools are that hold the given points of the cloth, shape (n, 2) -> (n, 3), table frame."""
-        unrolled = self.swept(grips, sweep) + np.array([0.0, 0.0, REST_HEIGHT_M])
-        return self.top_at(sweep).over_edge(unrolled)
+        return self.tool_paths(grips, np.array([sweep]))[:, 0]
+
+    def tool_paths(self, grips: FloatArray, sweeps: FloatArray) -> FloatArray:
+        """The same at several moments, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
+        unrolled = self.swept(grips, sweeps[:, None]) + np.array([0.0, 0.0, REST_HEIGHT_M])
+        rising, falling = unrolled[sweeps < 1.0], unrolled[sweeps >= 1.0]
+        paths = np.concatenate([self.rising_top.over_edge(rising), self.top.over_edge(falling)])
+        return paths.transpose(1, 0, 2)
 
     def sweeps(self, grips: FloatArray) -> FloatArray:
-        """Waypoints: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
+        """Waypoints, rising: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
         farthest = float(self.line.left_distances(grips).max())
         count = max(1, math.ceil(farthest / self._baseline_step(grips)))
         rising = 1.0 - np.linspace(farthest, 0.0, count + 1) / self.depth_m

@@ -36,6 +36,7 @@ class FoldSequence:
     final: ClothState
     _folded: dict[tuple[int, int], Folded]
     _cloths: dict[int, ClothState]
+    _covers: dict[tuple[int, int, float, int], GripCovers]
 
     @staticmethod
     def of(garment: Garment) -> "FoldSequence":
@@ -57,7 +58,7 @@ class FoldSequence:
             cloth = folded.cloth
         dag = build_fold_dag(parts, [f.is_red for f in folds])
         start = ClothState.spread_out(garment.pattern)
-        return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start})
+        return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start}, {})
 
     def cloth(self, done: int) -> ClothState:
         """The stack after a set of folds, given as a bit mask."""
@@ -77,9 +78,12 @@ class FoldSequence:
 
     def covers(self, done: int, index: int, support_angle_rad: float, arms: int) -> GripCovers:
         """What must be held during a fold, and the best grips for it."""
-        fold, moving = self.folds[index], self.folded(done, index).moving
-        vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
-        return grip_covers(moving, vertices, fold.grip_radius_m, arms)
+        key = (done, index, support_angle_rad, arms)
+        if key not in self._covers:
+            fold, moving = self.folds[index], self.folded(done, index).moving
+            vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
+            self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms)
+        return self._covers[key]
 
 
 def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold]) -> tuple[Fold, Folded]:

@@ -28,6 +28,10 @@ from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 
+_FEW = 4
+"""So many approaches are tried first: mostly one of the best will do."""
+
+
 @dataclass(frozen=True, eq=False)
 class FoldWay:
     """One choice of grips and arms for a fold at one placement and station.
@@ -59,32 +63,107 @@ class FoldWay:
         """Whether the base has any place to stand."""
         return bool((self.steps < IMPOSSIBLE).any())
 
+    def ends(self, state: State) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """For each end back-off the least steps in all, and the back-off from which the path is begun.
+
+        Free hands let the base drive to where the path begins; what is held keeps it where it is.
+        """
+        count = len(self.steps)
+        if state.held:
+            return self.steps[state.back_off], np.full(count, state.back_off)
+        total = self.steps + np.abs(np.arange(count) - state.back_off)[:, None]
+        return total.min(axis=0), total.argmin(axis=0)
+
+    def straight_ends(self, state: State) -> list[int]:
+        """The ends that cost no more than to drive straight to them."""
+        steps, _ = self.ends(state)
+        away = np.abs(np.arange(len(steps)) - state.back_off)
+        return [int(end) for end in np.flatnonzero(steps == away)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """Grips and arms that may do, before the robot is asked."""
+
+    fold: int
+    cover: Cover
+    arms: tuple[int, ...]
+    path: FoldPath
+    points: FloatArray
+    sweeps: FloatArray
+    tools: FloatArray
+    approaches: tuple[NDArray[np.int64], ...]
+
+    def way(self, strips: Strips, back_offs: int) -> FoldWay:
+        steps, choice = travel(strips.masks, back_offs)
+        return FoldWay(
+            self.fold, self.cover, self.arms, self.path, self.points, self.sweeps, strips, steps, choice
+        )
+
 
 class FoldWays:
     """Finds the ways to fold, and keeps them: many states of a search ask the same question."""
 
     def __init__(self, work: Work) -> None:
         self._work = work
+        self._trials: dict[tuple[object, ...], tuple[_Trial, ...]] = {}
         self._found: dict[tuple[object, ...], tuple[FoldWay, ...]] = {}
 
-    def of(self, state: State, fold: int) -> tuple[FoldWay, ...]:
-        """The ways to perform a fold next, whatever the back-off now."""
-        _, x, y, station, _, held, is_dragged = state.key
-        key = (state.done, x, y, station, held, is_dragged, fold)
+    def to_every_end(self, state: State, fold: int) -> tuple[FoldWay, ...]:
+        """All ways to perform a fold next, to whatever back-off."""
+        return self._within(state, fold, (0, self._work.back_offs - 1), None)
+
+    def to_unbeaten_ends(self, state: State, fold: int) -> tuple[FoldWay, ...]:
+        """Ways to perform a fold, among them the quickest to each end that no other beats.
+
+        An end is beaten if another end, and driving on from there, is as quick. To ask for all back-offs in all
+        approaches is costly and mostly idle:
+
+        1. If the base can stay where it is, that is all there is to know.
+        2. The few best approaches mostly find an end, to either side, that costs no more than to drive straight to
+           it. Whatever goes as far as that end could as well end there and drive on.
+        3. So all approaches are asked only for the back-offs in between.
+        """
+        here, last = state.back_off, self._work.back_offs - 1
+        staying = self._within(state, fold, (here, here), _FEW) or self._within(state, fold, (here, here), None)
+        if staying:
+            return staying[:1]
+        few = self._within(state, fold, (0, last), _FEW)
+        straight = {end for way in few for end in way.straight_ends(state)}
+        low = max((end + 1 for end in straight if end < here), default=0)
+        high = min((end - 1 for end in straight if end > here), default=last)
+        return few + self._within(state, fold, (low, high), None)
+
+    def _within(
+        self, state: State, fold: int, window: tuple[int, int], most: int | None
+    ) -> tuple[FoldWay, ...]:
+        """The ways that keep to a window of back-offs, with so many of the best approaches for each arm."""
+        key = (self._key(state, fold), window, most)
         if key not in self._found:
-            self._found[key] = tuple(self._search(state, fold))
+            ways = (self._way(state, trial, window, most) for trial in self._possible(state, fold))
+            self._found[key] = tuple(way for way in ways if way is not None)
         return self._found[key]
 
-    def _search(self, state: State, fold: int) -> Iterator[FoldWay]:
+    def _key(self, state: State, fold: int) -> tuple[object, ...]:
+        _, x, y, station, _, held, is_dragged = state.key
+        return (state.done, x, y, station, held, is_dragged, fold)
+
+    def _possible(self, state: State, fold: int) -> tuple[_Trial, ...]:
+        key = self._key(state, fold)
+        if key not in self._trials:
+            self._trials[key] = tuple(self._search(state, fold))
+        return self._trials[key]
+
+    def _search(self, state: State, fold: int) -> Iterator[_Trial]:
         obstacle = self._geometric_obstacle(state, fold)
         if obstacle is not None:
             self._work.obstacles.note(obstacle)
             return
         path = self._path(state, fold)
         for cover, arms in self._grips(state, fold):
-            way = self._way(state, fold, path, cover, arms)
-            if way is not None and way.is_possible:
-                yield way
+            trial = self._trial(state, fold, path, cover, arms)
+            if trial is not None:
+                yield trial
 
     def _geometric_obstacle(self, state: State, fold: int) -> Obstacle | None:
         """What speaks against a fold before any arm is asked."""
@@ -150,31 +229,46 @@ class FoldWays:
         for cover in covers:
             yield cover, tuple(next(h.arm for h in held if h.point == point) for point in cover)
 
-    def _way(
+    def _trial(
         self, state: State, fold: int, path: FoldPath, cover: Cover, arms: tuple[int, ...]
-    ) -> FoldWay | None:
+    ) -> _Trial | None:
         work = self._work
         placement = work.placed(state.offset)
         points = placement.to_outer(np.array(cover))
         sweeps = path.sweeps(points)
-        tools = np.stack([path.tool_points(points, sweep) for sweep in sweeps], axis=1)
+        tools = path.tool_paths(points, sweeps)
         turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
-        options = []
+        approaches = []
         for grip, arm, tool_path in zip(cover, arms, tools, strict=True):
-            allowed = (
-                all_approaches(work) if state.held else approaches_from_outside(work, state.done, turn, grip)
-            )
-            option = arm_options(work, state.station, arm, tool_path, allowed, BACK_OFF_STEP_M)
-            if not len(option.approaches):
+            wanted = all_approaches(work) if state.held else approaches_from_outside(work, state.done, turn, grip)
+            able = self._able(state.station, arm, tool_path, wanted)
+            if not len(able):
                 self._note_out_of_reach(state, fold, arm, tool_path)
                 return None
+            approaches.append(able)
+        return _Trial(fold, cover, arms, path, points, sweeps, tools, tuple(approaches))
+
+    def _able(
+        self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        """The approaches in which the path's two ends and its apex are in reach from somewhere."""
+        work = self._work
+        for extreme in work.in_base(station, tools[[len(tools) // 2, -1, 0]]):
+            masks = work.reach.back_offs(arm, extreme[None], approaches, work.back_offs, BACK_OFF_STEP_M)
+            approaches = approaches[masks[:, 0] > 0]
+        return approaches
+
+    def _way(
+        self, state: State, trial: _Trial, window: tuple[int, int], most: int | None
+    ) -> FoldWay | None:
+        options = []
+        for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
+            option = arm_options(self._work, state.station, arm, tools, approaches[:most], window)
+            if not len(option.approaches):
+                return None
             options.append(option)
-        strips = combined(options)
-        if not len(strips.masks):
-            self._note_out_of_reach(state, fold, arms[0], tools[0])
-            return None
-        steps, choice = travel(strips.masks, work.back_offs)
-        return FoldWay(fold, cover, arms, path, points, sweeps, strips, steps, choice)
+        way = trial.way(combined(options), self._work.back_offs)
+        return way if way.is_possible else None
 
     def _note_out_of_reach(self, state: State, fold: int, arm: int, tools: FloatArray) -> None:
         work = self._work

@@ -25,7 +25,7 @@ from planner.primitives.grasping import (
 from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
+from planner.primitives.work import BACK_OFFS_PER_M, Work
 
 DRAGS_PER_M = 10
 """The grid of drag distances: one every 10 cm."""
@@ -150,7 +150,7 @@ class GDrag:
     def __init__(self, work: Work) -> None:
         self._work = work
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
-        self._grips: dict[tuple[object, ...], GripCovers] = {}
+        self._useful: dict[tuple[object, ...], bool] = {}
 
     def successors(self, state: State) -> Iterable[DragStep]:
         """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
@@ -163,6 +163,13 @@ class GDrag:
                 yield from self._letting_go(state, ways, count, offset)
                 for way in ways:
                     yield from self._holding(state, way, count, offset)
+
+    def _serves(self, done: int, fold: int, held: tuple[Held, ...]) -> bool:
+        """Whether a fold can be done with grips held from a drag."""
+        key = (done, fold, tuple(h.key for h in held))
+        if key not in self._useful:
+            self._useful[key] = bool(held_covers(self._work, done, fold, held))
+        return self._useful[key]
 
     def _longest(self) -> int:
         return math.floor(self._work.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
@@ -221,7 +228,7 @@ class GDrag:
         chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
             allowed = approaches_from_outside(work, state.done, turn, grip)
-            option = arm_options(work, state.station, arm, picks[i : i + 1], allowed, BACK_OFF_STEP_M)
+            option = arm_options(work, state.station, arm, picks[i : i + 1], allowed, (0, work.back_offs - 1))
             for index, mask in reversed(list(zip(option.approaches, option.masks[:, 0], strict=True))):
                 stands = [b for b in range(work.back_offs) if int(mask) >> b & 1]
                 chosen[stands, i] = index
@@ -249,7 +256,7 @@ class GDrag:
         work = self._work
         held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
         blue = (f for f in work.sequence.dag.available(state.done) if not work.sequence.folds[f].is_red)
-        if not any(held_covers(work, state.done, f, held) for f in blue):
+        if not any(self._serves(state.done, f, held) for f in blue):
             return
         for stand in way.stands:
             end = stand + count * _STEPS_PER_DRAG

@@ -127,7 +127,7 @@ class FoldStep:
         self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False
     ) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
-        paths = np.stack([self._tools(sweep) for sweep in sweeps], axis=1)
+        paths = self.way.path.tool_paths(self.way.points, np.array(sweeps))
         for number, arm in enumerate(self.way.arms):
             points = tuple(_point(p) for p in paths[number])
             hands[arm] = Hand(self._approach(number), points, is_closed, is_reaching)
@@ -157,23 +157,16 @@ class GFold:
         for fold in self._work.sequence.dag.available(state.done):
             if state.is_dragged and self._work.sequence.folds[fold].is_red:
                 continue
-            ways = self._ways.of(state, fold)
             if self._work.sequence.dag.follows_at_once(fold):
-                for way in ways:
+                for way in self._ways.to_every_end(state, fold):
                     yield from self._holding(state, way)
-            elif ways:
+                continue
+            ways = self._ways.to_unbeaten_ends(state, fold)
+            if ways:
                 yield from self._letting_go(state, ways)
 
-    def _ends(self, state: State, way: FoldWay) -> tuple[FloatArray, FloatArray]:
-        """For each end back-off the least steps in all, and the back-off from which the path is begun."""
-        if state.held:
-            return way.steps[state.back_off], np.full(len(way.steps), state.back_off)
-        approach = np.abs(np.arange(len(way.steps)) - state.back_off)
-        total = way.steps + approach[:, None]
-        return total.min(axis=0), total.argmin(axis=0)
-
     def _letting_go(self, state: State, ways: tuple[FoldWay, ...]) -> Iterator[FoldStep]:
-        found = [(way, *self._ends(state, way)) for way in ways]
+        found = [(way, *way.ends(state)) for way in ways]
         totals = np.array([steps for _, steps, _ in found])
         best, which = totals.min(axis=0), totals.argmin(axis=0)
         for end in unbeaten(best):
@@ -181,7 +174,7 @@ class GFold:
             yield self._step(state, way, int(firsts[end]), end, ())
 
     def _holding(self, state: State, way: FoldWay) -> Iterator[FoldStep]:
-        steps, firsts = self._ends(state, way)
+        steps, firsts = way.ends(state)
         line = self._work.sequence.folds[way.fold].line
         over = Isometry.reflection(line)
         held = tuple(

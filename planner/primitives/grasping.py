@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from itertools import combinations, permutations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, FloatArray, Point2, wrapped_angle
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.primitives.work import Work
+from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 GRIPS_APART_M = 0.10
 """Two grips nearer to each other than this cannot be taken by two hands (m)."""
@@ -101,11 +102,26 @@ class ArmOptions:
 
 
 def arm_options(
-    work: Work, station: int, arm: int, tool_points: FloatArray, approaches: NDArray[np.int64], step_m: float
+    work: Work,
+    station: int,
+    arm: int,
+    tool_points: FloatArray,
+    approaches: NDArray[np.int64],
+    window: tuple[int, int],
 ) -> ArmOptions:
-    """Ask the robot along a path of one arm, table frame, shape (n, 3), and keep what can matter."""
-    points = work.in_base(station, tool_points)
-    masks = work.reach.back_offs(arm, points, approaches, work.back_offs, step_m)
+    """Ask the robot along a path of one arm and keep what can matter.
+
+    Args:
+        work: the problem.
+        station: where the robot stands.
+        arm: the arm's number.
+        tool_points: the path in the table frame, shape (n, 3), m.
+        approaches: what may be tried, best first.
+        window: the first and last back-off asked for.
+    """
+    low, high = window
+    points = work.in_base(station, tool_points) + np.array([low * BACK_OFF_STEP_M, 0.0, 0.0])
+    masks = work.reach.back_offs(arm, points, approaches, high - low + 1, BACK_OFF_STEP_M) << np.uint32(low)
     kept = _undominated(masks)
     return ArmOptions(arm, approaches[kept], masks[kept])
 
@@ -113,11 +129,22 @@ def arm_options(
 def _undominated(masks: NDArray[np.uint32]) -> NDArray[np.int64]:
     """Rows that can be followed and that no other row allows at least as much as (the first of equals)."""
     alive = np.flatnonzero(masks.all(axis=1))
-    kept: list[int] = []
-    for row in sorted(alive, key=lambda i: (-int(np.bitwise_count(masks[i]).sum()), i)):
-        if not any(np.all(masks[row] & ~masks[other] == 0) for other in kept):
-            kept.append(int(row))
-    return np.array(sorted(kept), dtype=np.int64)
+    rows = masks[alive]
+    freedom = np.bitwise_count(rows).sum(axis=1, dtype=np.int64)
+    order = np.argsort(-freedom, kind="stable")
+    return np.sort(alive[order[_first_of_kind(rows[order])]])
+
+
+@njit(cache=True)
+def _first_of_kind(rows: NDArray[np.uint32]) -> BoolArray:
+    """Which rows, sorted by falling freedom, are not contained in one before them."""
+    is_kept = np.ones(len(rows), dtype=np.bool_)
+    for i in range(len(rows)):
+        for j in range(i):
+            if is_kept[j] and not np.any(rows[i] & ~rows[j]):
+                is_kept[i] = False
+                break
+    return is_kept
 
 
 @dataclass(frozen=True, slots=True)

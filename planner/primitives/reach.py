@@ -27,7 +27,11 @@ class Reach(Protocol):
     def back_offs(
         self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> NDArray[np.uint32]:
-        """For each approach and point, the back-offs from which the arm's tool is there in comfort.
+        """For each approach, the back-offs at which the base may stand while the arm's tool follows a path.
+
+        The tool keeps one orientation. At each point the base may drive while the tool rests there, if the tool is
+        in comfort at every back-off on the way. So a back-off counts at a point if the base was there at the point
+        before, or can drive there; at the first point every back-off in comfort counts.
 
         Args:
             arm: index into `arm_names`.
@@ -38,9 +42,8 @@ class Reach(Protocol):
             step_m: from one back-off to the next (m).
 
         Returns:
-            Bit masks, shape (k, n): bit j is set where the point is reachable with comfort when the
-            base has backed off by j * step_m. A path is followed in one orientation, so where any
-            point of it is reachable from no back-off in an approach, that approach's whole row is 0.
+            Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the
+            path cannot be followed to its end, that approach's whole row is 0.
         """
         ...
 

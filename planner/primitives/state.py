@@ -1,6 +1,6 @@
 """What the search tells apart: folds done, placement, where the base stands, what is held."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
@@ -35,6 +35,7 @@ class State:
         back_off: how many steps the base has backed off from it.
         held: what is held; empty when the hands are free.
         is_dragged: whether what is held is held from a drag (else from a fold, for a red fold).
+        key: all of that, places in steps of the grid.
     """
 
     done: int
@@ -43,13 +44,14 @@ class State:
     back_off: int
     held: tuple[Held, ...] = ()
     is_dragged: bool = False
+    key: tuple[object, ...] = field(init=False, repr=False)
 
-    @property
-    def key(self) -> tuple[object, ...]:
-        """The state to the grid."""
-        x, y = self.offset
+    def __post_init__(self) -> None:
+        """Work out the key: the state to the grid."""
+        x, y = (grid_key(c) for c in self.offset)
         held = tuple(h.key for h in self.held)
-        return (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.is_dragged)
+        key = (self.done, x, y, self.station, self.back_off, held, self.is_dragged)
+        object.__setattr__(self, "key", key)
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same to the grid."""

@@ -1,7 +1,7 @@
 """From which back-offs is a tool comfortable at each of many points? The search's questions, compiled.
 
 Asked naively this is points x approaches x back-offs x five comfort points of exact queries, and a search
-asks again and again. Three things make it cheap without changing an answer:
+asks again and again. Four things make it cheap without changing an answer:
 
 - *Dying early.* A path is followed in one orientation, so an approach is dropped at the first point that
   can be had from no back-off. A path's ends and middle are asked first: they are the likeliest to fail.
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import MOST_ARCS, Aim, aim_at, is_reachable, is_within_length
+from planner.robot.kernel import MOST_ARCS, Aim, aim_at, is_reachable_near, is_within_length
 
 CELL_BITS = 18
 """A coordinate is kept as this many bits of `LENGTH_M` steps: 1.3 m either way from the shoulder."""
@@ -68,46 +68,100 @@ def _slot(table: NDArray[np.int64], key: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def is_comfortable(shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray) -> tuple[bool, int]:
+def is_comfortable(
+    shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray, hint: FloatArray
+) -> tuple[bool, int]:
     """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made."""
-    if not is_reachable(shape, aim, arcs):
+    if not is_reachable_near(shape, aim, arcs, hint):
         return False, 1
     if comfort <= 0.0:
         return True, 1
     queries = 1
     for dx, dy in ((comfort, 0.0), (-comfort, 0.0), (0.0, comfort), (0.0, -comfort)):
         queries += 1
-        if not is_reachable(shape, Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az), arcs):
+        if not is_reachable_near(shape, Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az), arcs, hint):
+            return False, queries
+    return True, queries
+
+
+class Question(NamedTuple):
+    """What stays the same while one approach is followed along a path.
+
+    Attributes:
+        shape: the arm.
+        shoulder: where the shoulder is, in the frame of the points (m), shape (3,).
+        axis: the approach axis, shape (3,).
+        label: what to call the approach in the memory, at least 1.
+        count: how many back-offs there are.
+        step: from one back-off to the next (m).
+        comfort: radius of the comfort circle (m).
+        arcs: room to work in, shape (MOST_ARCS, 2).
+        hint: the pan that served last (rad), shape (1,).
+    """
+
+    shape: ArmShape
+    shoulder: FloatArray
+    axis: FloatArray
+    label: int
+    count: int
+    step: float
+    comfort: float
+    arcs: FloatArray
+    hint: FloatArray
+
+
+@njit(cache=True, nogil=True)
+def _recalled(ask: Question, memory: Memory, point: FloatArray, back_off: int) -> tuple[bool, int]:
+    """Whether a tool point is comfortable from a back-off, from memory if it is known there; queries made."""
+    shoulder = ask.shoulder
+    x, y, z = _steps(point[0] + back_off * ask.step), _steps(point[1]), _steps(point[2])
+    ahead, left, up = x * LENGTH_M - shoulder[0], y * LENGTH_M - shoulder[1], z * LENGTH_M - shoulder[2]
+    aim = aim_at(ask.shape, ahead, left, up, ask.axis[0], ask.axis[1], ask.axis[2])
+    if not is_within_length(ask.shape, aim):
+        return False, 0
+    key = _key(ask.label, x - _steps(shoulder[0]), y - _steps(shoulder[1]), z - _steps(shoulder[2]))
+    slot = _slot(memory.table, key)
+    if memory.table[slot] != 0:
+        return memory.table[slot] & 1 == 1, 0
+    answer, queries = is_comfortable(ask.shape, aim, ask.comfort, ask.arcs, ask.hint)
+    if 4 * memory.entries[0] < 3 * len(memory.table):
+        memory.table[slot] = 2 * key + (1 if answer else 0)
+        memory.entries[0] += 1
+    return answer, queries
+
+
+@njit(cache=True, nogil=True)
+def _is_out_of_reach(ask: Question, memory: Memory, point: FloatArray) -> tuple[bool, int]:
+    """Whether a point can be had from no back-off at all; queries made."""
+    queries = 0
+    for back_off in range(ask.count):
+        answer, asked = _recalled(ask, memory, point, back_off)
+        queries += asked
+        if answer:
             return False, queries
     return True, queries
 
 
 @njit(cache=True, nogil=True)
-def _recalled(
-    shape: ArmShape,
-    memory: Memory,
-    shoulder: FloatArray,
-    point: tuple[float, float, float],
-    axis: FloatArray,
-    label: int,
-    comfort: float,
-    arcs: FloatArray,
-) -> tuple[bool, int]:
-    """Whether a tool point is comfortable, from memory if it is known there; queries made."""
-    x, y, z = _steps(point[0]), _steps(point[1]), _steps(point[2])
-    ahead, left, up = x * LENGTH_M - shoulder[0], y * LENGTH_M - shoulder[1], z * LENGTH_M - shoulder[2]
-    aim = aim_at(shape, ahead, left, up, axis[0], axis[1], axis[2])
-    if not is_within_length(shape, aim):
-        return False, 0
-    key = _key(label, x - _steps(shoulder[0]), y - _steps(shoulder[1]), z - _steps(shoulder[2]))
-    slot = _slot(memory.table, key)
-    if memory.table[slot] != 0:
-        return memory.table[slot] & 1 == 1, 0
-    answer, queries = is_comfortable(shape, aim, comfort, arcs)
-    if 4 * memory.entries[0] < 3 * len(memory.table):
-        memory.table[slot] = 2 * key + (1 if answer else 0)
-        memory.entries[0] += 1
-    return answer, queries
+def _arrivals(ask: Question, memory: Memory, point: FloatArray, before: int) -> tuple[int, int]:
+    """The back-offs at which the base may be at a point, having come from some at the point before; queries made.
+
+    Those it came from that reach the point too, and those to which it can drive on from there.
+    """
+    mask, queries = 0, 0
+    for back_off in range(ask.count):
+        is_next = back_off > 0 and (mask >> (back_off - 1)) & 1 == 1
+        if (before >> back_off) & 1 == 1 or is_next:
+            answer, asked = _recalled(ask, memory, point, back_off)
+            queries += asked
+            mask |= (1 if answer else 0) << back_off
+    for back_off in range(ask.count - 2, -1, -1):
+        is_new = (before >> back_off) & 1 == 0 and (mask >> back_off) & 1 == 0
+        if is_new and (mask >> (back_off + 1)) & 1 == 1:
+            answer, asked = _recalled(ask, memory, point, back_off)
+            queries += asked
+            mask |= (1 if answer else 0) << back_off
+    return mask, queries
 
 
 @njit(cache=True, nogil=True)
@@ -136,34 +190,24 @@ def back_off_masks(
         comfort: radius of the circle (m).
     """
     arcs = np.empty((MOST_ARCS, 2))
+    hint = np.array([0.5 * (shape.pan.low + shape.pan.high)])
     masks = np.zeros((len(axes), len(points)), dtype=np.uint32)
     queries = 0
     for approach in range(len(axes)):
-        for turn in range(len(points)):
-            i = _extremes_first(turn, len(points))
-            mask = 0
-            for back_off in range(count):
-                point = (points[i, 0] + back_off * step, points[i, 1], points[i, 2])
-                answer, asked = _recalled(
-                    shape, memory, shoulder, point, axes[approach], labels[approach], comfort, arcs
-                )
+        ask = Question(shape, shoulder, axes[approach], labels[approach], count, step, comfort, arcs, hint)
+        is_dead = False
+        for i in (len(points) - 1, len(points) // 2):
+            if i > 0 and not is_dead:
+                is_dead, asked = _is_out_of_reach(ask, memory, points[i])
                 queries += asked
-                mask |= (1 if answer else 0) << back_off
+        if is_dead:
+            continue
+        mask = (1 << count) - 1
+        for i in range(len(points)):
+            mask, asked = _arrivals(ask, memory, points[i], mask)
+            queries += asked
             masks[approach, i] = mask
             if mask == 0:
                 masks[approach, :] = 0
                 break
     return masks, queries
-
-
-@njit(cache=True, nogil=True)
-def _extremes_first(turn: int, count: int) -> int:
-    """Which point is visited at a turn: the first, the last, the middle one, then the others in order."""
-    middle = count // 2
-    if turn == 0 or count <= 2:
-        return turn
-    if turn == 1:
-        return count - 1
-    if turn == 2:
-        return middle
-    return turn - 2 if turn - 2 < middle else turn - 1

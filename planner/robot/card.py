@@ -45,6 +45,7 @@ class ArmCard:
         name: what people call it.
         joint_names: its seven joints in the URDF, from the shoulder outwards.
         speeds_rad_s: how fast each of them may turn (rad/s).
+        is_continuous: which of them turn without end.
         tool_frame: the URDF frame between the fingertips, x along the approach axis.
         home: the joints when the arm is out of the way (rad).
         gripper: its gripper.
@@ -53,6 +54,7 @@ class ArmCard:
     name: str
     joint_names: tuple[str, ...]
     speeds_rad_s: tuple[float, ...]
+    is_continuous: tuple[bool, ...]
     tool_frame: str
     home: tuple[float, ...]
     gripper: GripperCard

@@ -71,6 +71,7 @@ def _unwound(angle: float, near: float) -> float:
 @njit(cache=True, nogil=True)
 def _place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: FloatArray) -> None:
     """Set pan, lift, roll and elbow so that the wrist's centre is where it must be; nan where it cannot."""
+    pan = _within(shape.pan, pan)
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
     bones_2 = shape.upper * shape.upper + shape.fore * shape.fore

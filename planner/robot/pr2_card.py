@@ -38,11 +38,12 @@ def pr2_card(model: pin.Model) -> RobotCard:
 def _arm_card(model: pin.Model, name: str, side: float) -> ArmCard:
     prefix = name[0]
     joint_names = tuple(f"{prefix}_{joint}" for joint in JOINTS)
-    indices = [model.joints[model.getJointId(joint)].idx_v for joint in joint_names]
+    joints = [model.joints[model.getJointId(joint)] for joint in joint_names]
     return ArmCard(
         name=name,
         joint_names=joint_names,
-        speeds_rad_s=tuple(float(model.velocityLimit[index]) for index in indices),
+        speeds_rad_s=tuple(float(model.velocityLimit[joint.idx_v]) for joint in joints),
+        is_continuous=tuple(joint.nq > joint.nv for joint in joints),
         tool_frame=f"{prefix}_gripper_tool_frame",
         home=tuple(q if side > 0 else q * float(mirror) for q, mirror in zip(_HOME, MIRROR, strict=True)),
         gripper=_gripper_card(model, prefix),

@@ -99,8 +99,8 @@ class Pr2Reach:
             step_m: from one back-off to the next (m).
 
         Returns:
-            Bit j is set where the base may have backed off by j * step_m; a row is 0 as soon as one
-            of its points is reachable from nowhere.
+            Bit j is set where the base may stand, having backed off by j * step_m, when the hand has
+            followed the points up to there; a row is 0 if it cannot follow them all.
         """
         if count > _MOST_BACK_OFFS:
             raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")

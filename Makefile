@@ -1,0 +1,92 @@
+# Pleat. `make help` lists what there is; every target sets up what it needs first.
+
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+PYTEST := $(BIN)/python -m pytest
+# How many tests run at once.
+JOBS ?= 2
+
+# Stamps: newer than the pinned requirements when what they ask for is installed.
+READY := $(VENV)/.ready
+READY_DEV := $(VENV)/.ready-dev
+
+.DEFAULT_GOAL := help
+.PHONY: help run check format lint types test-quick test test-long browser bench lock clean
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
+	    printf '%-18s %s\n' "$$target" "$$text"; done
+
+run: $(READY) ## serve the designer on http://127.0.0.1:8000
+	@exec $(BIN)/pleat serve
+
+check: lint types test-quick ## format, lint, types, and the tests that are quick and need no browser
+
+format: $(READY_DEV) ## put the code into its format
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+lint: $(READY_DEV)
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+types: $(READY_DEV)
+	$(BIN)/mypy
+
+test-quick: $(READY_DEV)
+	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow"
+
+test: $(READY_DEV) browser ## every test
+	$(PYTEST) -n $(JOBS) --dist loadfile
+
+test-long: $(READY_DEV) browser ## every test, with twenty times the random cases
+	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long
+
+bench: $(READY) ## the benchmark tables, also as JSON under bench/out/
+	$(BIN)/python -m bench
+
+# The browser tests take Debian's Chromium where there is one, Playwright's own otherwise.
+browser: $(READY_DEV)
+	@test -x /usr/bin/chromium && exit 0; \
+	if command -v apt-get >/dev/null; then \
+	    if test "$$(id -u)" = 0; then sudo=; elif sudo -n true 2>/dev/null; then sudo="sudo -n"; else sudo=false; fi; \
+	    $$sudo apt-get update -qq && \
+	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium; \
+	fi; \
+	test -x /usr/bin/chromium || $(BIN)/python -m playwright install chromium
+
+# Pins for every machine: the versions of `requirements-dev.txt` hold for `requirements.txt` too.
+COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps-for editable --generate-hashes \
+    --no-header --no-emit-options --no-emit-index-url --no-emit-trusted-host --no-emit-find-links
+
+lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
+	$(PIP) install pip-tools
+	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
+	$(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements.txt pyproject.toml
+
+clean: ## remove the virtual environment and all that was generated
+	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(BIN)/python:
+	@for python in $(PYTHON) python3 python3.14 python3.13 python3.12 python3.11 python; do \
+	    "$$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 || continue; \
+	    "$$python" -m venv --clear $(VENV) && exit 0; \
+	    rm -rf $(VENV); \
+	    echo "$$python cannot make virtual environments (on Debian: apt-get install python3-venv)" >&2; exit 1; \
+	done; \
+	echo "Pleat needs Python 3.11 or newer; if it has another name: make PYTHON=/path/to/python" >&2; exit 1
+
+# The last step compiles the kernels, so that the first plan does not wait for it.
+$(READY): requirements.txt pyproject.toml | $(BIN)/python
+	@echo "Setting up $(VENV): a minute or two, once"
+	@$(PIP) install --require-hashes -r requirements.txt
+	@$(PIP) install --no-deps --no-build-isolation -e .
+	@$(BIN)/python -c "from planner.robot.pr2 import warm_up; warm_up()"
+	@touch $@
+
+$(READY_DEV): requirements-dev.txt $(READY)
+	@echo "Setting up the tools for tests"
+	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@touch $@

@@ -1,0 +1,165 @@
+"""What the robot says it can reach, against forward kinematics and against the naive way of asking."""
+
+import numpy as np
+import pytest
+
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import Approach
+from planner.robot import back_offs, reach
+from planner.robot.pr2 import load_robot, warm_up
+from planner.robot.reach import APPROACHES
+from tests.robot.model import limits, pin_tool_pose, random_joints
+
+ROBOT = load_robot("pr2")
+CARD = ROBOT.card
+TORSO_M = 0.29
+STEP_M = 0.05
+COUNT = 17
+EVERY_APPROACH = np.arange(len(APPROACHES))
+
+
+def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down():
+    assert len(APPROACHES) == 4 * 13 + 1
+    assert [approach for approach in APPROACHES if approach.is_vertical] == [Approach(0.0, np.pi / 2)]
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_every_pose_of_a_configuration_within_limits_is_reachable(arm):
+    rng = np.random.default_rng(11)
+    poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
+    positions, rotations = (np.array(part) for part in zip(*poses, strict=True))
+    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    assert answers.mean() >= 0.9995
+    for i in np.flatnonzero(~answers):
+        around = positions[i] + 0.01 * np.vstack((np.eye(3), -np.eye(3)))
+        assert not ROBOT.can_reach(arm, around, np.repeat(rotations[i : i + 1], 6, axis=0), TORSO_M).all()
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_everything_reachable_has_joints_within_limits_that_reach_it(arm):
+    rng = np.random.default_rng(12)
+    positions = rng.uniform((-0.2, -1.1, 0.2), (1.0, 1.1, 1.8), (4000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    assert 300 < answers.sum() < 2000
+    low, high = limits(CARD, arm)
+    for position, rotation in zip(positions[answers], rotations[answers], strict=True):
+        joints = ROBOT.joints_near(arm, position, rotation, TORSO_M, ROBOT.home(arm))
+        assert joints is not None
+        assert np.all((low <= joints) & (joints <= high))
+        reached, turned = pin_tool_pose(CARD, arm, joints, TORSO_M)
+        assert max(abs(reached - position).max(), abs(turned - rotation).max()) < 1e-6
+
+
+def test_mirrored_questions_have_the_same_answer():
+    rng = np.random.default_rng(13)
+    mirror = np.array([1.0, -1.0, 1.0])
+    positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (5000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    left = ROBOT.can_reach(0, positions, rotations, TORSO_M)
+    right = ROBOT.can_reach(1, positions * mirror, mirror[:, None] * rotations * mirror, TORSO_M)
+    np.testing.assert_array_equal(left, right)
+
+
+def test_rolling_the_tool_about_its_axis_changes_nothing():
+    rng = np.random.default_rng(14)
+    positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (2000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    rolled = rotations[:, :, [0, 2, 1]] * np.array([1.0, 1.0, -1.0])
+    np.testing.assert_array_equal(
+        ROBOT.can_reach(0, positions, rotations, TORSO_M), ROBOT.can_reach(0, positions, rolled, TORSO_M)
+    )
+
+
+@pytest.mark.parametrize("comfort_m", [0.0, 0.03])
+@pytest.mark.parametrize("arm", [0, 1])
+def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
+    asked = ROBOT.reach(TORSO_M, comfort_m)
+    for points in _paths(np.random.default_rng(15)):
+        masks = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        np.testing.assert_array_equal(masks, _naive_masks(arm, points, comfort_m))
+        again = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        np.testing.assert_array_equal(masks, again)
+
+
+def test_what_was_asked_before_is_not_queried_again():
+    asked = ROBOT.reach(TORSO_M, 0.03)
+    points = next(_paths(np.random.default_rng(16)))
+    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    assert queries > 0
+    assert asked.query_time_s > 0.0
+    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    assert asked.queries == queries
+
+
+def test_the_right_arm_profits_from_what_the_left_one_was_asked():
+    asked = ROBOT.reach(TORSO_M, 0.03)
+    points = next(_paths(np.random.default_rng(17)))
+    left = asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    by_direction = {(a.heading_rad, a.pitch_rad): i for i, a in enumerate(APPROACHES)}
+    mirrored = np.array([by_direction[-a.heading_rad, a.pitch_rad] for a in APPROACHES])
+    right = asked.back_offs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
+    np.testing.assert_array_equal(left, right)
+    assert asked.queries == queries
+
+
+def test_a_full_memory_changes_no_answer(monkeypatch):
+    usual = ROBOT.reach(TORSO_M, 0.03)
+    tiny = back_offs.empty_memory(bits=4)
+    monkeypatch.setattr(reach, "empty_memory", lambda: tiny)
+    forgetful = ROBOT.reach(TORSO_M, 0.03)
+    for points in _paths(np.random.default_rng(18)):
+        np.testing.assert_array_equal(
+            forgetful.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+            usual.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+        )
+
+
+def test_no_points_have_no_back_offs():
+    masks = ROBOT.reach(TORSO_M, 0.0).back_offs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
+    assert masks.shape == (len(APPROACHES), 0)
+
+
+def test_what_cannot_be_asked_is_refused():
+    with pytest.raises(SceneError, match="torso_m"):
+        ROBOT.reach(0.5, 0.03)
+    with pytest.raises(RequestError, match="comfort_m"):
+        ROBOT.reach(0.1, -0.01)
+    with pytest.raises(ValueError, match="33"):
+        ROBOT.reach(0.1, 0.0).back_offs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
+
+
+def test_warming_up_twice_does_no_harm():
+    warm_up()
+    warm_up()
+
+
+def _paths(rng: np.random.Generator):
+    """Half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
+    for _ in range(6):
+        turn = np.linspace(0.0, np.pi, 5)
+        x, y, radius = rng.uniform(0.1, 0.7), rng.uniform(-0.3, 0.3), rng.uniform(0.05, 0.2)
+        heights = 0.79 + radius * np.sin(turn)
+        yield np.round(np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1), 5)
+
+
+def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
+    """One query for each approach, point, back-off and comfort point, nothing left out."""
+    ring = comfort_m * np.array([(0, 0, 0), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
+    back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
+    asked = points[:, None, None, :] + back[:, None, :] + ring
+    masks = np.zeros((len(APPROACHES), len(points)), dtype=np.uint32)
+    for index, approach in enumerate(APPROACHES):
+        rotations = np.broadcast_to(approach.rotation, (asked.size // 3, 3, 3))
+        answers = ROBOT.can_reach(arm, asked.reshape(-1, 3), rotations, TORSO_M)
+        comfortable = answers.reshape(len(points), COUNT, len(ring)).all(axis=2)
+        row = (comfortable * (1 << np.arange(COUNT))).sum(axis=1)
+        masks[index] = row if row.all() else 0
+    return masks
+
+
+def _random_rotation(rng: np.random.Generator) -> np.ndarray:
+    rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    return rotation * np.linalg.det(rotation)
