@@ -1,14 +1,26 @@
 """Pleat plans how a robot can really fold a garment.
 
-    from planner import Scene, load_garment, make_plan
+from planner import Scene, load_garment, make_plan
 
-    plan = make_plan(load_garment("t-shirt"), Scene())
+plan = make_plan(load_garment("t-shirt"), Scene())
 """
 
 from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
+from planner.folds.fold_sequence import FoldSequence, fold_dag
+from planner.plan.garment_check import check_garment
 from planner.plan.make_plan import make_plan
 from planner.plan.plan import Plan
 from planner.primitives.scene import Scene
 
-__all__ = ["Garment", "Plan", "Scene", "load_garment", "make_plan", "shipped_garment_names"]
+__all__ = [
+    "FoldSequence",
+    "Garment",
+    "Plan",
+    "Scene",
+    "check_garment",
+    "fold_dag",
+    "load_garment",
+    "make_plan",
+    "shipped_garment_names",
+]

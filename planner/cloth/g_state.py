@@ -5,14 +5,12 @@ stack of layers to the table is not.
 """
 
 import math
-
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.must_hold import must_hold
-
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -80,9 +78,7 @@ def unrest(
     if cloth.silhouette.intersection(top.region).is_sliver:
         return Unrest("not_a_g_state", "nothing of the cloth lies on the table")
     return (
-        _covered_corner(cloth, top, table)
-        or _loose_part(cloth, top, support_angle_rad)
-        or _slip(cloth, top, friction)
+        _covered_corner(cloth, top, table) or _loose_part(cloth, top, support_angle_rad) or _slip(cloth, top, friction)
     )
 
 
@@ -155,5 +151,3 @@ def _slip(cloth: ClothState, top: TableInArticle, friction: float) -> Unrest | N
         "slips",
         f"the hanging parts pull with {share:.2f} times the weight on the table; friction holds {friction:.2f} times",
     )
-
-

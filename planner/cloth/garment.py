@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
 from planner.cloth.outline import EDGE_MIN_M, require_simple_outline
 from planner.errors import GarmentError
@@ -165,7 +165,7 @@ class _GarmentModel(StrictModel):
     title: str | None = None
     outline: list[PlanePoint]
     areal_density_kg_m2: Positive = DEFAULT_DENSITY_KG_M2
-    folds: list[_FoldModel] = []
+    folds: list[_FoldModel] = Field(default_factory=list)
     grip_radius_m: Positive = DEFAULT_GRIP_RADIUS_M
     placement: _PlacementModel | None = None
 

@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 from planner.cloth.garment import NAME_PATTERN, Garment
 from planner.errors import GarmentError, GarmentFileError, UnknownGarmentError
@@ -36,7 +35,7 @@ def load_garment(source: str | Path) -> Garment:
     return _read(Path(source))
 
 
-def read_json(path: Path) -> Any:
+def read_json(path: Path) -> object:
     """The JSON in a file; raises `GarmentFileError` if it is missing or no JSON."""
     try:
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)

@@ -60,9 +60,7 @@ def grip_covers(piece: Region, vertices: FloatArray, radius_m: float, at_most: i
     return GripCovers(points, best_covers(candidates, vertices, radius_m, at_most))
 
 
-def best_covers(
-    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int
-) -> tuple[Cover, ...]:
+def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
     """Of the given candidates, shape (m, 2), the best covers of the vertices, ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
     holds = distances <= radius_m + LENGTH_M
@@ -107,7 +105,7 @@ def _covering_sets(holds: BoolArray, count: int) -> np.ndarray[tuple[int, int], 
     if count == 1:
         return everything[holds.all(axis=1)][:, None]
     if count == 2:
-        pairs = [_partners(holds, i) for i in np.flatnonzero(holds[:, 0])]
+        pairs = [_partners(holds, int(i)) for i in np.flatnonzero(holds[:, 0])]
         return np.vstack(pairs) if pairs else np.empty((0, 2), dtype=np.int64)
     sets = [s for s in combinations(range(len(holds)), count) if holds[list(s)].any(axis=0).all()]
     return np.array(sets, dtype=np.int64).reshape(-1, count)

@@ -16,9 +16,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
 
-def must_hold(
-    piece: Region, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float
-) -> FloatArray:
+def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float) -> FloatArray:
     """The vertices of a piece of cloth that must be held.
 
     Args:

@@ -7,7 +7,6 @@ import numpy as np
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.layer import Layer
 from planner.errors import FoldError
-from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along

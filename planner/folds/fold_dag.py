@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import networkx as nx
 
@@ -26,6 +27,10 @@ class FoldDag:
     def folds(self) -> int:
         """The number of folds."""
         return sum(len(chain) for chain in self.chains)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The DAG as JSON."""
+        return {"folds": self.folds, "edges": [list(edge) for edge in self.edges]}
 
     def available(self, done: int) -> tuple[int, ...]:
         """The folds that may come next.

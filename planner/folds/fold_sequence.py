@@ -6,6 +6,7 @@ folds is found by doing that set in the user's order; it is kept for the next ti
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
@@ -60,6 +61,10 @@ class FoldSequence:
         start = ClothState.spread_out(garment.pattern)
         return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start}, {})
 
+    def to_dict(self) -> dict[str, Any]:
+        """The Fold-DAG and the final stack, bottom to top, as JSON."""
+        return {**self.dag.to_dict(), "layers": [layer.to_dict() for layer in self.final.layers]}
+
     def cloth(self, done: int) -> ClothState:
         """The stack after a set of folds, given as a bit mask."""
         if done not in self._cloths:
@@ -84,6 +89,15 @@ class FoldSequence:
             vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
             self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms)
         return self._covers[key]
+
+
+def fold_dag(garment: Garment) -> FoldSequence:
+    """A garment's folds made legal, with their Fold-DAG; `FoldSequence.to_dict` is its JSON.
+
+    Raises:
+        FoldError: a fold is not legal; the field names it.
+    """
+    return FoldSequence.of(garment)
 
 
 def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold]) -> tuple[Fold, Folded]:

@@ -48,7 +48,7 @@ class Isometry:
     def apply(self, points: FloatArray) -> FloatArray:
         """Where points go, shape (..., 2), m."""
         matrix = np.array([[self.a, self.b], [self.c, self.d]])
-        return points @ matrix.T + np.array([self.x, self.y])
+        return np.asarray(points @ matrix.T + np.array([self.x, self.y]))
 
     def apply_point(self, point: Point2) -> Point2:
         """Where one point goes (m)."""

@@ -45,11 +45,11 @@ class Segment:
 
     def left_distances(self, points: FloatArray) -> FloatArray:
         """Signed distances of points, shape (n, 2), from the whole line, positive on its left (m)."""
-        return (points - np.array(self.start)) @ np.array(self.left)
+        return np.asarray((points - np.array(self.start)) @ np.array(self.left))
 
     def positions(self, points: FloatArray) -> FloatArray:
         """Where points, shape (n, 2), project onto the line, from the start along the direction (m)."""
-        return (points - np.array(self.start)) @ np.array(self.direction)
+        return np.asarray((points - np.array(self.start)) @ np.array(self.direction))
 
     def at(self, position_m: float) -> Point2:
         """The point of the line this far from the start."""
@@ -60,7 +60,7 @@ class Segment:
         """Distances of points, shape (n, 2), from the segment itself (m)."""
         along = np.clip(self.positions(points), 0.0, self.length)
         feet = np.array(self.start) + along[:, None] * np.array(self.direction)
-        return np.hypot(*(points - feet).T)
+        return np.asarray(np.hypot(*(points - feet).T))
 
     def meeting_point(self, other: "Segment") -> Point2 | None:
         """A point that two segments share, ends included; None if they are apart."""

@@ -25,6 +25,7 @@ _DESCENT_STEPS = 6
 _RISE_S = 0.8
 _HOME_S = 3.0
 _GRASP_S = 0.3
+_TURN_RAD_S = 2.0
 
 
 @dataclass(slots=True)
@@ -62,9 +63,7 @@ class HandTrack:
         self.joints.append(joints)
 
 
-def hand_tracks(
-    phases: list[Phase], starts: tuple[float, ...], work: Work, machine: Machine
-) -> tuple[HandTrack, ...]:
+def hand_tracks(phases: list[Phase], starts: tuple[float, ...], work: Work, machine: Machine) -> tuple[HandTrack, ...]:
     """The tracks of all arms, from left to right, through phases that start at the given times (s)."""
     arms = range(len(work.reach.arm_names))
     return tuple(_Tracker(arm, work, machine).track(phases, starts) for arm in arms)
@@ -137,15 +136,23 @@ class _Tracker:
         count = max(len(hand.points), int(np.ceil(drive / _BASE_STEP_M)) + 1)
         shares = np.linspace(0.0, 1.0, count)
         points = _resampled(np.array(hand.points), shares)
-        chain = []
-        now = self._now
+        chain: list[FloatArray] = []
         for point, share in zip(points, shares, strict=True):
-            now = self._solved(self._in_base(base[0].between(base[1], float(share)), point), hand.approach, now)
-            chain.append(now)
-        self._track.add(start, chain[0])
-        self._add_chain(chain[1:], start, end)
+            there = self._in_base(base[0].between(base[1], float(share)), point)
+            chain.append(self._solved(there, hand.approach, chain[-1] if chain else self._now))
+        self._add_turning(chain, shares * (end - start) + start)
         self._approach = hand.approach
         self._grip(start, is_closed=hand.is_closed)
+
+    def _add_turning(self, chain: list[FloatArray], times: FloatArray) -> None:
+        """Keyframes at the given times; where the hand must first turn in its grip, it gets time for that."""
+        turn = float(np.abs(chain[0] - self._now).max())
+        settled = times[0] + min(turn / _TURN_RAD_S, (times[-1] - times[0]) / 2)
+        self._track.add(float(times[0]), self._now)
+        for joints, t in zip(chain[1:], times[1:], strict=True):
+            if t >= settled:
+                self._track.add(float(t), joints)
+        self._now = chain[-1]
 
     def _add_chain(self, chain: list[FloatArray], start: float, end: float) -> None:
         """Keyframes at an even pace, the last at the end."""

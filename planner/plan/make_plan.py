@@ -16,6 +16,7 @@ from planner.errors import RequestError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.plan.heuristic import HEURISTICS
+from planner.plan.machine import Machine
 from planner.plan.plan import Plan, PlannedPrimitive, Statistics
 from planner.plan.reasons import Reason, reasons
 from planner.primitives.obstacle import Code
@@ -24,7 +25,6 @@ from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
-from planner.plan.machine import Machine
 from planner.robot.pr2 import load_robot
 from planner.search.a_star import Edge, Outcome, SearchResult, a_star
 
@@ -106,9 +106,7 @@ class _Planner:
             message = f"as the cloth lies at the start, {unrest.message}"
             nothing: SearchResult[State, Step] = SearchResult(Outcome.INFEASIBLE, (), 0.0, 0.0, 0, 0)
             return self._answer(nothing, (Reason(None, Code(unrest.code), message),))
-        result = a_star(
-            start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over
-        )
+        result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
         is_proof = result.outcome is Outcome.INFEASIBLE
         return self._answer(result, reasons(self._work, self._achieved) if is_proof else ())
 
@@ -131,9 +129,7 @@ class _Planner:
         bound = {Outcome.SOLVED: end_s, Outcome.INFEASIBLE: None}.get(result.outcome, result.bound)
         reach = self._work.reach
         elapsed = time.perf_counter() - self._started
-        statistics = Statistics(
-            result.expanded, result.explored, reach.queries, reach.query_time_s, elapsed, bound
-        )
+        statistics = Statistics(result.expanded, result.explored, reach.queries, reach.query_time_s, elapsed, bound)
         return Plan(
             result.outcome.value,
             primitives,

@@ -9,13 +9,13 @@ from planner.cloth.layer import Layer
 from planner.errors import UnsolvedPlanError
 from planner.folds.fold_dag import FoldDag
 from planner.geometry.pose import Pose2
+from planner.plan.machine import Machine
 from planner.plan.reasons import Reason
 from planner.plan.timeline import Timeline
 from planner.primitives.grip import BaseStop, Grip
 from planner.primitives.primitive import Step
 from planner.primitives.scene import Scene
 from planner.primitives.work import Work
-from planner.plan.machine import Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +159,7 @@ class Plan:
             "status": self.status,
             "cost_s": self.cost_s,
             "primitives": [p.to_dict() for p in self.primitives],
-            "dag": {"folds": self.dag.folds, "edges": [list(e) for e in self.dag.edges]},
+            "dag": self.dag.to_dict(),
             "final_layers": [layer.to_dict() for layer in self.final_layers],
             "final_placement": None if self.final_placement is None else self.final_placement.to_dict(),
             "reasons": [r.to_dict() for r in self.reasons],

@@ -13,7 +13,7 @@ IMPOSSIBLE = 1 << 20
 """A number of steps that stands for "no way"."""
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
     """Drive to and fro within the mask at one waypoint."""
     for j in range(count):
@@ -26,21 +26,19 @@ def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
             steps[j] = steps[j + 1] + 1
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
-def _travel(
-    strips: NDArray[np.uint32], count: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+@njit(cache=True)
+def _travel(strips: NDArray[np.uint32], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     best = np.full((count, count), 1 << 20, dtype=np.int64)
     choice = np.full((count, count), -1, dtype=np.int64)
     steps = np.empty(count, dtype=np.int64)
     for number in range(strips.shape[0]):
         for start in range(count):
-            if not (np.int64(strips[number, 0]) >> start) & 1:
+            if not (int(strips[number, 0]) >> start) & 1:
                 continue
             steps[:] = 1 << 20
             steps[start] = 0
             for waypoint in range(strips.shape[1]):
-                _relax(steps, np.int64(strips[number, waypoint]), count)
+                _relax(steps, int(strips[number, waypoint]), count)
             for end in range(count):
                 if steps[end] < best[start, end]:
                     best[start, end] = steps[end]

@@ -5,6 +5,7 @@ that stays outside the table grown by that circle (with square corners), turning
 station's heading and drives in.
 """
 
+import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -94,9 +95,7 @@ class MoveStep:
         still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.work.scene.table))
         free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
         legs = zip(self.route.waypoints[:-1], self.route.waypoints[1:], strict=True)
-        return tuple(
-            Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True)
-        )
+        return tuple(Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True))
 
 
 class BaseMove:
@@ -155,14 +154,16 @@ def shortest_way(start: Point2, goal: Point2, table: Table, circle_m: float) -> 
         for b in places[i + 1 :]:
             if a != b and not _crosses(a, b, half_x, half_y):
                 graph.add_edge(a, b, weight=math.dist(a, b))
-    ways = list(nx.all_shortest_paths(graph, start, goal, weight="weight")) if start != goal else [[start]]
+    if start == goal:
+        return (start,)
+    ways: list[list[Point2]] = list(nx.all_shortest_paths(graph, start, goal, weight="weight"))
     return tuple(min(ways, key=_turning))
 
 
 def route_along(start: Pose2, out: Pose2, bends: tuple[Point2, ...], outside: Pose2, goal: Pose2) -> Route:
     """Back out, turn and drive from bend to bend, turn to the goal's heading, drive in."""
     poses = [start, out]
-    for a, b in zip(bends[:-1], bends[1:], strict=True):
+    for a, b in itertools.pairwise(bends):
         if math.dist(a, b) > LENGTH_M:
             heading = math.atan2(b[1] - a[1], b[0] - a[0])
             poses += [Pose2(*a, heading), Pose2(*b, heading)]
@@ -183,10 +184,10 @@ def _is_same(a: Pose2, b: Pose2) -> bool:
     return is_same_place and abs(wrapped_angle(a.yaw_rad - b.yaw_rad)) <= LENGTH_M
 
 
-def _turning(way: list[Point2]) -> float:
+def _turning(way: Iterable[Point2]) -> float:
     """The turning at the bends of a way (rad)."""
-    headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in zip(way[:-1], way[1:], strict=True)]
-    return sum(abs(wrapped_angle(b - a)) for a, b in zip(headings[:-1], headings[1:], strict=True))
+    headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in itertools.pairwise(way)]
+    return sum(abs(wrapped_angle(b - a)) for a, b in itertools.pairwise(headings))
 
 
 def _crosses(a: Point2, b: Point2, half_x: float, half_y: float) -> bool:
@@ -201,5 +202,3 @@ def _crosses(a: Point2, b: Point2, half_x: float, half_y: float) -> bool:
         first, second = sorted(((-inner - place) / step, (inner - place) / step))
         low, high = max(low, first), min(high, second)
     return low < high
-
-

@@ -27,7 +27,6 @@ from planner.primitives.obstacle import Code, Obstacle
 from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
-
 _FEW = 4
 """So many approaches are tried first: mostly one of the best will do."""
 
@@ -96,9 +95,7 @@ class _Trial:
 
     def way(self, strips: Strips, back_offs: int) -> FoldWay:
         steps, choice = travel(strips.masks, back_offs)
-        return FoldWay(
-            self.fold, self.cover, self.arms, self.path, self.points, self.sweeps, strips, steps, choice
-        )
+        return FoldWay(self.fold, self.cover, self.arms, self.path, self.points, self.sweeps, strips, steps, choice)
 
 
 class FoldWays:
@@ -134,9 +131,7 @@ class FoldWays:
         high = min((end - 1 for end in straight if end > here), default=last)
         return few + self._within(state, fold, (low, high), None)
 
-    def _within(
-        self, state: State, fold: int, window: tuple[int, int], most: int | None
-    ) -> tuple[FoldWay, ...]:
+    def _within(self, state: State, fold: int, window: tuple[int, int], most: int | None) -> tuple[FoldWay, ...]:
         """The ways that keep to a window of back-offs, with so many of the best approaches for each arm."""
         key = (self._key(state, fold), window, most)
         if key not in self._found:
@@ -229,9 +224,7 @@ class FoldWays:
         for cover in covers:
             yield cover, tuple(next(h.arm for h in held if h.point == point) for point in cover)
 
-    def _trial(
-        self, state: State, fold: int, path: FoldPath, cover: Cover, arms: tuple[int, ...]
-    ) -> _Trial | None:
+    def _trial(self, state: State, fold: int, path: FoldPath, cover: Cover, arms: tuple[int, ...]) -> _Trial | None:
         work = self._work
         placement = work.placed(state.offset)
         points = placement.to_outer(np.array(cover))
@@ -248,9 +241,7 @@ class FoldWays:
             approaches.append(able)
         return _Trial(fold, cover, arms, path, points, sweeps, tools, tuple(approaches))
 
-    def _able(
-        self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
+    def _able(self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
         """The approaches in which the path's two ends and its apex are in reach from somewhere."""
         work = self._work
         for extreme in work.in_base(station, tools[[len(tools) // 2, -1, 0]]):
@@ -258,9 +249,7 @@ class FoldWays:
             approaches = approaches[masks[:, 0] > 0]
         return approaches
 
-    def _way(
-        self, state: State, trial: _Trial, window: tuple[int, int], most: int | None
-    ) -> FoldWay | None:
+    def _way(self, state: State, trial: _Trial, window: tuple[int, int], most: int | None) -> FoldWay | None:
         options = []
         for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
             option = arm_options(self._work, state.station, arm, tools, approaches[:most], window)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
@@ -47,7 +48,7 @@ class DragWay:
     arms: tuple[int, ...]
     grips: tuple[Point2, ...]
     picks: FloatArray
-    approaches: FloatArray
+    approaches: NDArray[np.int64]
 
     @property
     def stands(self) -> list[int]:
@@ -141,7 +142,7 @@ class DragStep:
     def _ends(self) -> FloatArray:
         dx = self.after.offset[0] - self.before.offset[0]
         dy = self.after.offset[1] - self.before.offset[1]
-        return self.way.picks + np.array([dx, dy, 0.0])
+        return np.asarray(self.way.picks + np.array([dx, dy, 0.0]))
 
 
 class GDrag:
@@ -234,9 +235,7 @@ class GDrag:
                 chosen[stands, i] = index
         return DragWay(arms, cover, picks, chosen)
 
-    def _letting_go(
-        self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2
-    ) -> Iterator[DragStep]:
+    def _letting_go(self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2) -> Iterator[DragStep]:
         """The cheapest way to each end back-off, where driving on from another end is no cheaper."""
         best: dict[int, DragWay] = {}
         for way in ways:

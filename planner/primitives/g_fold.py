@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
@@ -117,15 +118,13 @@ class FoldStep:
         return int(self.way.choice[self.first_stand, self.after.back_off])
 
     @property
-    def _strip(self) -> np.ndarray[Any, np.dtype[np.uint32]]:
-        return self.way.strips.masks[self._combination]
+    def _strip(self) -> NDArray[np.uint32]:
+        return np.asarray(self.way.strips.masks[self._combination])
 
     def _approach(self, grip: int) -> Approach:
-        return self.work.reach.approaches[self.way.strips.approaches[self._combination, grip]]
+        return self.work.reach.approaches[int(self.way.strips.approaches[self._combination, grip])]
 
-    def _hands(
-        self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False
-    ) -> tuple[Hand | None, ...]:
+    def _hands(self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
         paths = self.way.path.tool_paths(self.way.points, np.array(sweeps))
         for number, arm in enumerate(self.way.arms):
@@ -177,9 +176,7 @@ class GFold:
         steps, firsts = way.ends(state)
         line = self._work.sequence.folds[way.fold].line
         over = Isometry.reflection(line)
-        held = tuple(
-            Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.arms, way.grips, strict=True))
-        )
+        held = tuple(Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
         for end in np.flatnonzero(steps < IMPOSSIBLE):
             yield self._step(state, way, int(firsts[end]), int(end), held)
 

@@ -5,13 +5,17 @@ The default scene is one in which a PR2 can fold all the shipped garments: a tab
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Any
 
+from pydantic import ValidationError
+
 from planner.errors import SceneError
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.strict_model import Bounded, StrictModel, first_error
 
 _QUARTER = math.pi / 2
 
@@ -25,6 +29,12 @@ DEFAULT_STATIONS: MappingProxyType[str, Pose2] = MappingProxyType(
     }
 )
 """Where the base may stand, in the table frame, by name (paper, Figure 7a)."""
+
+STATIONS_MAX = 64
+"""A scene with more stations is refused."""
+
+SUPPORT_ANGLE_MAX_RAD = math.radians(85.0)
+"""Beyond this even the top of a hanging piece would count as supported by what is beside it (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,22 +71,28 @@ class Scene:
         """Refuse what is no scene; raises `SceneError` naming the field and the number."""
         for name in ("depth_m", "width_m", "height_m"):
             _require_between(f"table.{name}", getattr(self.table, name), 0.1, 10.0)
-        if not self.stations:
-            raise SceneError("stations", "a scene needs at least one station")
-        for name, pose in self.stations:
-            for axis in ("x_m", "y_m"):
-                _require_between(f"stations.{name}.{axis}", getattr(pose, axis), -10.0, 10.0)
+        if not 1 <= len(self.stations) <= STATIONS_MAX:
+            raise SceneError("stations", f"there are {len(self.stations)}, a scene has 1 to {STATIONS_MAX}")
         _require_between("torso_m", self.torso_m, 0.0, 1.0)
         _require_between("friction", self.friction, 0.0, 10.0)
-        _require_between("support_angle_rad", self.support_angle_rad, 0.0, _QUARTER)
+        _require_between("support_angle_rad", self.support_angle_rad, 0.0, SUPPORT_ANGLE_MAX_RAD)
         _require_between("approach_cone_rad", self.approach_cone_rad, 0.0, math.pi)
         _require_between("back_off_max_m", self.back_off_max_m, 0.0, 1.5)
         for name in ("arm_motion_s", "base_speed_m_s", "base_turn_rad_s"):
             _require_between(name, getattr(self, name), 1e-3, 1e3)
 
-    def station(self, name: str) -> Pose2:
-        """The base pose of a station; raises `KeyError` for an unknown name."""
-        return dict(self.stations)[name]
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> "Scene":
+        """A scene from JSON; fields left out have their defaults, given stations replace the five.
+
+        Raises:
+            SceneError: names the field, and says what is wrong with which number.
+        """
+        try:
+            given = _SceneModel.model_validate(data)
+        except ValidationError as error:
+            raise first_error(error, SceneError) from None
+        return given.to_scene()
 
     def to_dict(self) -> dict[str, Any]:
         """The scene as JSON, every field filled in."""
@@ -89,3 +105,37 @@ class Scene:
 def _require_between(name: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
         raise SceneError(name, f"{value} is not between {low} and {high}")
+
+
+class _TableModel(StrictModel):
+    depth_m: float | None = None
+    width_m: float | None = None
+    height_m: float | None = None
+
+
+class _StationModel(StrictModel):
+    x_m: Bounded
+    y_m: Bounded
+    yaw_rad: Bounded
+
+
+class _SceneModel(StrictModel):
+    table: _TableModel | None = None
+    stations: dict[str, _StationModel] | None = None
+    torso_m: float | None = None
+    friction: float | None = None
+    support_angle_rad: float | None = None
+    approach_cone_rad: float | None = None
+    back_off_max_m: float | None = None
+    arm_motion_s: float | None = None
+    base_speed_m_s: float | None = None
+    base_turn_rad_s: float | None = None
+
+    def to_scene(self) -> Scene:
+        """The scene with defaults where nothing, or null, was given."""
+        given = self.model_dump(exclude_none=True)
+        if self.table is not None:
+            given["table"] = Table(**self.table.model_dump(exclude_none=True))
+        if self.stations is not None:
+            given["stations"] = tuple((name, Pose2(p.x_m, p.y_m, p.yaw_rad)) for name, p in self.stations.items())
+        return Scene(**given)

@@ -68,9 +68,7 @@ def _slot(table: NDArray[np.int64], key: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def is_comfortable(
-    shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray, hint: FloatArray
-) -> tuple[bool, int]:
+def is_comfortable(shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray, hint: FloatArray) -> tuple[bool, int]:
     """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made."""
     if not is_reachable_near(shape, aim, arcs, hint):
         return False, 1
@@ -79,7 +77,8 @@ def is_comfortable(
     queries = 1
     for dx, dy in ((comfort, 0.0), (-comfort, 0.0), (0.0, comfort), (0.0, -comfort)):
         queries += 1
-        if not is_reachable_near(shape, Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az), arcs, hint):
+        beside = Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az)
+        if not is_reachable_near(shape, beside, arcs, hint):
             return False, queries
     return True, queries
 
@@ -92,7 +91,7 @@ class Question(NamedTuple):
         shoulder: where the shoulder is, in the frame of the points (m), shape (3,).
         axis: the approach axis, shape (3,).
         label: what to call the approach in the memory, at least 1.
-        count: how many back-offs there are.
+        back_offs: how many there are.
         step: from one back-off to the next (m).
         comfort: radius of the comfort circle (m).
         arcs: room to work in, shape (MOST_ARCS, 2).
@@ -103,7 +102,7 @@ class Question(NamedTuple):
     shoulder: FloatArray
     axis: FloatArray
     label: int
-    count: int
+    back_offs: int
     step: float
     comfort: float
     arcs: FloatArray
@@ -134,7 +133,7 @@ def _recalled(ask: Question, memory: Memory, point: FloatArray, back_off: int) -
 def _is_out_of_reach(ask: Question, memory: Memory, point: FloatArray) -> tuple[bool, int]:
     """Whether a point can be had from no back-off at all; queries made."""
     queries = 0
-    for back_off in range(ask.count):
+    for back_off in range(ask.back_offs):
         answer, asked = _recalled(ask, memory, point, back_off)
         queries += asked
         if answer:
@@ -149,13 +148,13 @@ def _arrivals(ask: Question, memory: Memory, point: FloatArray, before: int) -> 
     Those it came from that reach the point too, and those to which it can drive on from there.
     """
     mask, queries = 0, 0
-    for back_off in range(ask.count):
+    for back_off in range(ask.back_offs):
         is_next = back_off > 0 and (mask >> (back_off - 1)) & 1 == 1
         if (before >> back_off) & 1 == 1 or is_next:
             answer, asked = _recalled(ask, memory, point, back_off)
             queries += asked
             mask |= (1 if answer else 0) << back_off
-    for back_off in range(ask.count - 2, -1, -1):
+    for back_off in range(ask.back_offs - 2, -1, -1):
         is_new = (before >> back_off) & 1 == 0 and (mask >> back_off) & 1 == 0
         if is_new and (mask >> (back_off + 1)) & 1 == 1:
             answer, asked = _recalled(ask, memory, point, back_off)

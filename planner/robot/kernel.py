@@ -119,9 +119,7 @@ def pan_arcs(shape: ArmShape, aim: Aim, arcs: FloatArray) -> int:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _add_band(
-    limits: Sector, bearing: float, lowest: float, highest: float, arcs: FloatArray, count: int
-) -> int:
+def _add_band(limits: Sector, bearing: float, lowest: float, highest: float, arcs: FloatArray, count: int) -> int:
     """Add the arcs where cos(pan - bearing) is from lowest to highest; returns the new count."""
     if lowest > highest:
         return count

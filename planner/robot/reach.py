@@ -15,11 +15,7 @@ _HEADINGS_DEG = range(-90, 91, 15)
 _MOST_BACK_OFFS = 32
 
 APPROACHES = (
-    *(
-        Approach(math.radians(heading), math.radians(pitch))
-        for pitch in _PITCHES_DEG
-        for heading in _HEADINGS_DEG
-    ),
+    *(Approach(math.radians(heading), math.radians(pitch)) for pitch in _PITCHES_DEG for heading in _HEADINGS_DEG),
     Approach(0.0, math.pi / 2),
 )
 """The directions from which a gripper may pinch: a fan at four pitches, and straight down."""
