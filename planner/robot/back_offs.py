@@ -39,7 +39,7 @@ class Memory(NamedTuple):
     entries: NDArray[np.int64]
 
 
-def empty_memory(bits: int = 19) -> Memory:
+def empty_memory(bits: int = 18) -> Memory:
     """A memory with room for 2 ** bits entries, of which it uses three quarters."""
     return Memory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
 
