@@ -98,12 +98,3 @@ def load_robot(name: str) -> Pr2:
     if name not in ROBOT_NAMES:
         raise RequestError("robot", f"there is no robot {name!r}, only {', '.join(ROBOT_NAMES)}")
     return Pr2()
-
-
-def warm_up() -> None:
-    """Compile every kernel, or load it from the cache, so that the first plan need not wait for it."""
-    robot = load_robot("pr2")
-    position, rotation = robot.tool_pose(0, robot.home(0), 0.0)
-    robot.can_reach(0, position[None], rotation[None], 0.0)
-    robot.joints_near(0, position, rotation, 0.0, robot.home(0))
-    robot.reach(0.0, 0.01).back_offs(0, position[None], np.array([0]), 1, 0.05)

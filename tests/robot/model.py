@@ -36,9 +36,7 @@ def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArr
     return placement.translation.copy(), placement.rotation.copy()
 
 
-def pin_tool_pose(
-    card: RobotCard, arm: int, joints: FloatArray, torso_m: float
-) -> tuple[FloatArray, FloatArray]:
+def pin_tool_pose(card: RobotCard, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
     """Position and rotation of an arm's tool in base_footprint."""
     names = card.arms[arm].joint_names
     values = {card.lift_joint: torso_m, **dict(zip(names, joints, strict=True))}

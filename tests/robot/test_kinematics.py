@@ -93,7 +93,5 @@ def test_mirrored_poses_have_mirrored_joints(torso_m):
         near = random_joints(CARD, 0, rng)
         position, rotation = ROBOT.tool_pose(0, random_joints(CARD, 0, rng), torso_m)
         left = ROBOT.joints_near(0, position, rotation, torso_m, near)
-        right = ROBOT.joints_near(
-            1, mirror * position, mirror[:, None] * rotation * mirror, torso_m, sides * near
-        )
+        right = ROBOT.joints_near(1, mirror * position, mirror[:, None] * rotation * mirror, torso_m, sides * near)
         np.testing.assert_allclose(right, sides * left, atol=1e-9)

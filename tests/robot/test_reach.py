@@ -6,7 +6,7 @@ import pytest
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Approach
 from planner.robot import back_offs, reach
-from planner.robot.pr2 import load_robot, warm_up
+from planner.robot.pr2 import load_robot
 from planner.robot.reach import APPROACHES
 from tests.robot.model import limits, pin_tool_pose, random_joints
 
@@ -131,9 +131,29 @@ def test_what_cannot_be_asked_is_refused():
         ROBOT.reach(0.1, 0.0).back_offs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
 
 
-def test_warming_up_twice_does_no_harm():
-    warm_up()
-    warm_up()
+def test_a_back_off_beyond_a_gap_does_not_count():
+    """The base cannot drive through a place from which the tool, resting, is out of reach."""
+    asked = ROBOT.reach(TORSO_M, 0.0)
+    for points in _paths(np.random.default_rng(19)):
+        shifted = points + np.array([0.4, 0.0, 0.0])
+        path = np.vstack([points[:1], shifted[-1:]])
+        free = asked.back_offs(0, shifted[-1:], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        start = asked.back_offs(0, points[:1], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        followed = asked.back_offs(0, path, EVERY_APPROACH, COUNT, STEP_M)
+        for row, first, last in zip(followed, start, free, strict=True):
+            expected = _connected(int(first), int(last))
+            assert int(row[1]) == expected
+            assert int(row[0]) == (int(first) if expected else 0)
+
+
+def _connected(seeds: int, mask: int) -> int:
+    """The bits of a mask that hang together with a seed bit in it."""
+    found = seeds & mask
+    while True:
+        grown = (found | found << 1 | found >> 1) & mask
+        if grown == found:
+            return found
+        found = grown
 
 
 def _paths(rng: np.random.Generator):
@@ -155,8 +175,11 @@ def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
         rotations = np.broadcast_to(approach.rotation, (asked.size // 3, 3, 3))
         answers = ROBOT.can_reach(arm, asked.reshape(-1, 3), rotations, TORSO_M)
         comfortable = answers.reshape(len(points), COUNT, len(ring)).all(axis=2)
-        row = (comfortable * (1 << np.arange(COUNT))).sum(axis=1)
-        masks[index] = row if row.all() else 0
+        row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1)]
+        arrived = [row[0]] if row else []
+        for mask in row[1:]:
+            arrived.append(_connected(arrived[-1], mask))
+        masks[index] = arrived if all(arrived) else 0
     return masks
 
 

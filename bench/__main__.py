@@ -1,0 +1,70 @@
+"""The command line of the benchmark: print each table, write each as JSON under ``bench/out/``."""
+
+import argparse
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Final
+
+from rich.console import Console
+
+from bench.first_plan import first_plan
+from bench.heuristics import heuristics
+from bench.measurement import warm_up
+from bench.paper import SOURCE, TABLE_1
+from bench.paper_tables import table_1, table_2
+from bench.report import Report
+from bench.yes_and_no import PAIRS, yes_and_no
+
+Benchmark = Callable[[Sequence[str], int], Report]
+
+BENCHMARKS: Final[Mapping[str, Benchmark]] = {
+    "table-1": table_1,
+    "table-2": table_2,
+    "heuristics": heuristics,
+    "yes-and-no": yes_and_no,
+    "first-plan": first_plan,
+}
+ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
+OUT: Final = Path(__file__).parent / "out"
+REPETITIONS: Final = 5
+WIDTH: Final = 110
+
+
+def main(arguments: Sequence[str] | None = None, out: Path = OUT) -> None:
+    """Run what was asked for; a table without rows is left out.
+
+    Args:
+        arguments: the command line; None for the process's own.
+        out: the folder for the JSON.
+    """
+    asked = _parser().parse_args(arguments)
+    chosen = [name for name in BENCHMARKS if name in asked.only] or list(BENCHMARKS)
+    articles = [name for name in ARTICLES if name in asked.only] or list(ARTICLES)
+    console = Console(highlight=False)
+    console.width = max(console.width, WIDTH)
+    warm_up()
+    for name in chosen:
+        report = BENCHMARKS[name](articles, 1 if asked.quick else REPETITIONS)
+        if report.rows:
+            report.write(out)
+            console.print(report.to_table(), "")
+    console.print("Times are medians; a ratio is followed by the least and the most that was measured.")
+    console.print(f"Paper: {SOURCE}.")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help=f"measure once, not {REPETITIONS} times")
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        choices=[*BENCHMARKS, *ARTICLES],
+        help=f"only these tables ({', '.join(BENCHMARKS)}) and only these garments ({', '.join(ARTICLES)})",
+    )
+    return parser
+
+
+if __name__ == "__main__":
+    main()

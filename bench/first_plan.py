@@ -1,0 +1,42 @@
+"""What the first plan of a process takes, against the second: each time in a new process."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from statistics import median
+
+from bench.measurement import Ratio
+from bench.report import Report, Row, seconds
+
+COLUMNS = ("article", "import [s]", "first plan [s]", "second plan [s]", "times as long")
+ROOT = Path(__file__).parent.parent
+
+SAMPLE = ("t-shirt", "hand-towel")
+"""What is planned by default; the cost of being first is the same for all."""
+
+
+def first_plan(articles: Sequence[str], repetitions: int) -> Report:
+    """The first plan and the second, in so many new processes each."""
+    chosen = [article for article in SAMPLE if article in articles]
+    for article in chosen:
+        _times_in_fresh_process(article)  # thrown away: it may have to compile kernels
+    rows = [_row(article, [_times_in_fresh_process(article) for _ in range(repetitions)]) for article in chosen]
+    title = "First and second plan of a new process (kernels on disk)"
+    return Report("first-plan", title, COLUMNS, tuple(rows), repetitions)
+
+
+def _times_in_fresh_process(article: str) -> dict[str, float]:
+    command = [sys.executable, "-m", "bench.fresh_process", article]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=True, text=True)
+    times: dict[str, float] = json.loads(done.stdout)
+    return times
+
+
+def _row(article: str, runs: Sequence[dict[str, float]]) -> Row:
+    times = {name: median(run[name] for run in runs) for name in runs[0]}
+    longer = Ratio.of([run["first_plan_s"] for run in runs], [run["second_plan_s"] for run in runs])
+    line = (article, *(seconds(time_s, 3) for time_s in times.values()), str(longer))
+    return Row((line,), {"article": article, **times, "plan_time_ratio": asdict(longer)})

@@ -1,0 +1,160 @@
+"""Planning the same thing several times, and what stays of it.
+
+Cases that are to be compared are run in turns (a, b, a, b, ...), so that a slow moment of the machine meets both, and
+their ratio is the median of the ratios of the turns. Nothing is carried over: each plan has its own memory of what
+the robot reaches. Only the compiled kernels stay, and `warm_up` sees to those first.
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+from planner import Garment, load_garment, make_plan
+from planner.plan.warm_up import warm_up as warm_up_kernels
+
+TIME_LIMIT_S = 60.0
+
+
+class BenchmarkError(Exception):
+    """A figure that must not depend on machine or moment did."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """What is planned: a shipped garment's name, the comfort radius (m) and the heuristic."""
+
+    garment: str
+    comfort_radius_m: float
+    heuristic: str = "arm_time"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What is the same at every repetition: the plan, and the counts of its search.
+
+    Attributes:
+        status: "solved", "infeasible" or "budget_exceeded".
+        folds: number of folds.
+        primitives: primitives in the plan; None unless solved.
+        cost_s: the plan's duration (s); None unless solved.
+        expanded: states expanded.
+        explored: successors pushed.
+        ik_queries: queries put to the exact inverse kinematics, comfort points counted.
+    """
+
+    status: str
+    folds: int
+    primitives: int | None
+    cost_s: float | None
+    expanded: int
+    explored: int
+    ik_queries: int
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """A case, its outcome, and a time for each repetition, in the order they were run.
+
+    Attributes:
+        case: what was planned.
+        outcome: what came out.
+        ik_times_s: time in inverse kinematics (s).
+        search_times_s: time of the search, that included (s).
+        plan_times_s: time of the whole call, the Fold-DAG included (s).
+    """
+
+    case: Case
+    outcome: Outcome
+    ik_times_s: tuple[float, ...]
+    search_times_s: tuple[float, ...]
+    plan_times_s: tuple[float, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The outcome, and the median of each time."""
+        return {
+            **asdict(self.case),
+            **asdict(self.outcome),
+            "ik_time_s": median(self.ik_times_s),
+            "search_time_s": median(self.search_times_s),
+            "plan_time_s": median(self.plan_times_s),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class _Run:
+    outcome: Outcome
+    ik_time_s: float
+    search_time_s: float
+    plan_time_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Ratio:
+    """How many times as long one thing took as its peer: median, least and most of the turns."""
+
+    median: float
+    least: float
+    most: float
+
+    @classmethod
+    def of(cls, times_s: Sequence[float], peer_times_s: Sequence[float]) -> "Ratio":
+        """The ratio of times measured in turns; both sequences have the same length."""
+        ratios = [time / peer for time, peer in zip(times_s, peer_times_s, strict=True)]
+        return cls(median(ratios), min(ratios), max(ratios))
+
+    def __str__(self) -> str:
+        return f"{self.median:.2f} ({self.least:.2f}..{self.most:.2f})"
+
+
+def warm_up() -> None:
+    """Compile the kernels or load them, and make one plan that nobody looks at."""
+    warm_up_kernels()
+    _run(load_garment("hand-towel"), Case("hand-towel", 0.03))
+
+
+def measure(*cases: Case, repetitions: int) -> list[Measurement]:
+    """Plan the cases in turns, so many times each.
+
+    Raises:
+        BenchmarkError: a case had another outcome than the time before (that a search ran out of time apart).
+    """
+    garments = [load_garment(case.garment) for case in cases]
+    turns = [[_run(*pair) for pair in zip(garments, cases, strict=True)] for _ in range(repetitions)]
+    return [_measurement(case, runs) for case, *runs in zip(cases, *turns, strict=True)]
+
+
+def _run(garment: Garment, case: Case) -> _Run:
+    started = perf_counter()
+    plan = make_plan(
+        garment,
+        comfort_radius_m=case.comfort_radius_m,
+        heuristic=case.heuristic,
+        time_limit_s=TIME_LIMIT_S,
+    )
+    plan_time_s = perf_counter() - started
+    found = plan.statistics
+    outcome = Outcome(
+        plan.status,
+        len(garment.folds),
+        len(plan.primitives) if plan.is_solved else None,
+        plan.cost_s,
+        found.expanded,
+        found.explored,
+        found.ik_queries,
+    )
+    return _Run(outcome, found.ik_time_s, found.search_time_s, plan_time_s)
+
+
+def _measurement(case: Case, runs: Sequence[_Run]) -> Measurement:
+    outcomes = {run.outcome for run in runs}
+    if len(outcomes) > 1 and all(outcome.status != "budget_exceeded" for outcome in outcomes):
+        raise BenchmarkError(f"{case} did not come out the same every time: {outcomes}")
+    return Measurement(
+        case,
+        runs[0].outcome,
+        tuple(run.ik_time_s for run in runs),
+        tuple(run.search_time_s for run in runs),
+        tuple(run.plan_time_s for run in runs),
+    )

@@ -1,0 +1,51 @@
+"""What a "no" takes: the same cloth, its folds in an order that can be done, and in one that is too long for a PR2.
+
+A "no" is a proof: the search has been through every state there is. Without slack in its reach the robot may find a
+way that it does not find with a comfort radius, so both are asked.
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from statistics import median
+
+from bench.measurement import Case, Measurement, Ratio, measure
+from bench.report import Report, Row, count, seconds
+
+COLUMNS = ("garment", "comfort [m]", "answer", "C [s]", "expanded", "IK queries", "search [s]", "times as long")
+PAIRS = (("scarf", "scarf-halved"), ("tie", "tie-halved"))
+COMFORTS_M = (0.0, 0.03)
+
+
+def yes_and_no(articles: Sequence[str], repetitions: int) -> Report:
+    """Both orders of the folds of scarf and tie, in turns."""
+    rows = []
+    for pair in PAIRS:
+        for comfort_m in COMFORTS_M if set(pair) & set(articles) else ():
+            quarter, half = measure(*(Case(name, comfort_m) for name in pair), repetitions=repetitions)
+            rows.append(_row(quarter, half))
+    title = "A yes and a no: begun with the quarter, begun with the half"
+    return Report("yes-and-no", title, COLUMNS, tuple(rows), repetitions)
+
+
+def _row(quarter: Measurement, half: Measurement) -> Row:
+    longer = Ratio.of(half.search_times_s, quarter.search_times_s)
+    data = {
+        "quarter_first": quarter.to_dict(),
+        "half_first": half.to_dict(),
+        "search_time_ratio": asdict(longer),
+    }
+    return Row((_line(quarter, ""), _line(half, str(longer))), data)
+
+
+def _line(measured: Measurement, ratio: str) -> tuple[str, ...]:
+    outcome = measured.outcome
+    return (
+        measured.case.garment,
+        f"{measured.case.comfort_radius_m:g}",
+        outcome.status,
+        seconds(outcome.cost_s),
+        count(outcome.expanded),
+        count(outcome.ik_queries),
+        seconds(median(measured.search_times_s), 3),
+        ratio,
+    )
