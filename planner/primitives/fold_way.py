@@ -122,7 +122,7 @@ class FoldWays:
         3. So all approaches are asked only for the back-offs in between.
         """
         here, last = state.back_off, self._work.back_offs - 1
-        staying = self._within(state, fold, (here, here), _FEW) or self._within(state, fold, (here, here), None)
+        staying = self._within(state, fold, (here, here), 1)
         if staying:
             return staying[:1]
         few = self._within(state, fold, (0, last), _FEW)
@@ -131,11 +131,12 @@ class FoldWays:
         high = min((end - 1 for end in straight if end > here), default=last)
         return few + self._within(state, fold, (low, high), None)
 
-    def _within(self, state: State, fold: int, window: tuple[int, int], most: int | None) -> tuple[FoldWay, ...]:
-        """The ways that keep to a window of back-offs, with so many of the best approaches for each arm."""
-        key = (self._key(state, fold), window, most)
+    def _within(self, state: State, fold: int, window: tuple[int, int], enough: int | None) -> tuple[FoldWay, ...]:
+        """The ways that keep to a window of back-offs, with enough of the best approaches for each arm."""
+        start = state.back_off if state.held else None
+        key = (self._key(state, fold), window, enough, start)
         if key not in self._found:
-            ways = (self._way(state, trial, window, most) for trial in self._possible(state, fold))
+            ways = (self._way(state, trial, window, enough) for trial in self._possible(state, fold))
             self._found[key] = tuple(way for way in ways if way is not None)
         return self._found[key]
 
@@ -249,10 +250,11 @@ class FoldWays:
             approaches = approaches[masks[:, 0] > 0]
         return approaches
 
-    def _way(self, state: State, trial: _Trial, window: tuple[int, int], most: int | None) -> FoldWay | None:
+    def _way(self, state: State, trial: _Trial, window: tuple[int, int], enough: int | None) -> FoldWay | None:
         options = []
+        start = state.back_off if state.held else None
         for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
-            option = arm_options(self._work, state.station, arm, tools, approaches[:most], window)
+            option = arm_options(self._work, state.station, arm, tools, approaches, window, enough, start)
             if not len(option.approaches):
                 return None
             options.append(option)

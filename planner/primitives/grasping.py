@@ -108,6 +108,8 @@ def arm_options(
     tool_points: FloatArray,
     approaches: NDArray[np.int64],
     window: tuple[int, int],
+    enough: int | None = None,
+    start: int | None = None,
 ) -> ArmOptions:
     """Ask the robot along a path of one arm and keep what can matter.
 
@@ -118,10 +120,14 @@ def arm_options(
         tool_points: the path in the table frame, shape (n, 3), m.
         approaches: what may be tried, best first.
         window: the first and last back-off asked for.
+        enough: how many approaches are enough; None: all are wanted.
+        start: the back-off at which the hand is at the path's start already; None: the hand is free.
     """
     low, high = window
     points = work.in_base(station, tool_points) + np.array([low * BACK_OFF_STEP_M, 0.0, 0.0])
-    masks = work.reach.back_offs(arm, points, approaches, high - low + 1, BACK_OFF_STEP_M) << np.uint32(low)
+    first = None if start is None else start - low
+    masks = work.reach.back_offs(arm, points, approaches, high - low + 1, BACK_OFF_STEP_M, enough, first)
+    masks <<= np.uint32(low)
     kept = _undominated(masks)
     return ArmOptions(arm, approaches[kept], masks[kept])
 

@@ -25,7 +25,14 @@ class Reach(Protocol):
         ...
 
     def back_offs(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+        start: int | None = None,
     ) -> NDArray[np.uint32]:
         """For each approach, the back-offs at which the base may stand while the arm's tool follows a path.
 
@@ -40,6 +47,10 @@ class Reach(Protocol):
             approaches: indices into `approaches`, shape (k,).
             count: how many back-offs there are, at most 32.
             step_m: from one back-off to the next (m).
+            enough: so many approaches that can follow the path, the first in the order given, are enough, and
+                the rows of others may be left 0; None: all are wanted.
+            start: the back-off at which the base stands when the tool is at the first point already; None: the tool
+                is brought there once the base stands wherever is best.
 
         Returns:
             Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the

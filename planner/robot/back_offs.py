@@ -174,6 +174,8 @@ def back_off_masks(
     count: int,
     step: float,
     comfort: float,
+    enough: int,
+    before: int,
 ) -> tuple[NDArray[np.uint32], int]:
     """For each approach and point the back-offs from which the tool is there in comfort; queries made.
 
@@ -187,12 +189,16 @@ def back_off_masks(
         count: how many back-offs there are, at most 32.
         step: from one back-off to the next (m): the points move along x by it.
         comfort: radius of the circle (m).
+        enough: after so many approaches that can follow the path the others are left at 0.
+        before: bit mask of the back-offs from which the base may come to the first point.
     """
     arcs = np.empty((MOST_ARCS, 2))
     hint = np.array([0.5 * (shape.pan.low + shape.pan.high)])
     masks = np.zeros((len(axes), len(points)), dtype=np.uint32)
-    queries = 0
+    queries = alive = 0
     for approach in range(len(axes)):
+        if alive == enough:
+            break
         ask = Question(shape, shoulder, axes[approach], labels[approach], count, step, comfort, arcs, hint)
         is_dead = False
         for i in (len(points) - 1, len(points) // 2):
@@ -201,7 +207,7 @@ def back_off_masks(
                 queries += asked
         if is_dead:
             continue
-        mask = (1 << count) - 1
+        mask = before
         for i in range(len(points)):
             mask, asked = _arrivals(ask, memory, points[i], mask)
             queries += asked
@@ -209,4 +215,5 @@ def back_off_masks(
             if mask == 0:
                 masks[approach, :] = 0
                 break
+        alive += 1 if mask != 0 else 0
     return masks, queries

@@ -83,7 +83,14 @@ class Pr2Reach:
         return self._query_time_s
 
     def back_offs(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+        start: int | None = None,
     ) -> NDArray[np.uint32]:
         """Bit masks, shape (k, n): from which back-offs each point is within comfortable reach.
 
@@ -93,6 +100,8 @@ class Pr2Reach:
             approaches: indices into `approaches`, shape (k,).
             count: how many back-offs there are, at most 32; raises `ValueError` beyond.
             step_m: from one back-off to the next (m).
+            enough: so many approaches that can follow the points are enough; None: all are wanted.
+            start: where the base stands when the hand is at the first point already; None: anywhere.
 
         Returns:
             Bit j is set where the base may stand, having backed off by j * step_m, when the hand has
@@ -112,6 +121,8 @@ class Pr2Reach:
             count,
             float(step_m),
             self._comfort_m,
+            len(seen) if enough is None else enough,
+            (1 << count) - 1 if start is None else 1 << start,
         )
         self._queries += queries
         self._query_time_s += perf_counter() - started
