@@ -25,10 +25,12 @@ class Unrest:
     Attributes:
         code: "not_a_g_state" or "slips".
         message: what would move, with the numbers.
+        severity: how far from rest it is; only for comparing like with like.
     """
 
     code: str
     message: str
+    severity: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,4 +152,5 @@ def _slip(cloth: ClothState, top: TableInArticle, friction: float) -> Unrest | N
     return Unrest(
         "slips",
         f"the hanging parts pull with {share:.2f} times the weight on the table; friction holds {friction:.2f} times",
+        share,
     )

@@ -45,6 +45,26 @@ class FoldDag:
         open_chains = (c for c in self.chains if not done >> c[0] & 1)
         return tuple(c[0] for c in open_chains if self._is_free(c, done))
 
+    def sets_before(self, fold: int, at_most: int) -> tuple[int, ...] | None:
+        """Every set of finished folds, as a bit mask, after which a fold may come next.
+
+        None if there are more than `at_most`.
+        """
+        seen, front, found = {0}, [0], []
+        while front:
+            done = front.pop()
+            available = self.available(done)
+            if fold in available:
+                found.append(done)
+            for other in available:
+                after = done | 1 << other
+                if other != fold and after not in seen:
+                    seen.add(after)
+                    front.append(after)
+            if len(seen) > at_most:
+                return None
+        return tuple(sorted(found))
+
     def follows_at_once(self, fold: int) -> bool:
         """Whether a red fold comes directly after this one."""
         return any(fold in chain[:-1] for chain in self.chains)

@@ -105,10 +105,10 @@ class _Planner:
         if unrest is not None:
             message = f"as the cloth lies at the start, {unrest.message}"
             nothing: SearchResult[State, Step] = SearchResult(Outcome.INFEASIBLE, (), 0.0, 0.0, 0, 0)
-            return self._answer(nothing, (Reason(None, Code(unrest.code), message),))
+            return self._answer(start, nothing, (Reason(None, Code(unrest.code), message),))
         result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
         is_proof = result.outcome is Outcome.INFEASIBLE
-        return self._answer(result, reasons(self._work, self._achieved) if is_proof else ())
+        return self._answer(start, result, reasons(self._work, self._achieved) if is_proof else ())
 
     def _successors(self, state: State) -> Iterator[Edge[State, Step]]:
         for primitive in self._primitives:
@@ -122,7 +122,7 @@ class _Planner:
     def _is_over(self) -> bool:
         return time.perf_counter() > self._deadline or self._should_stop()
 
-    def _answer(self, result: SearchResult[State, Step], why: tuple[Reason, ...]) -> Plan:
+    def _answer(self, start: State, result: SearchResult[State, Step], why: tuple[Reason, ...]) -> Plan:
         is_solved = result.outcome is Outcome.SOLVED
         primitives, end_s = self._schedule([edge.action for edge in result.path])
         last = result.path[-1].after.offset if result.path else (0.0, 0.0)
@@ -139,6 +139,7 @@ class _Planner:
             statistics,
             self._work,
             self._robot,
+            start,
         )
 
     def _schedule(self, steps: list[Step]) -> tuple[tuple[PlannedPrimitive, ...], float]:

@@ -11,10 +11,11 @@ from planner.folds.fold_dag import FoldDag
 from planner.geometry.pose import Pose2
 from planner.plan.machine import Machine
 from planner.plan.reasons import Reason
-from planner.plan.timeline import Timeline
+from planner.plan.timeline import Timeline, standing
 from planner.primitives.grip import BaseStop, Grip
 from planner.primitives.primitive import Step
 from planner.primitives.scene import Scene
+from planner.primitives.state import State
 from planner.primitives.work import Work
 
 
@@ -102,6 +103,7 @@ class Plan:
         statistics: what the search did.
         work: the problem.
         robot: the robot.
+        start: the state before the first primitive.
     """
 
     status: str
@@ -112,6 +114,7 @@ class Plan:
     statistics: Statistics
     work: Work
     robot: Machine
+    start: State
 
     @property
     def garment(self) -> Garment:
@@ -141,7 +144,7 @@ class Plan:
     @cached_property
     def _timeline(self) -> Timeline:
         phases = [(i, phase) for i, p in enumerate(self.primitives) for phase in p.step.phases()]
-        return Timeline.of(phases, self.work, self.robot)
+        return Timeline.of(phases or [(0, standing(self.work, self.start))], self.work, self.robot)
 
     def timeline(self) -> Timeline:
         """What robot and cloth do at every moment.

@@ -12,11 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.errors import RequestError
+from planner.geometry.table_top import TableTop
 from planner.plan.cloth_surface import ClothSurfaces
 from planner.plan.frame import Frame
 from planner.plan.hand_track import HandTrack, hand_tracks
 from planner.plan.machine import Machine
-from planner.primitives.phase import Phase
+from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.state import State
 from planner.primitives.work import Work
 
 RATE_HZ = (1.0, 200.0)
@@ -41,7 +43,7 @@ class Timeline:
     @staticmethod
     def of(phases: list[tuple[int, Phase]], work: Work, machine: Machine) -> "Timeline":
         """The film of a plan's phases, each with the index of its primitive."""
-        lasting = [(i, phase) for i, phase in phases if phase.duration_s > 0.0]
+        lasting = [(i, phase) for i, phase in phases if phase.duration_s > 0.0] or phases[:1]
         ends = np.cumsum([phase.duration_s for _, phase in lasting])
         starts = (0.0, *(float(t) for t in ends))
         tracks = hand_tracks([phase for _, phase in lasting], starts[:-1], work, machine)
@@ -53,7 +55,7 @@ class Timeline:
         t = min(max(t_s, 0.0), self.duration_s)
         number = max(0, bisect_right(self._starts, t) - 1)
         primitive, phase = self._phases[number]
-        fraction = (t - self._starts[number]) / phase.duration_s
+        fraction = (t - self._starts[number]) / phase.duration_s if phase.duration_s > 0.0 else 0.0
         card = self._machine.card
         openings = [track.opening_at(t) for track in self._tracks]
         joints = card.joint_values(self._torso_m, [track.joints_at(t) for track in self._tracks], openings)
@@ -80,3 +82,11 @@ class Timeline:
             yield self.at(count / rate_hz)
             count += 1
         yield self.at(self.duration_s)
+
+
+def standing(work: Work, state: State) -> Phase:
+    """A phase of no length in which nothing moves: all there is to see of a plan without primitives."""
+    base, placement = work.base_pose(state.station, state.back_off), work.placed(state.offset)
+    free: tuple[Hand | None, ...] = (None,) * len(work.reach.arm_names)
+    still = ClothMotion(state.done, placement, placement, TableTop.of(work.scene.table))
+    return Phase(0.0, (base, base), free, still)

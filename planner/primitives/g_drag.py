@@ -1,6 +1,5 @@
 """The g-drag: the base backs off with the arms still and the cloth comes along (paper, section 6)."""
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -8,13 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.cloth.grips import GripCovers, grip_covers
-from planner.cloth.must_hold import must_hold
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.table_top import TableTop
-from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.primitives.fold_way import held_covers
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.drag_grips import (
+    DRAGS_PER_M,
+    drag_covers,
+    dragged,
+    hangs_ahead,
+    longest_drag,
+    towards_robot,
+)
+from planner.primitives.fold_trial import held_covers
 from planner.primitives.g_fold import unbeaten
 from planner.primitives.grasping import (
     GRIPS_APART_M,
@@ -27,9 +32,6 @@ from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
 from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFFS_PER_M, Work
-
-DRAGS_PER_M = 10
-"""The grid of drag distances: one every 10 cm."""
 
 _STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
 
@@ -158,8 +160,8 @@ class GDrag:
         if state.held:
             return
         ways = self._ways(state)
-        for count in range(1, self._longest() + 1) if ways else ():
-            offset = self._offset(state, count)
+        for count in range(1, longest_drag(self._work) + 1) if ways else ():
+            offset = dragged(self._work, state.offset, state.station, count)
             if self._work.unrest(state.done, offset) is None:
                 yield from self._letting_go(state, ways, count, offset)
                 for way in ways:
@@ -172,15 +174,6 @@ class GDrag:
             self._useful[key] = bool(held_covers(self._work, done, fold, held))
         return self._useful[key]
 
-    def _longest(self) -> int:
-        return math.floor(self._work.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
-
-    def _offset(self, state: State, count: int) -> Point2:
-        yaw = self._work.station_pose(state.station).yaw_rad
-        x, y = state.offset
-        distance = count / DRAGS_PER_M
-        return (x - distance * math.cos(yaw), y - distance * math.sin(yaw))
-
     def _ways(self, state: State) -> tuple[DragWay, ...]:
         _, x, y, station, *_ = state.key
         key = (state.done, x, y, station)
@@ -191,34 +184,14 @@ class GDrag:
     def _search(self, state: State) -> Iterator[DragWay]:
         work = self._work
         placement = work.placed(state.offset)
-        heading = work.station_pose(state.station).yaw_rad + math.pi - placement.yaw_rad
-        towards = (math.cos(heading), math.sin(heading))
-        if self._hangs_ahead(state, towards):
+        towards = towards_robot(work, state.station)
+        if hangs_ahead(work, state.done, state.offset, towards):
             return
-        for cover in self._covers(state, towards).covers:
+        for cover in drag_covers(work, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
                 for arms in assignments(work, state.station, points):
                     yield self._way(state, cover, arms, points, placement)
-
-    def _hangs_ahead(self, state: State, towards: Point2) -> bool:
-        """Whether cloth hangs from an edge towards which the drag would go already."""
-        top = self._work.table_in_article(state.offset)
-        coordinates = self._work.sequence.cloth(state.done).silhouette.coordinates
-        for edge in top.edges:
-            outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
-            if outwards > ANGLE_RAD and edge.left_distances(coordinates).min() < -LENGTH_M:
-                return True
-        return False
-
-    def _covers(self, state: State, towards: Point2) -> GripCovers:
-        """The grips that Theorem 2 asks for on the part that lies on the table."""
-        work = self._work
-        silhouette = work.sequence.cloth(state.done).silhouette
-        lying = silhouette.intersection(work.table_in_article(state.offset).region)
-        vertices = must_hold(lying, towards, (), work.scene.support_angle_rad)
-        radius = work.sequence.garment.grip_radius_m
-        return grip_covers(lying, vertices, radius, len(work.reach.arm_names))
 
     def _way(
         self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], points: FloatArray, placement: Pose2

@@ -55,19 +55,19 @@ class FoldStep:
         names = self.work.reach.arm_names
         found = [
             (arm, Grip(names[arm], _point(picks[i]), _point(apexes[i]), _point(places[i])))
-            for i, arm in enumerate(self.way.arms)
+            for i, arm in enumerate(self.way.trial.arms)
         ]
         return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
 
     @property
     def details(self) -> dict[str, Any]:
         """Which fold, and whether the hands keep hold for a red fold that follows."""
-        return {"fold": self.way.fold, "holds": bool(self.after.held)}
+        return {"fold": self.way.trial.fold, "holds": bool(self.after.held)}
 
     @property
     def summary(self) -> str:
         """The fold's name."""
-        return self.work.sequence.folds[self.way.fold].name
+        return self.work.sequence.folds[self.way.trial.fold].name
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, and follow the path with the base's legs in between."""
@@ -89,7 +89,7 @@ class FoldStep:
         """Stretches of even motion, broken where the base drives and at the apex."""
         stands = legs(self._strip, self.first_stand, self.after.back_off, self.work.back_offs)
         at, sweep = self.first_stand, 0.0
-        for waypoint, stand in zip(self.way.sweeps, stands, strict=True):
+        for waypoint, stand in zip(self.way.trial.sweeps, stands, strict=True):
             is_apex = abs(waypoint - 1.0) <= ANGLE_RAD
             if stand != at or is_apex:
                 yield from self._stretch(sweep, float(waypoint), at)
@@ -126,22 +126,22 @@ class FoldStep:
 
     def _hands(self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
-        paths = self.way.path.tool_paths(self.way.points, np.array(sweeps))
-        for number, arm in enumerate(self.way.arms):
+        paths = self.way.trial.path.tool_paths(self.way.trial.points, np.array(sweeps))
+        for number, arm in enumerate(self.way.trial.arms):
             points = tuple(_point(p) for p in paths[number])
             hands[arm] = Hand(self._approach(number), points, is_closed, is_reaching)
         return tuple(hands)
 
     def _tools(self, sweep: float) -> FloatArray:
-        return self.way.path.tool_points(self.way.points, sweep)
+        return self.way.trial.path.tool_points(self.way.trial.points, sweep)
 
     def _base(self, back_off: int) -> Pose2:
         return self.work.base_pose(self.before.station, back_off)
 
     def _cloth(self, start: float, end: float) -> ClothMotion:
         placement = self.work.placed(self.before.offset)
-        top = self.way.path.top_at(start)
-        return ClothMotion(self.before.done, placement, placement, top, self.way.fold, (start, end))
+        top = self.way.trial.path.top_at(start)
+        return ClothMotion(self.before.done, placement, placement, top, self.way.trial.fold, (start, end))
 
 
 class GFold:
@@ -174,14 +174,16 @@ class GFold:
 
     def _holding(self, state: State, way: FoldWay) -> Iterator[FoldStep]:
         steps, firsts = way.ends(state)
-        line = self._work.sequence.folds[way.fold].line
+        line = self._work.sequence.folds[way.trial.fold].line
         over = Isometry.reflection(line)
-        held = tuple(Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
+        held = tuple(
+            Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.trial.arms, way.trial.cover, strict=True))
+        )
         for end in np.flatnonzero(steps < IMPOSSIBLE):
             yield self._step(state, way, int(firsts[end]), int(end), held)
 
     def _step(self, state: State, way: FoldWay, first: int, end: int, held: tuple[Held, ...]) -> FoldStep:
-        after = State(state.done | 1 << way.fold, state.offset, state.station, end, held)
+        after = State(state.done | 1 << way.trial.fold, state.offset, state.station, end, held)
         return FoldStep(self._work, way, state, after, first)
 
 

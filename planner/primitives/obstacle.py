@@ -1,7 +1,10 @@
-"""Why a primitive was not possible: collected while searching, turned into reasons when there is no plan."""
+"""Why a fold was not possible: collected while searching, turned into reasons when there is no plan."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import grid_key
 
 
 class Code(StrEnum):
@@ -18,36 +21,54 @@ class Code(StrEnum):
     WAITS_FOR_FOLD = "waits_for_fold"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
+class Attempt:
+    """A way to fold that the arms could not follow.
+
+    Attributes:
+        station: index of the station.
+        offset: how far drags had carried the article (m).
+        arms: the arm of each grip.
+        tools: each grip's tool path in the table frame, shape (grips, n, 3), m.
+    """
+
+    station: int
+    offset: Point2
+    arms: tuple[int, ...]
+    tools: FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Obstacle:
     """One thing that stood in the way of one fold.
 
     Attributes:
         fold: the fold's index; None when it is about no fold.
         code: which constraint.
-        message: a sentence with the numbers.
-        severity: how far from possible it was, 0 just missed; only for comparing obstacles of one fold.
+        message: a sentence with the numbers; empty for what is out of reach, which is diagnosed when asked for.
+        severity: how far from possible it was, 0 just missed; only for comparing obstacles of one fold and code.
+        attempt: what was tried, for what is out of reach.
     """
 
     fold: int | None
     code: Code
     message: str
     severity: float
+    attempt: Attempt | None = None
 
 
 @dataclass(slots=True)
 class Obstacles:
-    """For each fold the obstacles that came nearest to being passed, one of each code."""
+    """For each fold and code the obstacle that came nearest to being passed, the first of equals."""
 
     nearest: dict[tuple[int | None, Code], Obstacle] = field(default_factory=dict)
 
     def note(self, obstacle: Obstacle) -> None:
         """Keep an obstacle if it is the mildest of its fold and code so far."""
         key = (obstacle.fold, obstacle.code)
-        if key not in self.nearest or obstacle.severity < self.nearest[key].severity:
+        if key not in self.nearest or grid_key(obstacle.severity) < grid_key(self.nearest[key].severity):
             self.nearest[key] = obstacle
 
     def of(self, fold: int | None) -> tuple[Obstacle, ...]:
-        """What stood in one fold's way, mildest first."""
-        mine = [o for o in self.nearest.values() if o.fold == fold]
-        return tuple(sorted(mine, key=lambda o: o.severity))
+        """What stood in one fold's way, in the order in which it was met."""
+        return tuple(o for o in self.nearest.values() if o.fold == fold)

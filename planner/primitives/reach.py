@@ -5,7 +5,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, FloatArray
+from planner.geometry.pose import Approach, FloatArray, Point3
 
 
 class Reach(Protocol):
@@ -22,6 +22,11 @@ class Reach(Protocol):
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which this robot's grippers may pinch cloth, base frame."""
+        ...
+
+    @property
+    def shoulders(self) -> tuple[Point3, ...]:
+        """Where each arm is hung up, base frame (m); for telling near from far, not for reach."""
         ...
 
     def back_offs(

@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, FloatArray
+from planner.geometry.pose import Approach, FloatArray, Point3
 from planner.robot.back_offs import back_off_masks, empty_memory
 from planner.robot.sided_arm import SidedArm
 
@@ -58,6 +58,12 @@ class Pr2Reach:
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which the grippers may pinch cloth, base frame."""
         return APPROACHES
+
+    @property
+    def shoulders(self) -> tuple[Point3, ...]:
+        """Where each arm is hung up, base frame (m)."""
+        found = [arm.mirrored_places(arm.shoulder(self._torso_m)[None])[0] for arm in self._arms]
+        return tuple((float(x), float(y), float(z)) for x, y, z in found)
 
     @property
     def torso_m(self) -> float:

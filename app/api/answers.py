@@ -1,0 +1,171 @@
+"""The shapes of garments, scenes and answers, for the description of the interface at /docs.
+
+The planner makes and checks these values; nothing is validated here.
+"""
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field
+
+Point = tuple[float, float]
+Point3 = tuple[float, float, float]
+
+
+class Health(BaseModel):
+    """The server is there."""
+
+    status: Literal["ok"]
+    version: str
+
+
+class PoseFile(BaseModel):
+    """A pose in the table frame (m, rad)."""
+
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+
+class FoldFile(BaseModel):
+    """A fold; what lies to the left of start -> end moves."""
+
+    name: str
+    kind: Literal["blue", "red"]
+    start: Point
+    end: Point
+    grip_radius_m: float | None = None
+
+
+class GarmentFile(BaseModel):
+    """A garment file."""
+
+    name: str
+    title: str | None = None
+    outline: list[Point]
+    areal_density_kg_m2: float = 0.2
+    folds: list[FoldFile] = Field(default_factory=list)
+    grip_radius_m: float = 0.127
+    placement: PoseFile | None = None
+
+
+class GarmentEntry(BaseModel):
+    """A garment in the list."""
+
+    name: str
+    title: str
+    shipped: bool
+
+
+class TableFile(BaseModel):
+    """A table (m)."""
+
+    depth_m: float = 1.6
+    width_m: float = 0.98
+    height_m: float = 0.79
+
+
+class SceneFile(BaseModel):
+    """A scene; every field is optional, given stations replace the five."""
+
+    table: TableFile = Field(default_factory=TableFile)
+    stations: dict[str, PoseFile] = Field(default_factory=dict)
+    torso_m: float = 0.29
+    friction: float = 1.0
+    support_angle_rad: float = 0.0873
+    approach_cone_rad: float = 1.309
+    back_off_max_m: float = 0.8
+    arm_motion_s: float = 3.0
+    base_speed_m_s: float = 0.25
+    base_turn_rad_s: float = 0.5
+
+
+class LayerAnswer(BaseModel):
+    """A layer of the folded cloth, article frame (m)."""
+
+    polygon: list[Point]
+    face: Literal["front", "back"]
+
+
+class DagAnswer(BaseModel):
+    """The Fold-DAG, and the layers after all folds from bottom to top."""
+
+    folds: int
+    edges: list[tuple[int, int]]
+    layers: list[LayerAnswer]
+
+
+class GripAnswer(BaseModel):
+    """What one arm does: tool points in the table frame (m)."""
+
+    arm: str
+    pick: Point3
+    apex: Point3 | None
+    place: Point3
+
+
+class BaseAnswer(PoseFile):
+    """Where a primitive leaves the base."""
+
+    station: str
+    back_off_m: float
+
+
+class PrimitiveAnswer(BaseModel):
+    """A primitive; which further fields it has depends on its kind."""
+
+    kind: Literal["fold", "drag", "move"]
+    start_s: float
+    duration_s: float
+    base: BaseAnswer
+    grips: list[GripAnswer]
+    fold: int | None = None
+    distance_m: float | None = None
+    holds: bool | None = None
+    waypoints: list[Point3] | None = None
+
+
+class DagPart(BaseModel):
+    """The Fold-DAG of a plan."""
+
+    folds: int
+    edges: list[tuple[int, int]]
+
+
+class ReasonAnswer(BaseModel):
+    """Why there is no plan."""
+
+    fold: int | None
+    code: str
+    message: str
+
+
+class PlanAnswer(BaseModel):
+    """A plan, or why there is none."""
+
+    id: str
+    status: Literal["solved", "infeasible", "budget_exceeded"]
+    cost_s: float | None
+    primitives: list[PrimitiveAnswer]
+    dag: DagPart
+    final_layers: list[LayerAnswer]
+    final_placement: PoseFile | None
+    reasons: list[ReasonAnswer]
+    statistics: dict[str, Any]
+
+
+class SampleAnswer(BaseModel):
+    """The robot at one time."""
+
+    t_s: float
+    primitive: int
+    base: PoseFile
+    torso_m: float
+    joints: dict[str, float]
+    grippers_m: dict[str, float]
+
+
+class TimelineAnswer(BaseModel):
+    """A plan's timeline, sampled."""
+
+    rate_hz: float
+    samples: list[SampleAnswer]

@@ -1,0 +1,45 @@
+"""Puts the server together: REST, page, stages, guard. Nothing is built before this is called."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+from fastapi.concurrency import run_in_threadpool
+from fastapi_offline import FastAPIOffline
+
+from app.api import garment_routes, live, page_routes, plan_routes, scene_routes, stage_routes
+from app.api.described import describe_problem
+from app.api.guard import OwnNamesOnly
+from app.api.problems import install_problems
+from app.settings import Settings
+from app.workspace import Workspace
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """The server for these settings; documents are opened when it starts to serve."""
+    workspace = Workspace(settings)
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        await run_in_threadpool(workspace.open_first)
+        try:
+            yield
+        finally:
+            await run_in_threadpool(workspace.close)
+
+    app = FastAPIOffline(
+        docs_url="/docs",
+        redoc_url=None,
+        title="Pleat",
+        summary="Plans how a robot can really fold a garment.",
+        version=scene_routes.own_version(),
+        lifespan=lifespan,
+    )
+    app.state.workspace = workspace
+    for routes in (scene_routes, garment_routes, plan_routes, live, stage_routes, page_routes):
+        app.include_router(routes.router)
+    page_routes.mount_files(app)
+    install_problems(app)
+    describe_problem(app)
+    app.add_middleware(OwnNamesOnly, host=settings.host, port=settings.port)
+    return app

@@ -1,0 +1,53 @@
+"""Garments: the list, one, and saving one's own."""
+
+from dataclasses import asdict
+from typing import Any
+
+from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from starlette.responses import JSONResponse
+
+from app.api.answers import GarmentEntry, GarmentFile
+from app.api.asked import workspace_of
+from app.api.body import read_object
+from app.api.described import problems, takes
+from planner.cloth.garment import Garment
+from planner.errors import GarmentError
+
+router = APIRouter(prefix="/api/garments", tags=["garments"])
+
+
+@router.get("", response_model=list[GarmentEntry])
+async def list_garments(request: Request) -> list[dict[str, Any]]:
+    """All garments, the shipped ones first."""
+    entries = await run_in_threadpool(workspace_of(request).garments.entries)
+    return [asdict(entry) for entry in entries]
+
+
+@router.get("/{name}", responses={200: {"model": GarmentFile}, **problems(404)})
+async def read_garment(request: Request, name: str) -> JSONResponse:
+    """A garment file with every field filled in."""
+    garment = await run_in_threadpool(workspace_of(request).garments.garment, name)
+    return JSONResponse(garment.to_dict())
+
+
+@router.put(
+    "/{name}",
+    openapi_extra=takes(GarmentFile),
+    responses={200: {"model": GarmentFile}, 201: {"model": GarmentFile}, **problems(409, 413, 422)},
+)
+async def save_garment(request: Request, name: str) -> JSONResponse:
+    """Save or replace a garment of one's own: 201 when it is new, 200 when it was there."""
+    shelf = workspace_of(request).garments
+    garment = await run_in_threadpool(Garment.from_dict, await read_object(request))
+    if garment.name != name:
+        raise GarmentError("name", f"is {garment.name!r}, but the address says {name!r}")
+    is_new = await run_in_threadpool(shelf.save, garment)
+    return JSONResponse(garment.to_dict(), status_code=201 if is_new else 200)
+
+
+@router.delete("/{name}", status_code=204, responses=problems(404, 409))
+async def remove_garment(request: Request, name: str) -> Response:
+    """Remove a garment of one's own."""
+    await run_in_threadpool(workspace_of(request).garments.remove, name)
+    return Response(status_code=204)

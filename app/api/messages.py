@@ -1,0 +1,96 @@
+"""What clients send: the bodies of requests, and the page's commands."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PlainValidator, TypeAdapter, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from app.api.answers import GarmentFile, SceneFile
+from app.api.described import whole_schema
+from app.playback import SPEED_MAX, SPEED_MIN
+from planner.strict_model import LARGEST_M, Bounded, StrictModel
+
+
+def _name_or_object(value: Any) -> Any:  # noqa: ANN401
+    if not isinstance(value, str | dict):
+        raise PydanticCustomError("garment_type", "should be a garment's name or a garment")
+    return value
+
+
+def _object(value: Any) -> Any:  # noqa: ANN401
+    if not isinstance(value, dict):
+        raise PydanticCustomError("scene_type", "should be a scene")
+    return value
+
+
+GarmentField = Annotated[
+    Any,
+    PlainValidator(_name_or_object),
+    WithJsonSchema({"anyOf": [{"type": "string"}, whole_schema(GarmentFile)]}),
+]
+SceneField = Annotated[Any, PlainValidator(_object), WithJsonSchema(whole_schema(SceneFile))]
+
+
+class Placement(StrictModel):
+    """A pose in the table frame (m, rad)."""
+
+    x_m: Bounded
+    y_m: Bounded
+    yaw_rad: Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
+
+
+class DagRequest(StrictModel):
+    """Asks which fold waits for which."""
+
+    garment: GarmentField
+
+
+class PlanRequest(StrictModel):
+    """Asks for a plan; only `garment` is required."""
+
+    garment: GarmentField
+    placement: Placement | None = None
+    scene: SceneField | None = None
+    start_station: str = "front"
+    robot: str = "pr2"
+    comfort_radius_m: Annotated[float, Field(ge=0.0, le=0.1)] = 0.03
+    heuristic: Literal["arm_time", "zero"] = "arm_time"
+    time_limit_s: Annotated[float, Field(ge=0.01, le=60.0)] = 10.0
+    max_expanded: Annotated[int, Field(ge=1, le=1_000_000)] = 100_000
+
+
+class Play(StrictModel):
+    """Let time run."""
+
+    do: Literal["play"]
+
+
+class Pause(StrictModel):
+    """Stop time."""
+
+    do: Literal["pause"]
+
+
+class Seek(StrictModel):
+    """Go to a time (s)."""
+
+    do: Literal["seek"]
+    t_s: Annotated[float, Field(ge=0.0, le=1e6)]
+
+
+class SetSpeed(StrictModel):
+    """Let time run at another speed."""
+
+    do: Literal["speed"]
+    speed: Annotated[float, Field(ge=SPEED_MIN, le=SPEED_MAX)]
+
+
+class Choose(StrictModel):
+    """Take another garment."""
+
+    do: Literal["choose"]
+    garment: str
+
+
+Command = Annotated[Play | Pause | Seek | SetSpeed | Choose, Field(discriminator="do")]
+COMMANDS: TypeAdapter[Play | Pause | Seek | SetSpeed | Choose] = TypeAdapter(Command)

@@ -1,0 +1,146 @@
+"""Every error as `application/problem+json` (RFC 9457): title, status, sentence, fields; never a trace."""
+
+import http
+import json
+import logging
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+
+from app.open_document import UnknownDocumentError
+from app.plan_store import UnknownPlanError
+from planner.errors import (
+    FieldError,
+    FoldingError,
+    GarmentFileError,
+    ReadOnlyGarmentError,
+    UnknownGarmentError,
+    UnsolvedPlanError,
+)
+from planner.strict_model import field_path, plain_message
+
+MEDIA_TYPE = "application/problem+json"
+
+_log = logging.getLogger(__name__)
+_STATUS_OF: dict[type[FoldingError], int] = {
+    UnknownGarmentError: 404,
+    UnknownPlanError: 404,
+    UnknownDocumentError: 404,
+    ReadOnlyGarmentError: 409,
+    UnsolvedPlanError: 409,
+    GarmentFileError: 422,
+}
+_REQUEST_PARTS = ("body", "query", "path", "header")
+
+
+class FieldProblem(BaseModel):
+    """One field of the input and what is wrong with it."""
+
+    field: str
+    message: str
+
+
+class Problem(BaseModel):
+    """An error (RFC 9457)."""
+
+    title: str
+    status: int
+    detail: str
+    errors: list[FieldProblem] | None = None
+
+
+class ProblemResponse(Response):
+    """A problem on its way out."""
+
+    media_type = MEDIA_TYPE
+
+    def __init__(
+        self,
+        status: int,
+        detail: str,
+        errors: Sequence[dict[str, str]] = (),
+        headers: dict[str, str] | None = None,
+    ) -> None:
+        """The title is the status in words; `errors` only when there are some."""
+        problem: dict[str, Any] = {"title": _title(status), "status": status, "detail": detail}
+        if errors:
+            problem["errors"] = list(errors)
+        super().__init__(json.dumps(problem).encode("ascii"), status, headers)
+
+
+class TooLargeError(FoldingError):
+    """A request body is beyond the limit."""
+
+
+def install_problems(app: FastAPI) -> None:
+    """Have every exception answered as a problem."""
+    handlers: dict[type[Exception], Callable[[Request, Any], Awaitable[Response]]] = {
+        HTTPException: _http_problem,
+        RequestValidationError: _validation_problem,
+        FieldError: _field_problem,
+        TooLargeError: _too_large_problem,
+        FoldingError: _folding_problem,
+        Exception: _unexpected_problem,
+    }
+    for kind, handler in handlers.items():
+        app.add_exception_handler(kind, handler)
+
+
+async def _http_problem(request: Request, error: HTTPException) -> Response:
+    return ProblemResponse(error.status_code, _http_detail(request, error), headers=dict(error.headers or {}))
+
+
+async def _validation_problem(_: Request, error: RequestValidationError) -> Response:
+    fields = [_described(detail) for detail in error.errors()]
+    return ProblemResponse(422, _summary(fields), fields)
+
+
+async def _field_problem(_: Request, error: FieldError) -> Response:
+    field = {"field": error.field, "message": error.message}
+    return ProblemResponse(422, _summary([field]), [field])
+
+
+async def _too_large_problem(_: Request, error: TooLargeError) -> Response:
+    return ProblemResponse(413, str(error), headers={"connection": "close"})
+
+
+async def _folding_problem(_: Request, error: FoldingError) -> Response:
+    status = next((code for kind, code in _STATUS_OF.items() if isinstance(error, kind)), 422)
+    return ProblemResponse(status, str(error))
+
+
+async def _unexpected_problem(request: Request, error: Exception) -> Response:
+    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    return ProblemResponse(500, "The server failed on this request; its log says why.")
+
+
+def _title(status: int) -> str:
+    try:
+        return http.HTTPStatus(status).phrase
+    except ValueError:
+        return "Error"
+
+
+def _http_detail(request: Request, error: HTTPException) -> str:
+    if error.status_code == http.HTTPStatus.NOT_FOUND:
+        return f"There is nothing at {request.url.path[:200]}."
+    if error.status_code == http.HTTPStatus.METHOD_NOT_ALLOWED:
+        return f"{request.method} is not possible at {request.url.path[:200]}."
+    return str(error.detail)
+
+
+def _described(detail: Any) -> dict[str, str]:  # noqa: ANN401
+    location = tuple(detail["loc"])
+    inner = location[1:] if location and location[0] in _REQUEST_PARTS else location
+    return {"field": field_path(inner), "message": plain_message(dict(detail))}
+
+
+def _summary(fields: Sequence[dict[str, str]]) -> str:
+    first = fields[0]
+    text = f"{first['field']}: {first['message']}" if first["field"] else first["message"]
+    return text if len(fields) == 1 else f"{text} (and {len(fields) - 1} more)"

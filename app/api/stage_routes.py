@@ -1,0 +1,101 @@
+"""The way to a stage: its page and websocket under `/viser/{document}`, passed on to its own viser server.
+
+The page is one file, the same for all stages. It works out where its websocket is from its own address less
+the trailing slash, so page and websocket differ by that slash alone. Its panel of controls and its notices
+have no place in our frame: the style that we add hides all but the canvas.
+"""
+
+import asyncio
+import contextlib
+import functools
+
+from fastapi import APIRouter, Request, WebSocket
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.websockets import WebSocketDisconnect
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.typing import Subprotocol
+
+from app.open_document import UnknownDocumentError
+from app.ui.private_viser import LOOPBACK, SECRET_HEADER, VISER_PAGE
+from app.ui.stage import Stage
+
+router = APIRouter(prefix="/viser", include_in_schema=False)
+
+_GOING_AWAY = 1001
+_NOT_FOUND = 4404
+_HIDE = (
+    b"<style>#root * { visibility: hidden }"
+    b"#root canvas, #root canvas ~ div, #root canvas ~ div * { visibility: visible }</style>"
+)
+
+
+@router.get("/{name}/")
+async def read_stage_page(request: Request, name: str) -> Response:
+    """The page that shows a stage."""
+    request.app.state.workspace.opened(name)
+    return HTMLResponse(_bare_page(), headers={"cache-control": "no-cache"})
+
+
+@router.get("/{name}")
+async def redirect_to_stage_page(request: Request, name: str) -> Response:
+    """The page's address has a slash at the end."""
+    request.app.state.workspace.opened(name)
+    return RedirectResponse(request.url.path + "/")
+
+
+@router.websocket("/{name}")
+@router.websocket("/{name}/")
+async def connect_stage(websocket: WebSocket, name: str) -> None:
+    """Pass messages on, both ways, until either side is done."""
+    try:
+        stage = websocket.app.state.workspace.opened(name).stage
+    except UnknownDocumentError:
+        await websocket.close(_NOT_FOUND)
+        return
+    with contextlib.suppress(OSError, WebSocketException, WebSocketDisconnect):
+        async with _dial(stage, websocket.scope["subprotocols"]) as inner:
+            await websocket.accept(subprotocol=inner.subprotocol)
+            await _pass_on(websocket, inner)
+
+
+@functools.lru_cache(maxsize=1)
+def _bare_page() -> bytes:
+    return VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + b"</head>", 1)
+
+
+def _dial(stage: Stage, subprotocols: list[str]) -> connect:
+    return connect(
+        f"ws://{LOOPBACK}:{stage.port}",
+        additional_headers={SECRET_HEADER: stage.secret},
+        subprotocols=[Subprotocol(protocol) for protocol in subprotocols] or None,
+        max_size=None,
+        compression=None,
+        ping_interval=None,
+        proxy=None,
+    )
+
+
+async def _pass_on(outer: WebSocket, inner: ClientConnection) -> None:
+    """Both directions at once; each sends one message before it takes the next, so neither side floods."""
+    ways = [asyncio.create_task(_inwards(outer, inner)), asyncio.create_task(_outwards(outer, inner))]
+    try:
+        await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for way in ways:
+            way.cancel()
+        await asyncio.gather(*ways, return_exceptions=True)
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+            await outer.close(_GOING_AWAY)
+
+
+async def _inwards(outer: WebSocket, inner: ClientConnection) -> None:
+    with contextlib.suppress(WebSocketDisconnect, ConnectionClosed):
+        async for message in outer.iter_bytes():
+            await inner.send(message)
+
+
+async def _outwards(outer: WebSocket, inner: ClientConnection) -> None:
+    with contextlib.suppress(WebSocketDisconnect, ConnectionClosed):
+        async for message in inner:
+            await (outer.send_bytes(message) if isinstance(message, bytes) else outer.send_text(message))

@@ -1,0 +1,61 @@
+"""Serves the designer on one address, until it is told to stop."""
+
+import socket
+from collections.abc import Callable
+
+import uvicorn
+
+from app.api.create_app import create_app
+from app.settings import Settings
+
+_LARGEST_MESSAGE = 4 << 20
+_GRACE_S = 1
+
+
+class _AnnouncingServer(uvicorn.Server):
+    """A server that says when it listens."""
+
+    def __init__(self, config: uvicorn.Config, announce: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._announce = announce
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._announce()
+
+
+def serve(settings: Settings, announce: Callable[[str], None]) -> None:
+    """Serve until interrupted; `announce` is told the URL as soon as it answers.
+
+    Raises:
+        OSError: the address cannot be listened on.
+    """
+    with _listening(settings.host, settings.port) as listener:
+        bound = settings.model_copy(update={"port": listener.getsockname()[1]})
+        config = uvicorn.Config(
+            create_app(bound),
+            log_level="warning",
+            ws_max_size=_LARGEST_MESSAGE,
+            ws_per_message_deflate=False,
+            timeout_graceful_shutdown=_GRACE_S,
+            server_header=False,
+        )
+        _AnnouncingServer(config, lambda: announce(_url(bound))).run(sockets=[listener])
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    listener = socket.socket(family, kind, protocol)
+    try:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+    except OSError:
+        listener.close()
+        raise
+    return listener
+
+
+def _url(settings: Settings) -> str:
+    host = f"[{settings.host}]" if ":" in settings.host else settings.host
+    return f"http://{host}:{settings.port}"

@@ -1,0 +1,95 @@
+"""What the command line prints for people."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from rich.table import Table
+
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Point2
+from planner.plan.garment_check import GarmentCheck
+from planner.plan.plan import Plan
+
+_POINTS_SHOWN = 4
+
+
+def plan_table(plan: Plan) -> Table:
+    """A solved plan: one row for each primitive."""
+    table = _table(f"{plan.garment.title}: {len(plan.primitives)} primitives, {plan.cost_s:.2f} s")
+    for name, is_number in (
+        ("primitive", False),
+        ("what", False),
+        ("start [s]", True),
+        ("duration [s]", True),
+        ("base", False),
+        ("grips", False),
+    ):
+        table.add_column(name, justify="right" if is_number else "left")
+    for primitive in plan.primitives:
+        data = primitive.to_dict()
+        table.add_row(
+            data["kind"],
+            _what(data, plan.garment),
+            f"{data['start_s']:.2f}",
+            f"{data['duration_s']:.2f}",
+            _base(data["base"]),
+            "\n".join(_grip(grip) for grip in data["grips"]),
+        )
+    return table
+
+
+def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
+    """The Fold-DAG: each fold, and the folds that it waits for."""
+    table = _table(f"{garment.title}: {len(garment.folds)} folds")
+    table.add_column("fold", justify="right")
+    table.add_column("name")
+    table.add_column("kind")
+    table.add_column("waits for")
+    for index, fold in enumerate(garment.folds):
+        before = ", ".join(str(first) for first, then in edges if then == index)
+        table.add_row(str(index), fold.name, fold.kind, before or "-")
+    return table
+
+
+def check_table(garment: Garment, report: GarmentCheck) -> Table:
+    """What must be held in each fold, and by how many grippers."""
+    table = _table(f"{garment.title}: a good file, {len(report.folds)} legal folds")
+    table.add_column("fold", justify="right")
+    table.add_column("name")
+    table.add_column("grippers", justify="right")
+    table.add_column("must be held [m]")
+    for index, fold in enumerate(report.folds):
+        needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
+        table.add_row(str(index), fold.name, needed, _points(fold.must_hold))
+    return table
+
+
+def _table(title: str) -> Table:
+    return Table(title=title, title_justify="left", header_style="bold")
+
+
+def _what(data: dict[str, Any], garment: Garment) -> str:
+    if data["kind"] == "fold":
+        return f"{data['fold']}: {garment.folds[data['fold']].name}"
+    if data["kind"] == "drag":
+        return f"{data['distance_m']:.2f} m towards the robot" + (", holds on" if data["holds"] else "")
+    if data["kind"] == "move":
+        return f"{data['from']} to {data['to']}"
+    return ""
+
+
+def _base(base: dict[str, Any]) -> str:
+    return f"{base['station']}, {base['back_off_m']:.2f} m back"
+
+
+def _grip(grip: dict[str, Any]) -> str:
+    """An arm, and where its tool goes in the plane of the table (m)."""
+    (x, y, _), (to_x, to_y, _) = grip["pick"], grip["place"]
+    return f"{grip['arm']} ({x:.3f}, {y:.3f}) to ({to_x:.3f}, {to_y:.3f})"
+
+
+def _points(points: Sequence[Point2]) -> str:
+    """The first few points (m), and how many more there are."""
+    shown = " ".join(f"({x:.3f}, {y:.3f})" for x, y in points[:_POINTS_SHOWN])
+    more = len(points) - _POINTS_SHOWN
+    return f"{shown} and {more} more" if more > 0 else shown

@@ -1,0 +1,67 @@
+"""The cloth on the stage: its two faces in two colours, and the outline of every layer.
+
+A face of cloth has no thickness, so it is drawn twice from the same triangles: once where it is seen from
+the front, once where it is seen from behind.
+"""
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.ui.colours import Palette
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import LENGTH_M
+from planner.plan.frame import ClothSurface
+
+FRONT = "/cloth/front"
+BACK = "/cloth/back"
+EDGES = "/cloth/edges"
+
+_EDGE_PX = 1.5
+_SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+_NO_POINTS = np.zeros((3, 3))
+_NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
+
+
+class ClothView:
+    """Shows one cloth surface at a time."""
+
+    def __init__(self, server: viser.ViserServer, palette: Palette) -> None:
+        """Build the nodes, still without cloth."""
+        add_mesh = server.scene.add_mesh_simple
+        self._front = add_mesh(FRONT, _NO_POINTS, _NO_TRIANGLES, color=palette.cloth_front, side="front")
+        self._back = add_mesh(BACK, _NO_POINTS, _NO_TRIANGLES, color=palette.cloth_back, side="back")
+        self._edges = server.scene.add_line_segments(
+            EDGES,
+            np.zeros((1, 2, 3)),
+            palette.cloth_edge,
+            thickness=_EDGE_PX,
+            thickness_units="screen",
+        )
+        self._triangles: NDArray[np.int64] = _NO_TRIANGLES
+
+    def show(self, cloth: ClothSurface) -> None:
+        """Put this surface in place of the one before."""
+        is_recut = not np.array_equal(cloth.triangles, self._triangles)
+        self._triangles = cloth.triangles
+        vertices = cloth.vertices.astype(np.float32)
+        for mesh in (self._front, self._back):
+            mesh.vertices = vertices
+            if is_recut:
+                mesh.faces = cloth.triangles.astype(np.uint32)
+        self._edges.points = outlines(cloth).astype(np.float32)
+
+
+def outlines(cloth: ClothSurface) -> FloatArray:
+    """The edges that no two triangles of a layer share, as segments, shape (n, 2, 3), m.
+
+    Triangles need not share vertices: corners at the same place are the same corner.
+    """
+    corners = np.round(cloth.vertices[cloth.triangles] / LENGTH_M).astype(np.int64)
+    layers = np.broadcast_to(cloth.layers[:, None, None], (*corners.shape[:2], 1))
+    places = np.concatenate([corners, layers], axis=2)
+    _, names = np.unique(places.reshape(-1, 4), axis=0, return_inverse=True)
+    ends = names.reshape(-1, 3)[:, _SIDES].reshape(-1, 2)
+    _, first, counts = np.unique(np.sort(ends, axis=1), axis=0, return_index=True, return_counts=True)
+    shown = cloth.triangles[:, _SIDES].reshape(-1, 2)[first[counts == 1]]
+    return np.asarray(cloth.vertices[shown]) if len(shown) else np.zeros((1, 2, 3))

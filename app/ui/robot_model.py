@@ -1,0 +1,151 @@
+"""A robot's links and meshes, read once from its URDF and shared by all stages.
+
+Links form a tree, and viser's scene is one too: a link's node hangs below its parent's, so a joint that
+moves changes one node and the browser works out where everything beyond it goes. No kinematics here.
+"""
+
+import functools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+import yourdfpy
+from numpy.typing import NDArray
+
+from app.ui.rotation import IDENTITY, Quaternion, from_matrix
+from planner.geometry.pose import FloatArray, Point3
+
+_SMALLEST_SHOWN_M = 0.03
+_CREASE_RAD = math.radians(40.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Pose3:
+    """A place and a rotation in the parent's frame."""
+
+    position: Point3 = (0.0, 0.0, 0.0)
+    wxyz: Quaternion = IDENTITY
+
+
+@dataclass(frozen=True, slots=True)
+class Visual:
+    """A mesh that belongs to a link.
+
+    Attributes:
+        pose: in the link's frame.
+        vertices: shape (n, 3), m; doubled along sharp edges so that they are shaded as edges.
+        triangles: shape (m, 3), indices into `vertices`.
+    """
+
+    pose: Pose3
+    vertices: FloatArray
+    triangles: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A link, and the joint by which it hangs from its parent.
+
+    Attributes:
+        name: the link's name in the URDF.
+        node: its scene node's path below the robot's own: the names of all links down to it.
+        origin: its pose in the parent's frame while the joint stands at zero.
+        joint: the actuated joint that moves it, or None when it is fixed.
+        factor: joint positions are multiplied by this (a finger that mimics another).
+        axis: the joint's axis in the link's own frame, shape (3,).
+        is_prismatic: whether the joint slides rather than turns.
+        visuals: its meshes.
+    """
+
+    name: str
+    node: str
+    origin: Pose3
+    joint: str | None
+    factor: float
+    axis: FloatArray
+    is_prismatic: bool
+    visuals: tuple[Visual, ...]
+
+
+@functools.lru_cache(maxsize=4)
+def load_robot_model(urdf_path: Path, package_dir: Path) -> tuple[Link, ...]:
+    """All links of a robot, parents before children, the root first.
+
+    Args:
+        urdf_path: the URDF.
+        package_dir: the folder that ``package://`` in its mesh paths stands for.
+    """
+
+    def mesh_path(fname: str) -> str:
+        return str(package_dir / fname.removeprefix("package://"))
+
+    urdf = yourdfpy.URDF.load(str(urdf_path), filename_handler=mesh_path, load_meshes=False)
+    joint_of_link = {joint.child: joint for joint in urdf.robot.joints}
+    nodes: dict[str, str] = {}
+    links = []
+    for name in _parents_first(urdf):
+        joint = joint_of_link.get(name)
+        nodes[name] = f"{nodes[joint.parent]}/{name}" if joint else f"/{name}"
+        shown = [_visual(visual, mesh_path) for visual in urdf.link_map[name].visuals]
+        links.append(_link(name, nodes[name], joint, tuple(v for v in shown if v is not None)))
+    return tuple(links)
+
+
+def _parents_first(urdf: yourdfpy.URDF) -> list[str]:
+    children: dict[str, list[str]] = {}
+    for joint in urdf.robot.joints:
+        children.setdefault(joint.parent, []).append(joint.child)
+    ordered = [urdf.base_link]
+    for name in ordered:  # grows while it is walked through
+        ordered.extend(children.get(name, ()))
+    return ordered
+
+
+def _link(name: str, node: str, joint: yourdfpy.Joint | None, visuals: tuple[Visual, ...]) -> Link:
+    if joint is None:
+        return Link(name, node, Pose3(), None, 1.0, np.zeros(3), False, visuals)
+    is_fixed = joint.type == "fixed"
+    moved_by = joint.mimic.joint if joint.mimic else joint.name
+    return Link(
+        name=name,
+        node=node,
+        origin=_pose(joint.origin),
+        joint=None if is_fixed else moved_by,
+        factor=joint.mimic.multiplier if joint.mimic else 1.0,
+        axis=np.array(joint.axis if joint.axis is not None else (1.0, 0.0, 0.0), dtype=float),
+        is_prismatic=joint.type == "prismatic",
+        visuals=visuals,
+    )
+
+
+def _pose(matrix: FloatArray | None) -> Pose3:
+    if matrix is None:
+        return Pose3()
+    x, y, z = (float(part) for part in matrix[:3, 3])
+    return Pose3((x, y, z), from_matrix(matrix))
+
+
+def _visual(visual: yourdfpy.Visual, mesh_path: Callable[[str], str]) -> Visual | None:
+    """A visual with its mesh; None for the crumbs that only mark a frame."""
+    mesh = _mesh(visual.geometry, mesh_path)
+    if mesh is None or max(mesh.extents) < _SMALLEST_SHOWN_M:
+        return None
+    creased = trimesh.graph.smooth_shade(mesh, angle=_CREASE_RAD)
+    return Visual(_pose(visual.origin), np.asarray(creased.vertices), np.asarray(creased.faces))
+
+
+def _mesh(geometry: yourdfpy.Geometry, mesh_path: Callable[[str], str]) -> trimesh.Trimesh | None:
+    made: trimesh.Trimesh | None = None
+    if geometry.box is not None:
+        made = trimesh.creation.box(extents=geometry.box.size)
+    elif geometry.cylinder is not None:
+        made = trimesh.creation.cylinder(geometry.cylinder.radius, geometry.cylinder.length)
+    elif geometry.sphere is not None:
+        made = trimesh.creation.icosphere(radius=geometry.sphere.radius)
+    elif geometry.mesh is not None:
+        made = trimesh.load_mesh(mesh_path(geometry.mesh.filename))
+        made.apply_scale(1.0 if geometry.mesh.scale is None else geometry.mesh.scale)
+    return made

@@ -1,0 +1,78 @@
+"""The robot on the stage: one scene node for each link, moved by its joint."""
+
+import viser
+
+from app.ui.colours import Palette, Rgb
+from app.ui.robot_model import Link, load_robot_model
+from app.ui.rotation import product, turn, yaw
+from planner.geometry.pose import Pose2
+from planner.robot.card import RobotCard
+
+ROOT = "/robot"
+
+_DARK_PARTS = ("wheel", "finger", "laser", "stereo", "high_def", "imu", "head_plate")
+_GREY_PARTS = ("caster", "wrist", "gripper", "elbow", "forearm_roll", "upper_arm_roll", "torso", "head")
+
+
+class RobotView:
+    """Shows a robot with its meshes; its base drives on the floor."""
+
+    def __init__(self, server: viser.ViserServer, card: RobotCard, floor_z_m: float, palette: Palette) -> None:
+        """Build the nodes, every joint at zero and the base at the origin.
+
+        Args:
+            server: where to build them.
+            card: the robot.
+            floor_z_m: the floor's height in the table frame (m), negative.
+            palette: the colours.
+        """
+        self._floor_z_m = floor_z_m
+        self._root = server.scene.add_frame(ROOT, show_axes=False, position=(0.0, 0.0, floor_z_m))
+        self._shown: dict[str, float] = {}
+        self._moved: dict[str, list[tuple[Link, viser.FrameHandle]]] = {}
+        for link in load_robot_model(card.urdf_path, card.package_dir):
+            handle = _add_link(server, link, palette)
+            if link.joint is not None:
+                self._moved.setdefault(link.joint, []).append((link, handle))
+
+    def pose(self, base: Pose2, joints: dict[str, float]) -> None:
+        """Put the base somewhere (table frame) and the joints (rad, m) too; unknown names are passed over."""
+        self._root.position = (base.x_m, base.y_m, self._floor_z_m)
+        self._root.wxyz = yaw(base.yaw_rad)
+        for name, value in joints.items():
+            if name in self._moved and self._shown.get(name) != value:
+                self._shown[name] = value
+                for link, handle in self._moved[name]:
+                    _move(link, handle, link.factor * value)
+
+
+def _add_link(server: viser.ViserServer, link: Link, palette: Palette) -> viser.FrameHandle:
+    node = ROOT + link.node
+    origin = link.origin
+    handle = server.scene.add_frame(node, show_axes=False, position=origin.position, wxyz=origin.wxyz)
+    for index, visual in enumerate(link.visuals):
+        server.scene.add_mesh_simple(
+            f"{node}/visual_{index}",
+            visual.vertices,
+            visual.triangles,
+            color=_colour(link.name, palette),
+            position=visual.pose.position,
+            wxyz=visual.pose.wxyz,
+        )
+    return handle
+
+
+def _move(link: Link, handle: viser.FrameHandle, value: float) -> None:
+    if link.is_prismatic:
+        x, y, z = (o + value * float(a) for o, a in zip(link.origin.position, link.axis, strict=True))
+        handle.position = (x, y, z)  # every sliding joint of a URDF we show has an unturned origin
+    else:
+        handle.wxyz = product(link.origin.wxyz, turn(link.axis, value))
+
+
+def _colour(link_name: str, palette: Palette) -> Rgb:
+    if any(part in link_name for part in _DARK_PARTS):
+        return palette.robot_dark
+    if any(part in link_name for part in _GREY_PARTS):
+        return palette.robot_grey
+    return palette.robot_light

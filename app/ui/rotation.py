@@ -1,0 +1,51 @@
+"""Rotations as viser wants them: unit quaternions (w, x, y, z)."""
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+
+Quaternion: TypeAlias = tuple[float, float, float, float]
+
+IDENTITY: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+def turn(axis: FloatArray, angle_rad: float) -> Quaternion:
+    """The rotation by an angle (rad) about a unit axis, shape (3,)."""
+    x, y, z = (float(part) for part in axis * math.sin(angle_rad / 2))
+    return math.cos(angle_rad / 2), x, y, z
+
+
+def yaw(angle_rad: float) -> Quaternion:
+    """The rotation by an angle (rad) about z."""
+    return math.cos(angle_rad / 2), 0.0, 0.0, math.sin(angle_rad / 2)
+
+
+def product(first: Quaternion, second: Quaternion) -> Quaternion:
+    """The rotation that does `second` and then `first`."""
+    a, b, c, d = first
+    e, f, g, h = second
+    return (
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    )
+
+
+def from_matrix(matrix: FloatArray) -> Quaternion:
+    """The rotation in the upper left of a matrix, shape (3, 3) or (4, 4)."""
+    r = matrix[:3, :3]
+    outer = np.array(
+        [
+            [r[0, 0] - r[1, 1] - r[2, 2], 0.0, 0.0, 0.0],
+            [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], 0.0, 0.0],
+            [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], 0.0],
+            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
+        ]
+    )
+    _, vectors = np.linalg.eigh(outer)  # the eigenvector of the largest eigenvalue; reads the lower triangle
+    x, y, z, w = (float(part) for part in vectors[:, -1])
+    return (w, x, y, z) if w >= 0.0 else (-w, -x, -y, -z)

@@ -1,0 +1,48 @@
+"""Where a drag leads and what it must hold (paper, Theorem 2)."""
+
+import math
+
+from planner.cloth.grips import GripCovers, grip_covers
+from planner.cloth.must_hold import must_hold
+from planner.geometry.pose import Point2
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.primitives.work import Work
+
+DRAGS_PER_M = 10
+"""The grid of drag distances: one every 10 cm."""
+
+
+def longest_drag(work: Work) -> int:
+    """The most steps of a drag: the article's length, the longer side of its smallest enclosing rectangle."""
+    return math.floor(work.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
+
+
+def dragged(work: Work, offset: Point2, station: int, steps: int) -> Point2:
+    """Where the article is after a drag from a station by so many steps, as an offset from the start (m)."""
+    yaw = work.station_pose(station).yaw_rad
+    distance = steps / DRAGS_PER_M
+    return (offset[0] - distance * math.cos(yaw), offset[1] - distance * math.sin(yaw))
+
+
+def towards_robot(work: Work, station: int) -> Point2:
+    """The direction of a drag from a station, a unit vector of the article frame."""
+    heading = work.station_pose(station).yaw_rad + math.pi - work.placement.yaw_rad
+    return (math.cos(heading), math.sin(heading))
+
+
+def hangs_ahead(work: Work, done: int, offset: Point2, towards: Point2) -> bool:
+    """Whether cloth hangs already from an edge towards which a drag would go."""
+    coordinates = work.sequence.cloth(done).silhouette.coordinates
+    for edge in work.table_in_article(offset).edges:
+        outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
+        if outwards > ANGLE_RAD and edge.left_distances(coordinates).min() < -LENGTH_M:
+            return True
+    return False
+
+
+def drag_covers(work: Work, done: int, offset: Point2, towards: Point2) -> GripCovers:
+    """The grips that Theorem 2 asks for on the part that lies on the table."""
+    silhouette = work.sequence.cloth(done).silhouette
+    lying = silhouette.intersection(work.table_in_article(offset).region)
+    vertices = must_hold(lying, towards, (), work.scene.support_angle_rad)
+    return grip_covers(lying, vertices, work.sequence.garment.grip_radius_m, len(work.reach.arm_names))

@@ -1,0 +1,154 @@
+"""What could be tried to perform a fold, before the robot is asked: grips, arms, the path of the tools."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.cloth.grips import Cover, best_covers
+from planner.folds.fold_path import FoldPath
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.segment import Segment
+from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.grasping import (
+    GRIPS_APART_M,
+    all_approaches,
+    approaches_from_outside,
+    assignments,
+    nearest_pair_m,
+)
+from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.state import Held, State
+from planner.primitives.work import Work
+
+
+@dataclass(frozen=True, eq=False)
+class FoldTrial:
+    """Grips and arms that may do.
+
+    Attributes:
+        fold: the fold's index.
+        cover: what is held, article frame (m).
+        arms: the arm that holds each.
+        path: the fold's path, table frame.
+        points: the grips in the table frame's unrolled plane, shape (grips, 2), m.
+        sweeps: the waypoints.
+        tools: each grip's tool path in the table frame, shape (grips, waypoints, 3), m.
+        approaches: for each grip the approaches allowed, best first.
+    """
+
+    fold: int
+    cover: Cover
+    arms: tuple[int, ...]
+    path: FoldPath
+    points: FloatArray
+    sweeps: FloatArray
+    tools: FloatArray
+    approaches: tuple[NDArray[np.int64], ...]
+
+
+def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
+    """What speaks against a fold in a state whatever the arms can do; None if nothing does."""
+    line, label = work.sequence.folds[fold].line, work.sequence.folds[fold].label
+    if not work.table_in_article(state.offset).region.overlaps_with(line):
+        return Obstacle(fold, Code.LINE_OFF_TABLE, f"{label}: its line lies beyond the table's edge", 1.0)
+    behind = -float(line.left_distances(work.sequence.folded(state.done, fold).moving.coordinates).min())
+    if behind > LENGTH_M:
+        message = f"{label}: the part that moves reaches {behind:.3f} m behind the line's extension"
+        return Obstacle(fold, Code.NOT_A_G_STATE, message, behind)
+    unrest = work.unrest(state.done | 1 << fold, state.offset)
+    if unrest is not None:
+        return Obstacle(fold, Code(unrest.code), f"{label}: afterwards {unrest.message}", unrest.severity)
+    return None
+
+
+def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
+    """The grips and arms that may perform a fold in a state, with what is held or with free hands."""
+    path = _path(work, state, fold)
+    for cover, arms in _grips(work, state, fold):
+        points = work.placed(state.offset).to_outer(np.array(cover))
+        sweeps = path.sweeps(points)
+        tools = path.tool_paths(points, sweeps)
+        approaches = tuple(_approaches(work, state, grip) for grip in cover)
+        yield FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
+
+
+def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
+    """The smallest sets of grips already held that hold all that a fold needs; empty if none does."""
+    arms = len(work.reach.arm_names)
+    vertices = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices
+    points: list[Point2] = [h.point for h in held]
+    radius = work.sequence.folds[fold].grip_radius_m
+    return best_covers(np.array(points), np.array(vertices), radius, len(held))
+
+
+def grips_obstacle(work: Work, done: int, fold: int) -> Obstacle | None:
+    """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
+    arms = len(work.reach.arm_names)
+    drawn = work.sequence.folds[fold]
+    covers = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms)
+    if not covers.is_holdable:
+        message = (
+            f"{drawn.label}: {len(covers.vertices)} vertices must be held, and {arms} grips that hold "
+            f"{drawn.grip_radius_m:g} m round themselves do not suffice"
+        )
+        return Obstacle(fold, Code.TOO_MANY_GRIPS, message, float(len(covers.vertices)))
+    apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
+    if apart < GRIPS_APART_M - LENGTH_M:
+        message = f"{drawn.label}: its two grips are {apart:.3f} m apart, two hands need {GRIPS_APART_M:g} m"
+        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, message, GRIPS_APART_M - apart)
+    return None
+
+
+def _path(work: Work, state: State, fold: int) -> FoldPath:
+    line = work.sequence.folds[fold].line
+    moving = work.sequence.folded(state.done, fold).moving
+    depth = float(line.left_distances(moving.coordinates).max())
+    ends = work.placed(state.offset).to_outer(np.array([line.start, line.end]))
+    in_table = Segment(_plain(ends[0]), _plain(ends[1]))
+    top = TableTop.of(work.scene.table)
+    if not state.is_dragged:
+        return FoldPath(in_table, depth, top, top)
+    held = work.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
+    return FoldPath(in_table, depth, top, top.open_towards(held))
+
+
+def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
+    """Grips and their arms: those held that suffice, or the best new ones."""
+    if state.held:
+        yield from _held_grips(work, state, fold)
+        return
+    obstacle = grips_obstacle(work, state.done, fold)
+    if obstacle is not None:
+        work.obstacles.note(obstacle)
+        return
+    covers = work.sequence.covers(state.done, fold, work.scene.support_angle_rad, len(work.reach.arm_names))
+    for cover in covers.covers:
+        points = work.placed(state.offset).to_outer(np.array(cover))
+        if nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+            for arms in assignments(work, state.station, points):
+                yield cover, arms
+
+
+def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
+    """The fewest of the grips held that hold all that must be held."""
+    covers = held_covers(work, state.done, fold, state.held)
+    if not covers and not state.is_dragged:
+        label = work.sequence.folds[fold].label
+        message = f"{label}: the grips still held from the fold before do not hold all that must be held"
+        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, message, 1.0))
+    for cover in covers:
+        yield cover, tuple(next(h.arm for h in state.held if h.point == point) for point in cover)
+
+
+def _approaches(work: Work, state: State, grip: Point2) -> NDArray[np.int64]:
+    if state.held:
+        return all_approaches(work)
+    turn = work.placed(state.offset).yaw_rad - work.station_pose(state.station).yaw_rad
+    return approaches_from_outside(work, state.done, turn, grip)
+
+
+def _plain(row: FloatArray) -> Point2:
+    return (float(row[0]), float(row[1]))

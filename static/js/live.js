@@ -1,0 +1,41 @@
+/** The websocket to the document: comes back by itself, waiting a little longer each time. */
+
+const FIRST_WAIT_MS = 300;
+const LONGEST_WAIT_MS = 5000;
+
+export class Live extends EventTarget {
+  /** @param {string} name the document */
+  constructor(name) {
+    super();
+    this.url = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/documents/${name}/live`;
+    this.waitMs = FIRST_WAIT_MS;
+    this.opened = 0;
+    this.open();
+  }
+
+  open() {
+    this.socket = new WebSocket(this.url);
+    this.socket.addEventListener("open", () => {
+      this.waitMs = FIRST_WAIT_MS;
+      this.opened += 1;
+      this.dispatchEvent(new CustomEvent("open", { detail: { again: this.opened > 1 } }));
+    });
+    this.socket.addEventListener("message", (event) => {
+      const message = JSON.parse(event.data);
+      this.dispatchEvent(new CustomEvent(message.kind, { detail: message }));
+    });
+    this.socket.addEventListener("close", () => {
+      this.dispatchEvent(new CustomEvent("lost"));
+      setTimeout(() => this.open(), this.waitMs);
+      this.waitMs = Math.min(2 * this.waitMs, LONGEST_WAIT_MS);
+    });
+  }
+
+  /**
+   * Send a command; without a connection it is dropped.
+   * @param {{do: string, [field: string]: unknown}} command
+   */
+  send(command) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+}

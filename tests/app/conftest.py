@@ -1,0 +1,65 @@
+"""A server without a network, and one that really listens."""
+
+import subprocess
+import sys
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from app.api.create_app import create_app
+from app.settings import Settings
+
+OWN_URL = "http://127.0.0.1:8000"
+
+
+@pytest.fixture
+def anyio_backend() -> str:
+    return "asyncio"
+
+
+@pytest.fixture
+async def client(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
+    """Talks to a server without a network; no document is open in it."""
+    app = create_app(Settings(data=tmp_path))
+    transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
+        yield client
+    app.state.workspace.close()
+
+
+class Served:
+    """A server in a process of its own."""
+
+    def __init__(self, data: Path, port: int = 0) -> None:
+        command = [sys.executable, "-c", "from app.cli import main; main()"]
+        options = ["serve", "--port", str(port), "--data", str(data)]
+        self.process = subprocess.Popen(
+            [*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        assert "http://" in line, line + self.process.stdout.read()
+        self.url = next(word for word in line.split() if word.startswith("http://"))
+
+    @property
+    def authority(self) -> str:
+        return self.url.removeprefix("http://")
+
+    @property
+    def port(self) -> int:
+        return int(self.url.rpartition(":")[2])
+
+    def stop(self) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.communicate()
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A real server on a free port."""
+    server = Served(tmp_path_factory.mktemp("data"))
+    yield server
+    server.stop()

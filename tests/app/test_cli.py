@@ -1,0 +1,124 @@
+import json
+import socket
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from app.cli import cli
+from tests.app.samples import towel
+
+
+def pleat(*arguments: str) -> Result:
+    return CliRunner().invoke(cli, arguments)
+
+
+def saved(tmp_path: Path, garment: object) -> str:
+    path = tmp_path / "towel.json"
+    path.write_text(json.dumps(garment))
+    return str(path)
+
+
+def test_a_plan_is_printed_as_a_table(tmp_path: Path) -> None:
+    result = pleat("plan", saved(tmp_path, towel()))
+    assert result.exit_code == 0
+    for heading in ("primitive", "what", "start", "duration", "base", "grips", "fold"):
+        assert heading in result.stdout
+
+
+def test_json_to_standard_output_comes_alone(tmp_path: Path) -> None:
+    result = pleat("plan", saved(tmp_path, towel()), "--json", "-")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["status"] == "solved"
+
+
+def test_json_can_go_into_a_file(tmp_path: Path) -> None:
+    target = tmp_path / "plan.json"
+    result = pleat("plan", saved(tmp_path, towel()), "--json", str(target))
+    assert result.exit_code == 0
+    assert json.loads(target.read_text())["status"] == "solved"
+    assert "primitive" in result.stdout
+
+
+def test_no_plan_is_status_3_with_the_reasons(tmp_path: Path) -> None:
+    scene = tmp_path / "scene.json"
+    scene.write_text(json.dumps({"stations": {"front": {"x_m": -3.0, "y_m": 0.0, "yaw_rad": 0.0}}}))
+    result = pleat("plan", saved(tmp_path, towel()), "--scene", str(scene), "--json", "-")
+    assert result.exit_code == 3
+    assert json.loads(result.stdout)["status"] == "infeasible"
+    assert "out_of_reach" in result.stderr
+
+
+def test_an_exhausted_budget_is_status_4() -> None:
+    result = pleat("plan", "shirt", "--time-limit-s", "0.01")
+    assert result.exit_code == 4
+    assert "budget" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["plan", "dag", "check"])
+def test_a_bad_garment_is_status_2_naming_file_field_and_fault(tmp_path: Path, command: str) -> None:
+    path = saved(tmp_path, towel(outline=[[0, 0], [1, 0]]))
+    result = pleat(command, path)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert "towel.json" in result.stderr
+    assert "outline" in result.stderr
+    assert "2 points" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["plan", "dag", "check"])
+@pytest.mark.parametrize("name", ["nothing", "missing.json", "."])
+def test_an_unknown_garment_is_status_2(command: str, name: str) -> None:
+    result = pleat(command, name)
+    assert result.exit_code == 2
+    assert name in result.stderr
+    assert "Traceback" not in result.output
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (),
+        ("fly",),
+        ("plan",),
+        ("plan", "tie", "--heuristic", "magic"),
+        ("plan", "tie", "--time-limit-s", "soon"),
+        ("plan", "tie", "--time-limit-s", "nan"),
+        ("plan", "tie", "--start", "nowhere"),
+        ("plan", "tie", "--comfort-radius-m", "1"),
+        ("plan", "tie", "--scene", "missing.json"),
+        ("plan", "tie", "--json", "/nowhere/at/all.json"),
+        ("serve", "--port", "70000"),
+        ("serve", "--host", "not an address"),
+    ],
+)
+def test_wrong_usage_is_status_2(arguments: tuple[str, ...]) -> None:
+    result = pleat(*arguments)
+    assert result.exit_code == 2
+    assert "Traceback" not in result.output
+
+
+def test_a_port_that_is_taken_is_named() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        result = pleat("serve", "--port", str(port))
+    assert result.exit_code == 2
+    assert f"127.0.0.1:{port}" in result.stderr
+
+
+def test_the_wrong_option_is_named() -> None:
+    assert "--start" in pleat("plan", "tie", "--start", "nowhere").stderr
+
+
+def test_dag_prints_edges(tmp_path: Path) -> None:
+    table = pleat("dag", "t-shirt")
+    assert table.exit_code == 0
+    assert "waits for" in table.stdout
+    answer = json.loads(pleat("dag", "t-shirt", "--json", "-").stdout)
+    assert sorted(map(tuple, answer["edges"])) == [(0, 2), (1, 3), (2, 4), (3, 4)]
+
+
+def test_check_says_whether_each_fold_can_be_held() -> None:
+    result = pleat("check", "t-shirt")
+    assert result.exit_code == 0
+    assert "left sleeve" in result.stdout

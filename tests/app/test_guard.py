@@ -1,0 +1,43 @@
+import httpx
+import pytest
+
+from app.api.guard import own_names
+
+pytestmark = pytest.mark.anyio
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000", "[::1]:8000"])
+async def test_own_names_are_answered(client: httpx.AsyncClient, host: str) -> None:
+    answer = await client.get("/api/health", headers={"host": host, "origin": f"http://{host.lower()}"})
+    assert answer.status_code == 200
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1", "127.0.0.1:9000", "localhost.evil.example:8000", "", "127.0.0.1:8000."]
+)
+@pytest.mark.parametrize("path", ["/", "/api/health", "/nothing", "/static/js/main.js"])
+async def test_a_foreign_host_gets_nothing(client: httpx.AsyncClient, host: str, path: str) -> None:
+    answer = await client.get(path, headers={"host": host})
+    assert answer.status_code == 421
+    assert answer.content == b""
+
+
+@pytest.mark.parametrize(
+    "origin",
+    ["http://evil.example", "null", "https://127.0.0.1:8000", "http://127.0.0.1:8001", "http://127.0.0.1", ""],
+)
+async def test_a_foreign_origin_gets_nothing(client: httpx.AsyncClient, origin: str) -> None:
+    answer = await client.post("/api/dag", json={"garment": "tie"}, headers={"origin": origin})
+    assert answer.status_code == 403
+    assert answer.content == b""
+
+
+def test_the_given_host_is_an_own_name_too() -> None:
+    assert "192.0.2.7:80" in own_names("192.0.2.7", 80)
+    assert "192.0.2.7" in own_names("192.0.2.7", 80)
+    assert "[2001:db8::1]:8000" in own_names("2001:db8::1", 8000)
+
+
+async def test_other_pages_may_not_frame_ours(client: httpx.AsyncClient) -> None:
+    answer = await client.get("/")
+    assert "frame-ancestors 'self'" in answer.headers["content-security-policy"]

@@ -1,0 +1,81 @@
+import threading
+
+import pytest
+
+from app.job_pool import JobPool
+from app.plan_store import PlanStore, UnknownPlanError
+from planner import load_garment, make_plan
+
+
+def test_no_more_jobs_run_at_once_than_there_are_workers() -> None:
+    pool = JobPool(workers=2)
+    running, most, lock = 0, 0, threading.Lock()
+    both = threading.Barrier(2)
+
+    def work(_: object) -> None:
+        nonlocal running, most
+        with lock:
+            running += 1
+            most = max(most, running)
+        both.wait(5.0)
+        with lock:
+            running -= 1
+
+    for job in [pool.start(work) for _ in range(6)]:
+        job.future.result(5.0)
+    assert most == 2
+
+
+def test_a_stopped_job_is_told_and_one_that_waits_never_begins() -> None:
+    pool = JobPool(workers=1)
+    begun, told = threading.Event(), threading.Event()
+
+    def long_work(should_stop: object) -> None:
+        begun.set()
+        assert callable(should_stop)
+        while not should_stop():
+            pass
+        told.set()
+
+    first, second = pool.start(long_work), pool.start(long_work)
+    assert begun.wait(5.0)
+    second.stop()
+    first.stop()
+    assert told.wait(5.0)
+    assert second.future.cancelled()
+
+
+def test_closing_the_pool_stops_everything() -> None:
+    pool = JobPool(workers=1)
+
+    def until_stopped(should_stop: object) -> str:
+        assert callable(should_stop)
+        while not should_stop():
+            pass
+        return "stopped"
+
+    begun = pool.start(until_stopped)
+    pool.close()
+    assert begun.future.cancelled() or begun.future.result(5.0) == "stopped"
+
+
+def test_a_jobs_error_comes_with_its_answer() -> None:
+    def fail(_: object) -> None:
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        JobPool(workers=1).start(fail).future.result(5.0)
+
+
+def test_a_stopped_search_ends_as_out_of_budget() -> None:
+    plan = make_plan(load_garment("shirt"), should_stop=lambda: True)
+    assert plan.status == "budget_exceeded"
+
+
+def test_the_oldest_plans_are_dropped() -> None:
+    plan = make_plan(load_garment("shirt"), should_stop=lambda: True)
+    store = PlanStore(capacity=2)
+    first, second, third = (store.add(plan) for _ in range(3))
+    assert store.plan(second) is store.plan(third) is plan
+    with pytest.raises(UnknownPlanError):
+        store.plan(first)

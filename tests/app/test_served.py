@@ -1,0 +1,143 @@
+"""A server that really listens: its websockets, its guard, and how it ends."""
+
+import json
+import signal
+import socket
+import time
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+
+from tests.app.conftest import Served
+from tests.app.samples import towel
+
+LIVE = "/api/documents/main/live"
+STAGE = "/viser/main"
+SUBPROTOCOL = "viser-v1.1.1"
+PATIENCE_S = 60.0
+
+
+def live(served: Served, **options: Any) -> ClientConnection:
+    return connect(f"ws://{served.authority}{LIVE}", proxy=None, **options)
+
+
+def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]:
+    """The first message of a kind that has these fields."""
+    deadline = time.monotonic() + PATIENCE_S
+    while True:
+        message: dict[str, Any] = json.loads(page.recv(timeout=deadline - time.monotonic()))
+        if message["kind"] == kind and wanted.items() <= message.items():
+            return message
+
+
+def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
+    with live(served) as page:
+        message = until(page, "document", status="solved")
+    assert message["garment"]["name"] == "t-shirt"
+    assert message["text"].startswith("Planned: ")
+    plan = httpx.get(f"{served.url}/api/plans/{message['plan']['id']}").json()
+    assert plan == message["plan"]
+
+
+def test_play_seek_speed_and_pause_are_obeyed(served: Served) -> None:
+    with live(served) as page:
+        duration_s = until(page, "document", status="solved")["plan"]["cost_s"]
+        page.send(json.dumps({"do": "seek", "t_s": 5.0}))
+        until(page, "playback", t_s=5.0, playing=False)
+        page.send(json.dumps({"do": "speed", "speed": 20.0}))
+        page.send(json.dumps({"do": "play"}))
+        until(page, "playback", playing=True, speed=20.0)
+        until(page, "playback", playing=False, t_s=duration_s)
+        page.send(json.dumps({"do": "speed", "speed": 1.0}))
+        until(page, "playback", speed=1.0)
+
+
+@pytest.mark.parametrize(
+    "garbage",
+    ["", "{", "[]", '{"do": "dance"}', '{"do": "seek", "t_s": "1"}', '{"do": "seek", "t_s": 1e400}', "9" * 5000],
+)
+def test_a_command_that_makes_no_sense_is_told_so(served: Served, garbage: str) -> None:
+    with live(served) as page:
+        page.send(garbage)
+        assert until(page, "problem")["detail"]
+        page.send(json.dumps({"do": "pause"}))
+        until(page, "playback", playing=False)
+
+
+def test_another_garment_can_be_chosen_and_an_unknown_one_cannot(served: Served) -> None:
+    with live(served) as page:
+        page.send(json.dumps({"do": "choose", "garment": "nothing"}))
+        assert "nothing" in until(page, "problem")["detail"]
+        page.send(json.dumps({"do": "choose", "garment": "hand-towel"}))
+        chosen = until(page, "document")
+        while chosen["garment"]["name"] != "hand-towel" or chosen["status"] != "solved":
+            chosen = until(page, "document")
+        page.send(json.dumps({"do": "choose", "garment": "t-shirt"}))
+
+
+def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served) -> None:
+    answer = httpx.get(f"{served.url}{STAGE}/")
+    assert answer.status_code == 200
+    assert "text/html" in answer.headers["content-type"]
+    with connect(f"ws://{served.authority}{STAGE}", subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as page:
+        assert page.subprotocol == SUBPROTOCOL
+        assert isinstance(page.recv(timeout=PATIENCE_S), bytes)
+
+
+@pytest.mark.parametrize("path", [LIVE, STAGE])
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
+def test_a_websocket_from_a_foreign_page_never_opens(served: Served, path: str, origin: str) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        connect(f"ws://{served.authority}{path}", origin=origin, subprotocols=[SUBPROTOCOL], proxy=None)
+    assert refused.value.response.status_code == 403
+
+
+def test_a_websocket_under_a_foreign_name_never_opens(served: Served) -> None:
+    host, _, port = served.authority.partition(":")
+    with (
+        socket.create_connection((host, int(port))) as wire,
+        pytest.raises(InvalidStatus) as refused,
+    ):
+        connect(f"ws://evil.example:{port}{LIVE}", sock=wire, proxy=None)
+    assert refused.value.response.status_code == 403
+
+
+def test_a_websocket_of_our_own_page_opens(served: Served) -> None:
+    with live(served, origin=served.url) as page:
+        until(page, "document")
+
+
+def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
+    """Twice as many endless searches as the machine has cores, all abandoned: the next is answered at once."""
+    many = [{"name": "", "kind": "blue", "start": [0.4, 0.15], "end": [0.0, 0.15]}]
+    slow = {"garment": "shirt", "time_limit_s": 60, "comfort_radius_m": 0.06, "heuristic": "zero"}
+    for _ in range(8):
+        with pytest.raises(httpx.ReadTimeout):
+            httpx.post(f"{served.url}/api/plans", json=slow, timeout=0.05)
+    start = time.monotonic()
+    answer = httpx.post(f"{served.url}/api/plans", json={"garment": towel(folds=many)}, timeout=PATIENCE_S)
+    assert answer.status_code == 200
+    assert time.monotonic() - start < 10.0
+
+
+def test_ctrl_c_ends_it_within_three_seconds_whatever_is_open(tmp_path: Path) -> None:
+    server = Served(tmp_path)
+    try:
+        with (
+            live(server) as page,
+            connect(f"ws://{server.authority}{STAGE}", subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as stage,
+        ):
+            until(page, "document")
+            stage.recv(timeout=PATIENCE_S)
+            with pytest.raises(httpx.ReadTimeout):
+                httpx.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
+            server.process.send_signal(signal.SIGINT)
+            output, _ = server.process.communicate(timeout=3.0)
+        assert server.process.returncode == 0
+        assert "Traceback" not in output
+    finally:
+        server.stop()

@@ -1,0 +1,208 @@
+"""The page in a real browser. What is on the stage is asked of the page's own scene, not of pixels."""
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.app.conftest import Served
+
+FLAGS = [
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+PATIENCE_MS = 60_000
+END_S = 1e-6
+
+NODE = """(name) => {
+  const stage = document.getElementById("stage").contentWindow;
+  const node = stage.__viserMutable?.nodeRefFromName[name];
+  if (!node) return null;
+  let low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9], meshes = 0;
+  node.updateWorldMatrix(true, true);
+  node.traverse((part) => {
+    const places = part.isMesh && part.geometry?.attributes?.position;
+    if (!places) return;
+    meshes += 1;
+    const point = part.position.clone();
+    for (let i = 0; i < places.count; i += 1) {
+      point.fromBufferAttribute(places, i).applyMatrix4(part.matrixWorld);
+      low = low.map((value, axis) => Math.min(value, point.getComponent(axis)));
+      high = high.map((value, axis) => Math.max(value, point.getComponent(axis)));
+    }
+  });
+  const place = node.position.clone().applyMatrix4(node.parent.matrixWorld);
+  return { meshes, size: high.map((value, axis) => value - low[axis]), place: place.toArray() };
+}"""
+RENDERED = """() => {
+  const stage = document.getElementById("stage").contentWindow;
+  return stage.__viserTestpoints?.rendererInfo.render.triangles > 20000;
+}"""
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    server = Served(tmp_path_factory.mktemp("data"))
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="module")
+def browser(chromium_path: str | None) -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+        yield opened
+        opened.close()
+
+
+@pytest.fixture
+def page(browser: Browser, served: Served) -> Iterator[Page]:
+    """The page, planned and with its stage loaded; it fails on any error in the page or request elsewhere."""
+    faults: list[str] = []
+    page = browser.new_page(viewport={"width": 900, "height": 500})
+    page.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, served) else None)
+    page.goto(served.url)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    until_there(page, "/cloth/front")
+    until_there(page, "/robot")
+    yield page
+    page.close()
+    assert faults == []
+
+
+def is_foreign(url: str, served: Served) -> bool:
+    return not url.startswith((served.url, served.url.replace("http", "ws"), "data:", "blob:"))
+
+
+def node(page: Page, name: str) -> dict[str, Any]:
+    found: dict[str, Any] = page.evaluate(NODE, name)
+    return found
+
+
+def until_there(page: Page, name: str) -> None:
+    page.wait_for_function(f"({NODE})({name!r})?.meshes > 0")
+
+
+def until(condition: Any) -> None:
+    """Wait until a condition holds that cannot be asked in the page."""
+    deadline = time.monotonic() + PATIENCE_MS / 1000
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def scrub(page: Page, t_s: float) -> None:
+    page.get_by_role("slider", name="Time").evaluate(
+        "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input', {bubbles: true})) }", t_s
+    )
+
+
+def duration_s(page: Page) -> float:
+    return float(page.get_by_role("slider", name="Time").get_attribute("max") or 0.0)
+
+
+def cloth_area(page: Page) -> float:
+    """The area of the cloth's bounding box as seen from above (m2); y is up in the browser."""
+    width, _, depth = node(page, "/cloth/front")["size"]
+    return float(width * depth)
+
+
+def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
+    assert node(page, "/robot")["meshes"] >= 30
+    assert node(page, "/robot")["size"][1] > 1.0
+    assert node(page, "/table")["meshes"] >= 1
+    page.wait_for_function(RENDERED)
+
+
+def test_the_page_names_garment_folds_and_plan(page: Page) -> None:
+    expect(page.get_by_role("combobox", name="Garment")).to_have_value("t-shirt")
+    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
+    expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).not_to_have_count(0)
+    expect(page.locator(".block")).not_to_have_count(0)
+
+
+def test_playing_moves_the_robot_and_the_clock(page: Page) -> None:
+    scrub(page, 0.0)
+    elbow = "/robot/base_footprint/base_link/torso_lift_link/l_shoulder_pan_link/l_shoulder_lift_link"
+    until(lambda: page.get_by_role("slider", name="Time").input_value() == "0")
+    before = node(page, elbow)["place"]
+    page.get_by_role("button", name="Play").click()
+    expect(page.get_by_role("button", name="Pause")).to_be_visible()
+    until(lambda: node(page, elbow)["place"] != before)
+    page.wait_for_function("Number(document.getElementById('time').value) > 0.5")
+    page.get_by_role("button", name="Pause").click()
+    expect(page.get_by_role("button", name="Play")).to_be_visible()
+
+
+def test_scrubbing_to_the_end_shows_the_folded_cloth(page: Page) -> None:
+    scrub(page, 0.0)
+    until(lambda: cloth_area(page) > 0.35)
+    spread_out = cloth_area(page)
+    scrub(page, duration_s(page))
+    until(lambda: cloth_area(page) < 0.35 * spread_out)
+    assert node(page, "/cloth/front")["size"][1] < 0.1
+    slider = page.get_by_role("slider", name="Time")
+    expect(slider).to_have_attribute("aria-valuetext", f"{duration_s(page):.1f} s")
+    expect(page.locator("#folds .is-done")).to_have_count(5)
+
+
+def test_the_space_bar_plays_and_arrows_step(page: Page) -> None:
+    scrub(page, 1.0)
+    until(lambda: page.get_by_role("slider", name="Time").input_value() == "1")
+    page.get_by_role("slider", name="Time").focus()
+    page.keyboard.press("ArrowRight")
+    until(lambda: page.get_by_role("slider", name="Time").input_value() == "1.5")
+    page.keyboard.press(" ")
+    expect(page.get_by_role("button", name="Pause")).to_be_visible()
+    page.keyboard.press(" ")
+    expect(page.get_by_role("button", name="Play")).to_be_visible()
+
+
+def test_another_garment_is_planned_and_shown(page: Page) -> None:
+    page.get_by_role("combobox", name="Garment").select_option("hand-towel")
+    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(3)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.get_by_role("combobox", name="Garment").select_option("t-shirt")
+    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
+    page.get_by_role("combobox", name="Garment").select_option("scarf-halved")
+    expect(page.get_by_role("status")).to_contain_text("No plan: ")
+    expect(page.locator(".reasons li")).not_to_have_count(0)
+    expect(page.get_by_role("button", name="Play")).to_be_disabled()
+    page.get_by_role("combobox", name="Garment").select_option("t-shirt")
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_the_page_comes_back_by_itself_when_the_server_does(browser: Browser, tmp_path: Path) -> None:
+    first = Served(tmp_path)
+    page = browser.new_page(viewport={"width": 900, "height": 500})
+    try:
+        page.goto(first.url)
+        expect(page.get_by_role("status")).to_contain_text("Planned: ", timeout=PATIENCE_MS)
+        first.stop()
+        expect(page.get_by_role("status")).to_contain_text("Connection lost", timeout=PATIENCE_MS)
+        second = Served(tmp_path, first.port)
+        try:
+            expect(page.get_by_role("status")).to_contain_text("Planned: ", timeout=PATIENCE_MS)
+            page.wait_for_function(f"({NODE})('/cloth/front')?.meshes > 0", timeout=PATIENCE_MS)
+        finally:
+            second.stop()
+    finally:
+        page.close()
+        first.stop()
