@@ -34,8 +34,8 @@ cli = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-_errors = Console(stderr=True, highlight=False, soft_wrap=True)
-_output = Console(highlight=False)
+_errors = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
+_output = Console(highlight=False, markup=False)
 
 GarmentArgument = Annotated[str, typer.Argument(metavar="GARMENT", help="The name of a garment, or a file.")]
 JsonOption = Annotated[
@@ -127,7 +127,7 @@ def check(garment: GarmentArgument) -> None:
     _output.print(check_table(chosen, report))
     for index, fold in enumerate(report.folds):
         if fold.grips_needed is None:
-            _errors.print(f"{garment}: folds[{index}] '{fold.name}': two grippers cannot hold it", markup=False)
+            _errors.print(f"{garment}: folds[{index}] '{fold.name}': two grippers cannot hold it")
     if not report.is_holdable:
         raise typer.Exit(NO_PLAN)
 
@@ -146,7 +146,7 @@ def _status(answer: Plan) -> int:
         _errors.print("The budget ran out" + (f"; no plan is quicker than {bound:.2f} s" if bound else ""))
         return OUT_OF_BUDGET
     for reason in answer.reasons:
-        _errors.print(f"{reason.to_dict()['code']}: {reason.message}", markup=False)
+        _errors.print(f"{reason.to_dict()['code']}: {reason.message}")
     return 0 if answer.is_solved else NO_PLAN
 
 
@@ -178,5 +178,5 @@ def _blaming(source: object) -> Iterator[None]:
 
 
 def _failure(message: str) -> typer.Exit:
-    _errors.print(message, markup=False)
+    _errors.print(message)
     return typer.Exit(BAD_INPUT)
