@@ -22,8 +22,7 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.cloth": GROUND | {"planner.geometry"},
     "planner.folds": GROUND | {"planner.geometry", "planner.cloth"},
     "planner.primitives": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
-    "planner.plan": GROUND
-    | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "primitives", "search", "robot")},
+    "planner.plan": GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "primitives", "search", "robot")},
 }
 
 # Where a library may be imported; libraries not named here may be imported anywhere.
@@ -60,9 +59,7 @@ def module_name(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-SOURCES = {
-    module_name(path): path for package in ("planner", "app") for path in (ROOT / package).rglob("*.py")
-}
+SOURCES = {module_name(path): path for package in ("planner", "app") for path in (ROOT / package).rglob("*.py")}
 
 
 def imports_of(module: str, path: Path) -> Iterator[Import]:
