@@ -49,8 +49,7 @@ class Region:
             return Region(shapes[0])
         whole = shapely.union_all(shapes, grid_size=GRID_M)
         if len(shapely.get_parts(whole)) != 1 or shapely.get_num_interior_rings(whole):
-            whole = whole.buffer(LENGTH_M, join_style="mitre").buffer(-LENGTH_M, join_style="mitre")
-            whole = shapely.set_precision(whole, GRID_M)
+            whole = shapely.union_all(shapes, grid_size=LENGTH_M)
         return Region(whole)
 
     # numbers
@@ -177,15 +176,15 @@ class Region:
 
     def left_of(self, line: Segment) -> "Region":
         """The part to the left of the whole line through a segment."""
-        return Region(shapely.intersection(self.shape, _half_plane(line)))
+        return Region(shapely.intersection(self.shape, _half_plane(line), grid_size=GRID_M))
 
     def intersection(self, other: "Region") -> "Region":
         """What both cover."""
-        return Region(shapely.intersection(self.shape, other.shape))
+        return Region(shapely.intersection(self.shape, other.shape, grid_size=GRID_M))
 
     def difference(self, other: "Region") -> "Region":
         """What this one covers and the other does not."""
-        return Region(shapely.difference(self.shape, other.shape))
+        return Region(shapely.difference(self.shape, other.shape, grid_size=GRID_M))
 
 
 def _point(row: FloatArray) -> Point2:

@@ -162,5 +162,5 @@ class FoldWays:
             _, y, z = shoulders[arm]
             path = work.in_base(state.station, tools)
             severity = max(severity, float(np.hypot(path[:, 1] - y, path[:, 2] - z).max()))
-        attempt = Attempt(state.station, state.offset, trial.arms, trial.tools)
+        attempt = Attempt(state.station, state.offset, trial.arms, trial.tools, trial.approaches)
         work.obstacles.note(Obstacle(trial.fold, Code.OUT_OF_REACH, "", severity, attempt))

@@ -3,6 +3,9 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+from numpy.typing import NDArray
+
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import grid_key
 
@@ -30,12 +33,14 @@ class Attempt:
         offset: how far drags had carried the article (m).
         arms: the arm of each grip.
         tools: each grip's tool path in the table frame, shape (grips, n, 3), m.
+        approaches: for each grip the approaches that were allowed.
     """
 
     station: int
     offset: Point2
     arms: tuple[int, ...]
     tools: FloatArray
+    approaches: tuple[NDArray[np.int64], ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

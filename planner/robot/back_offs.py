@@ -21,7 +21,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.robot.arm import ArmShape
 from planner.robot.kernel import MOST_ARCS, Aim, aim_at, is_reachable_near, is_within_length
@@ -217,3 +217,32 @@ def back_off_masks(
                 break
         alive += 1 if mask != 0 else 0
     return masks, queries
+
+
+@njit(cache=True, nogil=True)
+def anywhere(
+    shape: ArmShape,
+    memory: Memory,
+    shoulder: FloatArray,
+    points: FloatArray,
+    axes: FloatArray,
+    labels: NDArray[np.int64],
+    count: int,
+    step: float,
+    comfort: float,
+) -> tuple[BoolArray, int]:
+    """For each approach and point, each on its own, whether some back-off has the tool there in comfort; queries made.
+
+    The arguments are those of `back_off_masks`, but there may be any number of back-offs.
+    """
+    arcs = np.empty((MOST_ARCS, 2))
+    hint = np.array([0.5 * (shape.pan.low + shape.pan.high)])
+    answers = np.zeros((len(axes), len(points)), dtype=np.bool_)
+    queries = 0
+    for approach in range(len(axes)):
+        ask = Question(shape, shoulder, axes[approach], labels[approach], count, step, comfort, arcs, hint)
+        for i in range(len(points)):
+            is_out, asked = _is_out_of_reach(ask, memory, points[i])
+            answers[approach, i] = not is_out
+            queries += asked
+    return answers, queries

@@ -1,13 +1,17 @@
 """The PR2's answer to what the primitives ask of a robot's reach."""
 
 import math
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, FloatArray, Point3
-from planner.robot.back_offs import back_off_masks, empty_memory
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.shortfall import Shortfall
+from planner.geometry.tolerance import LENGTH_M
+from planner.robot.back_offs import anywhere, back_off_masks, empty_memory
+from planner.robot.shortfall import left_shortfall
 from planner.robot.sided_arm import SidedArm
 
 _PITCHES_DEG = (15, 30, 45, 60)
@@ -133,6 +137,64 @@ class Pr2Reach:
         self._queries += queries
         self._query_time_s += perf_counter() - started
         return masks
+
+    def from_anywhere(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> BoolArray:
+        """Which points, each on its own, are within comfortable reach from at least one back-off, shape (k, n).
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are.
+            step_m: from one back-off to the next (m).
+        """
+        started = perf_counter()
+        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        answers, queries = anywhere(
+            sided.shape,
+            self._memory,
+            sided.shoulder(self._torso_m),
+            sided.mirrored_places(np.reshape(points, (-1, 3))),
+            self._axes[seen],
+            seen + 1,
+            count,
+            float(step_m),
+            self._comfort_m,
+        )
+        self._queries += queries
+        self._query_time_s += perf_counter() - started
+        return answers
+
+    def shortfall(self, arm: int, point: FloatArray, approaches: NDArray[np.int64]) -> Shortfall | None:
+        """Why, and by how much, a point is not within comfortable reach, in the best of some approaches.
+
+        Tried are displacements up to 0.8 m, along eight horizontal directions, straight down and straight up.
+
+        Args:
+            arm: index into `arm_names`.
+            point: the tool's place in the base frame (m), shape (3,).
+            approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
+
+        Returns:
+            The smallest shortfall; None where the point is in comfort in one of the approaches. From 0.8 m on
+            `short_by_m` is a lower bound: nothing that was tried helps.
+        """
+        if len(approaches) == 0:
+            raise ValueError("without an approach no point is within reach")
+        if self.from_anywhere(arm, point, approaches, 1, 0.0).any():
+            return None
+        started = perf_counter()
+        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        on_grid = LENGTH_M * np.round(sided.mirrored_places(point) / LENGTH_M)
+        found, queries = left_shortfall(
+            sided.shape, on_grid - sided.shoulder(self._torso_m), self._axes[seen], self._comfort_m
+        )
+        x, y, z = sided.mirrored_places(np.array(found.towards))
+        self._queries += queries
+        self._query_time_s += perf_counter() - started
+        return replace(found, towards=(float(x), float(y), float(z)), approach=int(approaches[found.approach]))
 
     def _as_left_arm_sees(self, arm: int, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
         indices = np.asarray(approaches, dtype=np.int64)
