@@ -83,7 +83,7 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV): a minute or two, once"
 	@$(PIP) install --require-hashes -r requirements.txt
 	@$(PIP) install --no-deps --no-build-isolation -e .
-	@$(BIN)/python -c "from planner.plan.warm_up import warm_up; warm_up()"
+	@$(BIN)/python -c "from planner.plan.make_plan import compile_kernels; compile_kernels()"
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)

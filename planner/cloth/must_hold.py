@@ -20,7 +20,7 @@ def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_
     """The vertices of a piece of cloth that must be held.
 
     Args:
-        piece: the cloth; if it has several parts, the hull is that of all.
+        piece: the cloth; if it has several parts, the hull is that of all; of a sliver nothing must be held.
         up: the unit vector against which the cloth pulls.
         baseline: where the piece is held already; vertices on it need no grip.
         support_angle_rad: a vertex counts as supported when any direction within this angle of `up` leads
@@ -29,6 +29,8 @@ def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_
     Returns:
         Shape (n, 2), counter-clockwise, in the frame of `piece` (m).
     """
+    if piece.is_sliver:
+        return np.empty((0, 2))
     return np.vstack([_of_ring(ring, piece.hull, up, baseline, support_angle_rad) for ring in piece.rings])
 
 

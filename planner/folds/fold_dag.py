@@ -74,8 +74,8 @@ class FoldDag:
         return all(done >> a & 1 for a in before)
 
 
-def build_fold_dag(folded_parts: Sequence[Region], red: Sequence[bool]) -> FoldDag:
-    """The Fold-DAG of a sequence.
+def overlap_graph(folded_parts: Sequence[Region], red: Sequence[bool]) -> "nx.DiGraph[int]":
+    """What waits for what because their parts overlap, or because a red fold follows at once.
 
     Args:
         folded_parts: for each fold what its part covers, where it was and where it lands, article frame.
@@ -89,6 +89,11 @@ def build_fold_dag(folded_parts: Sequence[Region], red: Sequence[bool]) -> FoldD
         for a in range(b):
             if not part.intersection(folded_parts[a]).is_sliver:
                 graph.add_edge(a, b)
+    return graph
+
+
+def reduced(graph: "nx.DiGraph[int]", red: Sequence[bool]) -> FoldDag:
+    """The Fold-DAG of all dependencies: redundant ones left out."""
     return FoldDag(_chains(red), tuple(sorted(nx.transitive_reduction(graph).edges)))
 
 

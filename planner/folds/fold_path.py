@@ -14,6 +14,7 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import LENGTH_M
 
 REST_HEIGHT_M = 0.02
 """The tool frame's height over the table's plane at rest: closed fingertips just clear the table (m)."""
@@ -59,6 +60,15 @@ class FoldPath:
     def top_at(self, sweep: float) -> TableTop:
         """The top over which cloth does not hang at a moment."""
         return self.rising_top if sweep < 1.0 else self.top
+
+    def is_continuous(self, grips: FloatArray) -> bool:
+        """Whether the apexes of grips are over the table, or none was held out beyond an edge.
+
+        What is held out beyond an edge rises in the plane; it can come down over the table only if the fold line
+        is on the table there.
+        """
+        apexes = self.swept(grips, 1.0)
+        return self.rising_top == self.top or not np.any(self.top.beyond(apexes) > LENGTH_M)
 
     def tool_points(self, grips: FloatArray, sweep: float) -> FloatArray:
         """Where the tools are that hold the given points of the cloth, shape (n, 2) -> (n, 3), table frame."""

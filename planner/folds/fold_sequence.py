@@ -8,6 +8,8 @@ folds is found by doing that set in the user's order; it is kept for the next ti
 from dataclasses import dataclass
 from typing import Any
 
+from networkx import has_path
+
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.cloth.grips import GripCovers, grip_covers
@@ -15,7 +17,8 @@ from planner.cloth.must_hold import must_hold
 from planner.errors import FoldError
 from planner.folds.fold import Fold, snapped_line
 from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
-from planner.folds.fold_dag import FoldDag, build_fold_dag
+from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
+from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 
@@ -48,16 +51,16 @@ class FoldSequence:
         """
         cloth = ClothState.spread_out(garment.pattern)
         folds: list[Fold] = []
-        parts: list[Region] = []
+        moving: list[Region] = []
         for index in range(len(garment.folds)):
             try:
                 fold, folded = _replay(garment, index, cloth, folds)
             except FoldError as error:
                 raise error.within(f"folds[{index}]") from None
             folds.append(fold)
-            parts.append(Region.union([folded.moving, folded.moving.moved(Isometry.reflection(fold.line))]))
+            moving.append(folded.moving)
             cloth = folded.cloth
-        dag = build_fold_dag(parts, [f.is_red for f in folds])
+        dag = _dag(garment.pattern, folds, moving)
         start = ClothState.spread_out(garment.pattern)
         return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start}, {})
 
@@ -98,6 +101,22 @@ def fold_dag(garment: Garment) -> FoldSequence:
         FoldError: a fold is not legal; the field names it.
     """
     return FoldSequence.of(garment)
+
+
+def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:
+    """What waits for what: by overlap, and where parts merely touch, by trying."""
+    red = [fold.is_red for fold in folds]
+    parts = [
+        Region.union([part, part.moved(Isometry.reflection(fold.line))])
+        for part, fold in zip(moving, folds, strict=True)
+    ]
+    graph = overlap_graph(parts, red)
+    for b, later in enumerate(folds):
+        for a, earlier in enumerate(folds[:b]):
+            is_near = is_touching(later, parts[a]) or is_touching(earlier, parts[b])
+            if is_near and not has_path(graph, a, b) and not is_order_free(pattern, folds, moving, graph, a, b):
+                graph.add_edge(a, b)
+    return reduced(graph, red)
 
 
 def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold]) -> tuple[Fold, Folded]:

@@ -80,6 +80,10 @@ class Region:
         """How far a point is from the boundary (m)."""
         return float(shapely.distance(self.shape.boundary, shapely.Point(point)))
 
+    def distance_to(self, segment: Segment) -> float:
+        """How far a segment is from the region (m); 0 if they meet."""
+        return float(shapely.distance(self.shape, shapely.LineString([segment.start, segment.end])))
+
     # truths
 
     @property

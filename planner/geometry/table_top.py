@@ -66,12 +66,13 @@ class TableTop:
         out = points[..., :2] - np.clip(points[..., :2], self.low, self.high)
         return np.asarray(np.hypot(out[..., 0], out[..., 1]))
 
-    def over_edge(self, points: FloatArray, gap_m: float = 0.0) -> FloatArray:
+    def over_edge(self, points: FloatArray, gap_m: float = 0.0, droop: float = 1.0) -> FloatArray:
         """Points of the unrolled plane with their heights, shape (..., 3), taken over the edge.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it (m).
             gap_m: set off by so much: upwards on the top, outwards beside it.
+            droop: how far what is beyond the edge has turned down: 0 level, 1 hanging.
 
         Returns:
             The same points in space, table frame (m).
@@ -80,5 +81,8 @@ class TableTop:
         out = points[..., :2] - nearest
         beyond = np.hypot(out[..., 0], out[..., 1])
         outwards = out / np.where(beyond > 0.0, beyond, 1.0)[..., None]
-        z = points[..., 2] - beyond + np.where(beyond > 0.0, 0.0, gap_m)
-        return np.concatenate([nearest + outwards * gap_m, z[..., None]], axis=-1)
+        turn = droop * math.pi / 2
+        level, down = (math.cos(turn), math.sin(turn)) if droop < 1.0 else (0.0, 1.0)
+        z = points[..., 2] - down * beyond + np.where(beyond > 0.0, level, 1.0) * gap_m
+        out_by = down * gap_m + level * beyond
+        return np.concatenate([nearest + outwards * out_by[..., None], z[..., None]], axis=-1)

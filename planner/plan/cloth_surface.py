@@ -3,7 +3,7 @@
 Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the
 baseline: what has not been lifted yet and what is laid down already lie flat, what is between stands. Flat parts
 are cut by the table's edges, beyond which they hang. Layers are drawn a little apart, as if each were one thickness
-of cloth.
+of cloth, and standing cloth a little longer than it is, up to the tool frame that holds it.
 """
 
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from planner.cloth.layer import Layer
-from planner.folds.fold_path import FoldPath
+from planner.folds.fold_path import REST_HEIGHT_M, FoldPath
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
@@ -50,13 +50,14 @@ class _Laying:
     mesh: _Mesh
     placement: Pose2
     top: TableTop
+    droop: float
 
     def lay(self, region: Region, number: int, *, is_back: bool) -> None:
         """Add a flat region as layer `number`."""
         for piece in self._cut_at_edges(region):
             flat = self.placement.to_outer(piece.triangles)
             unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
-            self.mesh.add(self.top.over_edge(unrolled, _gap(number)), number, is_back=is_back)
+            self.mesh.add(self.top.over_edge(unrolled, _gap(number), self.droop), number, is_back=is_back)
 
     def _cut_at_edges(self, region: Region) -> tuple[Region, ...]:
         if not np.any(self.top.beyond(self.placement.to_outer(region.coordinates)) > 0.0):
@@ -75,9 +76,9 @@ class ClothSurfaces:
     def __init__(self, work: Work) -> None:
         self._work = work
 
-    def at(self, motion: ClothMotion, fraction: float) -> ClothSurface:
-        """The cloth a fraction of the way through a phase's motion."""
-        laying = _Laying(_Mesh(), motion.start.between(motion.end, fraction), motion.top)
+    def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
+        """The cloth a fraction of the way through a phase's motion; `droop` as in `TableTop.over_edge`."""
+        laying = _Laying(_Mesh(), motion.start.between(motion.end, fraction), motion.top, droop)
         first, last = motion.sweep
         sweep = first + fraction * (last - first)
         if motion.fold is None or sweep <= 0.0:
@@ -113,7 +114,9 @@ def _bend(laying: _Laying, layer: Layer, number: int, line: Segment, path: FoldP
     lean = np.array([*path.line.left, 0.0]) * _gap(number)
     for part in layer.region.left_of(baseline).pieces:
         flat = laying.placement.to_outer(part.triangles).reshape(-1, 2)
-        standing = laying.top.over_edge(path.swept(flat, sweep)) - lean
+        swept = path.swept(flat, sweep)
+        swept[:, 2] += np.minimum(swept[:, 2], REST_HEIGHT_M)
+        standing = laying.top.over_edge(swept) - lean
         laying.mesh.add(standing.reshape(-1, 3, 3), number, is_back=is_back)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table_top import TableTop
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,7 @@ class Frame:
         joints: every actuated joint by its URDF name (rad, m for prismatic ones).
         grippers_m: each gripper's opening by the arm's name (m).
         cloth: the cloth.
+        top: the table top over which the cloth does not hang, open where it is held out beyond an edge.
     """
 
     t_s: float
@@ -46,6 +48,7 @@ class Frame:
     joints: dict[str, float]
     grippers_m: dict[str, float]
     cloth: ClothSurface
+    top: TableTop
 
     def to_dict(self) -> dict[str, Any]:
         """The frame as a sample of the timeline's JSON (the cloth is left out)."""

@@ -5,9 +5,11 @@ one before. When it reaches for something it goes by way of points above where i
 it is free it rises and goes home.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial.transform import Rotation, Slerp
 
 from planner.geometry.pose import Approach, FloatArray, Pose2
 from planner.plan.machine import Machine
@@ -26,6 +28,9 @@ _RISE_S = 0.8
 _HOME_S = 3.0
 _GRASP_S = 0.3
 _TURN_RAD_S = 2.0
+_TURN_STEP_S = 0.01
+_JUMP_RAD = 0.3
+"""Joints that differ by more than this belong to different ways to reach a pose: nothing lies between them (rad)."""
 
 
 @dataclass(slots=True)
@@ -125,7 +130,9 @@ class _Tracker:
             self._track.add(start, self._now)
         goal = self._in_base(base, np.array(hand.points[0]))
         descent = self._descent(goal, hand.approach)
-        self._add_chain(descent[:1], up, down)
+        self._track.add(up, self._now)
+        self._track.add(down, descent[0])
+        self._now = descent[0]
         self._add_chain(descent[1:], down, end)
         self._approach = hand.approach
         self._grip(end - _GRASP_S, is_closed=True)
@@ -134,30 +141,42 @@ class _Tracker:
         """Keep to the points, the base standing or driving."""
         drive = float(np.hypot(base[1].x_m - base[0].x_m, base[1].y_m - base[0].y_m))
         count = max(len(hand.points), int(np.ceil(drive / _BASE_STEP_M)) + 1)
+        if self._is_turned(hand.approach):
+            count = max(count, int((end - start) / _TURN_STEP_S))
         shares = np.linspace(0.0, 1.0, count)
         points = _resampled(np.array(hand.points), shares)
+        turn = self._turn(hand.approach, end - start)
         chain: list[FloatArray] = []
         for point, share in zip(points, shares, strict=True):
             there = self._in_base(base[0].between(base[1], float(share)), point)
-            chain.append(self._solved(there, hand.approach, chain[-1] if chain else self._now))
-        self._add_turning(chain, shares * (end - start) + start)
+            rotation = turn(float(share))
+            chain.append(self._solved(there, rotation, chain[-1] if chain else self._now))
+        self._track.add(start, chain[0])
+        self._now = chain[0]
+        self._add_chain(chain[1:], start, end)
         self._approach = hand.approach
         self._grip(start, is_closed=hand.is_closed)
 
-    def _add_turning(self, chain: list[FloatArray], times: FloatArray) -> None:
-        """Keyframes at the given times; where the hand must first turn in its grip, it gets time for that."""
-        turn = float(np.abs(chain[0] - self._now).max())
-        settled = times[0] + min(turn / _TURN_RAD_S, (times[-1] - times[0]) / 2)
-        self._track.add(float(times[0]), self._now)
-        for joints, t in zip(chain[1:], times[1:], strict=True):
-            if t >= settled:
-                self._track.add(float(t), joints)
-        self._now = chain[-1]
+    def _is_turned(self, approach: Approach) -> bool:
+        return self._approach is not None and self._approach != approach
+
+    def _turn(self, approach: Approach, duration_s: float) -> Callable[[float], FloatArray]:
+        """The tool's rotation at a share of a phase: the hand may first turn in its grip."""
+        if self._approach is None or not self._is_turned(approach):
+            return lambda _share: approach.rotation
+        ends = Rotation.from_matrix([self._approach.rotation, approach.rotation])
+        angle = float((ends[0].inv() * ends[1]).magnitude())
+        settled = min(1.0, angle / _TURN_RAD_S / max(duration_s, angle / _TURN_RAD_S))
+        between = Slerp([0.0, settled], ends)
+        return lambda share: np.asarray(between(min(share, settled)).as_matrix())
 
     def _add_chain(self, chain: list[FloatArray], start: float, end: float) -> None:
         """Keyframes at an even pace, the last at the end."""
         for i, joints in enumerate(chain):
-            self._track.add(start + (end - start) * (i + 1) / len(chain), joints)
+            t = start + (end - start) * (i + 1) / len(chain)
+            if np.abs(joints - self._now).max() > _JUMP_RAD:
+                self._track.add(t, self._now)
+            self._track.add(t, joints)
             self._now = joints
 
     def _above_here(self) -> list[FloatArray]:
@@ -191,10 +210,10 @@ class _Tracker:
                 chain.append(now)
             if len(chain) == _DESCENT_STEPS:
                 return chain
-        return [self._solved(goal, approach, self._now)] * 2
+        return [self._solved(goal, approach.rotation, self._now)] * 2
 
-    def _solved(self, position: FloatArray, approach: Approach, near: FloatArray) -> FloatArray:
-        found = self._machine.joints_near(self._arm, position, approach.rotation, self._torso_m, near)
+    def _solved(self, position: FloatArray, rotation: FloatArray, near: FloatArray) -> FloatArray:
+        found = self._machine.joints_near(self._arm, position, rotation, self._torso_m, near)
         return near if found is None else found
 
     def _unwound(self, joints: FloatArray) -> FloatArray:

@@ -5,20 +5,24 @@ The algorithm of the paper (section 5), from top to bottom:
 1. Replay the folds once in the user's order; that makes them legal and yields the Fold-DAG.
 2. Search with A* over states (folds done, placement, base, what is held). Its edges are primitives: any fold that
    the DAG makes available, drags towards the robot, moves between stations.
-3. The path found is the plan. If the states run out first, no plan exists, and the obstacles met say why.
+3. The path found is the plan. If the states run out first, no plan exists, and the obstacles met say why. To know
+   that sooner, a search that takes longer looks at each fold alone, everything else relaxed: mostly one is to blame.
 """
 
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
+from planner.plan.alone import Alone
 from planner.plan.heuristic import HEURISTICS
 from planner.plan.machine import Machine
 from planner.plan.plan import Plan, PlannedPrimitive, Statistics
 from planner.plan.reasons import Reason, reasons
+from planner.plan.warm_up import warm_up
 from planner.primitives.obstacle import Code
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -31,6 +35,8 @@ from planner.search.a_star import Edge, Outcome, SearchResult, a_star
 COMFORT_MAX_M = 0.1
 TIME_LIMIT_S = (0.01, 60.0)
 EXPANDED_MAX = 1_000_000
+LOOK_ALONE_AFTER = 30
+"""Most plans are found within so many expansions; after them each fold not done yet is looked at alone."""
 
 
 def make_plan(
@@ -69,12 +75,29 @@ def make_plan(
     """
     scene = scene or Scene()
     _require_options(scene, start_station, comfort_radius_m, heuristic, time_limit_s, max_expanded)
+    compile_kernels()
+    problem = _problem(garment, scene, placement, robot, comfort_radius_m)
+    station = [name for name, _ in scene.stations].index(start_station)
+    return _Planner(*problem, heuristic, time_limit_s, max_expanded, should_stop).plan(station)
+
+
+def compile_kernels() -> None:
+    """Compile what is compiled, or load it from the cache, once a process; `make_plan` sees to it too."""
+    warm_up(_plan_simply)
+
+
+def _plan_simply(garment: Garment) -> Plan:
+    problem = _problem(garment, Scene(), None, "pr2", 0.0)
+    return _Planner(*problem, "arm_time", TIME_LIMIT_S[1], EXPANDED_MAX, None).plan(0)
+
+
+def _problem(
+    garment: Garment, scene: Scene, placement: Pose2 | None, robot: str, comfort_radius_m: float
+) -> tuple[Work, Machine]:
     machine = load_robot(robot)
     reach = machine.reach(scene.torso_m, comfort_radius_m)
     sequence = FoldSequence.of(garment)
-    work = Work(sequence, scene, reach, placement or garment.placement, machine.card.base_radius_m)
-    station = [name for name, _ in scene.stations].index(start_station)
-    return _Planner(work, machine, heuristic, time_limit_s, max_expanded, should_stop).plan(station)
+    return Work(sequence, scene, reach, placement or garment.placement, machine.card.base_radius_m), machine
 
 
 class _Planner:
@@ -97,7 +120,9 @@ class _Planner:
         self._deadline = self._started + time_limit_s
         self._should_stop = should_stop or (lambda: False)
         self._primitives = [kind(work) for kind in PRIMITIVES]
-        self._achieved = 0
+        self._achieved = self._furthest = 0
+        self._expanded = 0
+        self._blocking: list[int] = []
 
     def plan(self, station: int) -> Plan:
         start = State(0, (0.0, 0.0), station, 0)
@@ -107,20 +132,37 @@ class _Planner:
             nothing: SearchResult[State, Step] = SearchResult(Outcome.INFEASIBLE, (), 0.0, 0.0, 0, 0)
             return self._answer(start, nothing, (Reason(None, Code(unrest.code), message),))
         result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+        if self._blocking:
+            result = replace(result, outcome=Outcome.INFEASIBLE)
         is_proof = result.outcome is Outcome.INFEASIBLE
-        return self._answer(start, result, reasons(self._work, self._achieved) if is_proof else ())
+        return self._answer(start, result, self._reasons() if is_proof else ())
+
+    def _reasons(self) -> tuple[Reason, ...]:
+        achieved = self._achieved & ~sum(1 << fold for fold in self._blocking)
+        return reasons(self._work, achieved, self._furthest)
 
     def _successors(self, state: State) -> Iterator[Edge[State, Step]]:
+        self._expanded += 1
         for primitive in self._primitives:
             for step in primitive.successors(state):
-                self._achieved |= step.after.done
+                done = step.after.done
+                self._achieved |= done
+                self._furthest = max(self._furthest, done, key=int.bit_count)
                 yield Edge(step, step.duration_s, step.after)
 
     def _is_goal(self, state: State) -> bool:
         return state.done == (1 << len(self._work.sequence.folds)) - 1
 
     def _is_over(self) -> bool:
-        return time.perf_counter() > self._deadline or self._should_stop()
+        if self._expanded == LOOK_ALONE_AFTER and not self._blocking:
+            alone = Alone(self._work)
+            self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
+        return bool(self._blocking) or time.perf_counter() > self._deadline or self._should_stop()
+
+    def _next_unseen(self) -> list[int]:
+        """The folds that no state has done yet though nothing is left that they wait for."""
+        available = self._work.sequence.dag.available(self._achieved)
+        return [fold for fold in available if not self._achieved >> fold & 1]
 
     def _answer(self, start: State, result: SearchResult[State, Step], why: tuple[Reason, ...]) -> Plan:
         is_solved = result.outcome is Outcome.SOLVED

@@ -144,7 +144,8 @@ class Plan:
     @cached_property
     def _timeline(self) -> Timeline:
         phases = [(i, phase) for i, p in enumerate(self.primitives) for phase in p.step.phases()]
-        return Timeline.of(phases or [(0, standing(self.work, self.start))], self.work, self.robot)
+        still = [(0, standing(self.work, self.start))]
+        return Timeline.of(phases or still, self.cost_s or 0.0, self.work, self.robot)
 
     def timeline(self) -> Timeline:
         """What robot and cloth do at every moment.

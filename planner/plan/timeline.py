@@ -8,8 +8,7 @@ the same time always gives the same frame.
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
-
-import numpy as np
+from itertools import accumulate
 
 from planner.errors import RequestError
 from planner.geometry.table_top import TableTop
@@ -22,6 +21,9 @@ from planner.primitives.state import State
 from planner.primitives.work import Work
 
 RATE_HZ = (1.0, 200.0)
+
+_SINK_S = 0.4
+"""How long cloth that is let go beyond an edge is shown sinking (s); the model lets it hang at once."""
 
 
 @dataclass(frozen=True)
@@ -41,14 +43,13 @@ class Timeline:
     _torso_m: float
 
     @staticmethod
-    def of(phases: list[tuple[int, Phase]], work: Work, machine: Machine) -> "Timeline":
-        """The film of a plan's phases, each with the index of its primitive."""
+    def of(phases: list[tuple[int, Phase]], duration_s: float, work: Work, machine: Machine) -> "Timeline":
+        """The film of a plan's phases, each with the index of its primitive, lasting as long as the plan (s)."""
         lasting = [(i, phase) for i, phase in phases if phase.duration_s > 0.0] or phases[:1]
-        ends = np.cumsum([phase.duration_s for _, phase in lasting])
-        starts = (0.0, *(float(t) for t in ends))
+        starts = (0.0, *accumulate(phase.duration_s for _, phase in lasting))
         tracks = hand_tracks([phase for _, phase in lasting], starts[:-1], work, machine)
         surfaces = ClothSurfaces(work)
-        return Timeline(starts[-1], starts[:-1], tuple(lasting), tracks, surfaces, machine, work.scene.torso_m)
+        return Timeline(duration_s, starts[:-1], tuple(lasting), tracks, surfaces, machine, work.scene.torso_m)
 
     def at(self, t_s: float) -> Frame:
         """The frame at a time (s); times before the start or after the end give the first or last frame."""
@@ -66,8 +67,15 @@ class Timeline:
             self._torso_m,
             joints,
             {arm.name: opening for arm, opening in zip(card.arms, openings, strict=True)},
-            self._surfaces.at(phase.cloth, min(fraction, 1.0)),
+            self._surfaces.at(phase.cloth, min(fraction, 1.0), self._droop(number, t)),
+            phase.cloth.top,
         )
+
+    def _droop(self, number: int, t_s: float) -> float:
+        """How far cloth that was held out in the phase before has sunk: 1 when it hangs."""
+        if number == 0 or self._phases[number - 1][1].cloth.top == self._phases[number][1].cloth.top:
+            return 1.0
+        return min((t_s - self._starts[number]) / _SINK_S, 1.0)
 
     def samples(self, rate_hz: float) -> Iterator[Frame]:
         """Frames at an even rate from 0 to the end; the last stands exactly at the end.

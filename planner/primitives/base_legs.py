@@ -77,7 +77,8 @@ def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[i
     stands: list[int] = []
     at = start
     for waypoint in range(len(strip)):
-        at = _next_stand(remaining, waypoint, at, count) if waypoint + 1 < len(strip) else end
+        is_last = waypoint + 1 == len(strip)
+        at = end if is_last else _next_stand(int(strip[waypoint]), remaining, waypoint, at)
         stands.append(at)
     return tuple(stands)
 
@@ -93,9 +94,18 @@ def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[NDArray[
     return table[::-1]
 
 
-def _next_stand(remaining: list[NDArray[np.int64]], waypoint: int, at: int, count: int) -> int:
+def _next_stand(mask: int, remaining: list[NDArray[np.int64]], waypoint: int, at: int) -> int:
     """Where to stand when leaving a waypoint: the nearest place from which the way stays shortest."""
-    total = remaining[waypoint][at]
-    after = remaining[waypoint + 1]
-    ways = [j for j in range(count) if after[j] + abs(j - at) == total]
+    total, after = remaining[waypoint][at], remaining[waypoint + 1]
+    ways = [j for j in _within_reach(mask, at) if after[j] + abs(j - at) == total]
     return min(ways, key=lambda j: (abs(j - at), j))
+
+
+def _within_reach(mask: int, at: int) -> list[int]:
+    """The back-offs to which the base can drive from one without leaving the mask."""
+    low = high = at
+    while low > 0 and mask >> (low - 1) & 1:
+        low -= 1
+    while mask >> (high + 1) & 1:
+        high += 1
+    return list(range(low, high + 1))

@@ -48,6 +48,10 @@ class FoldTrial:
     tools: FloatArray
     approaches: tuple[NDArray[np.int64], ...]
 
+    def is_like(self, other: "FoldTrial") -> bool:
+        """Whether the same arms take the same grips, maybe elsewhere on the table."""
+        return (self.cover, self.arms) == (other.cover, other.arms)
+
 
 def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     """What speaks against a fold in a state whatever the arms can do; None if nothing does."""
@@ -69,6 +73,8 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
     path = _path(work, state, fold)
     for cover, arms in _grips(work, state, fold):
         points = work.placed(state.offset).to_outer(np.array(cover))
+        if not path.is_continuous(points):
+            continue
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
         approaches = tuple(_approaches(work, state, grip) for grip in cover)

@@ -9,12 +9,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.geometry.pose import FloatArray
 from planner.primitives.base_legs import IMPOSSIBLE, travel
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.grasping import Strips, arm_options, combined
 from planner.primitives.obstacle import Attempt, Code, Obstacle
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
+
+AHEAD_M = 0.7
+"""About as far ahead of its shoulder a hand works on a table (m)."""
 
 _FEW = 4
 """So many approaches are tried first: mostly one of the best will do."""
@@ -101,7 +105,8 @@ class FoldWays:
         start = state.back_off if state.held else None
         key = (self._key(state, fold), window, enough, start)
         if key not in self._found:
-            ways = (self._way(state, trial, window, enough) for trial in self._possible(state, fold))
+            trials = self._possible(state, fold)
+            ways = (follow(self._work, state.station, trial, window, enough, start) for trial in trials)
             self._found[key] = tuple(way for way in ways if way is not None)
         return self._found[key]
 
@@ -141,26 +146,61 @@ class FoldWays:
             approaches.append(able)
         return replace(trial, approaches=tuple(approaches))
 
-    def _way(self, state: State, trial: FoldTrial, window: tuple[int, int], enough: int | None) -> FoldWay | None:
-        options = []
-        start = state.back_off if state.held else None
-        for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
-            option = arm_options(self._work, state.station, arm, tools, approaches, window, enough, start)
-            if not len(option.approaches):
-                return None
-            options.append(option)
-        strips = combined(options)
-        way = FoldWay(trial, strips, *travel(strips.masks, self._work.back_offs))
-        return way if way.is_possible else None
-
     def _note_out_of_reach(self, state: State, trial: FoldTrial) -> None:
-        """Remember what was tried, and roughly how far from the arm's shoulder its path leads."""
+        """Remember what was tried, and roughly how far out of the arms' way it is."""
         work = self._work
-        shoulders = work.reach.shoulders
-        severity = 0.0
-        for arm, tools in zip(trial.arms, trial.tools, strict=True):
-            _, y, z = shoulders[arm]
-            path = work.in_base(state.station, tools)
-            severity = max(severity, float(np.hypot(path[:, 1] - y, path[:, 2] - z).max()))
+        away = away_from_shoulders(work, state.station, trial.arms, trial.tools)
         attempt = Attempt(state.station, state.offset, trial.arms, trial.tools, trial.approaches)
-        work.obstacles.note(Obstacle(trial.fold, Code.OUT_OF_REACH, "", severity, attempt))
+        work.obstacles.note(Obstacle(trial.fold, Code.OUT_OF_REACH, "", float(away), attempt))
+
+
+def away_from_shoulders(work: Work, station: int, arms: tuple[int, ...], tools: FloatArray) -> FloatArray:
+    """How far the hands must go from their shoulders at most (m), sideways, up or down, and too far ahead.
+
+    The base can back off but not go nearer, so what lies ahead counts as far as it is beyond `AHEAD_M`. Only for
+    comparing what could not be reached.
+
+    Args:
+        work: the problem.
+        station: where the robot stands.
+        arms: the arm of each grip.
+        tools: each grip's tool points in the table frame, shape (grips, n, ..., 3), m.
+
+    Returns:
+        The largest distance over grips and points, shape (...).
+    """
+    found = []
+    for arm, points in zip(arms, tools, strict=True):
+        away = work.in_base(station, points) - np.array(work.reach.shoulders[arm])
+        away[..., 0] = np.maximum(away[..., 0] - AHEAD_M, 0.0)
+        found.append(np.sqrt((away**2).sum(axis=-1)).max(axis=0))
+    return np.asarray(np.max(found, axis=0))
+
+
+def follow(
+    work: Work,
+    station: int,
+    trial: FoldTrial,
+    window: tuple[int, int],
+    enough: int | None = None,
+    start: int | None = None,
+) -> FoldWay | None:
+    """The way to perform a trial within a window of back-offs; None if the arms cannot follow its path.
+
+    Args:
+        work: the problem.
+        station: where the robot stands.
+        trial: grips, arms and path.
+        window: the first and last back-off allowed.
+        enough: how many approaches of each arm are enough; None: all are wanted.
+        start: the back-off at which what is held is held; None: the hands are free.
+    """
+    options = []
+    for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
+        option = arm_options(work, station, arm, tools, approaches, window, enough, start)
+        if not len(option.approaches):
+            return None
+        options.append(option)
+    strips = combined(options)
+    way = FoldWay(trial, strips, *travel(strips.masks, work.back_offs))
+    return way if way.is_possible else None

@@ -70,9 +70,25 @@ class Obstacles:
 
     def note(self, obstacle: Obstacle) -> None:
         """Keep an obstacle if it is the mildest of its fold and code so far."""
-        key = (obstacle.fold, obstacle.code)
-        if key not in self.nearest or grid_key(obstacle.severity) < grid_key(self.nearest[key].severity):
-            self.nearest[key] = obstacle
+        if self.is_mildest(obstacle.fold, obstacle.code, obstacle.severity):
+            self.nearest[(obstacle.fold, obstacle.code)] = obstacle
+
+    def is_mildest(self, fold: int | None, code: Code, severity: float) -> bool:
+        """Whether an obstacle of this severity would be the mildest of its fold and code so far."""
+        known = self.nearest.get((fold, code))
+        return known is None or grid_key(severity) < grid_key(known.severity)
+
+    def taken_away(self, fold: int) -> tuple[Obstacle, ...]:
+        """What stood in one fold's way, forgotten here."""
+        mine = self.of(fold)
+        for obstacle in mine:
+            del self.nearest[(fold, obstacle.code)]
+        return mine
+
+    def put_back(self, obstacles: tuple[Obstacle, ...]) -> None:
+        """Note obstacles again."""
+        for obstacle in obstacles:
+            self.note(obstacle)
 
     def of(self, fold: int | None) -> tuple[Obstacle, ...]:
         """What stood in one fold's way, in the order in which it was met."""

@@ -5,7 +5,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, FloatArray, Point3
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.shortfall import Shortfall
 
 
 class Reach(Protocol):
@@ -71,4 +72,37 @@ class Reach(Protocol):
     @property
     def query_time_s(self) -> float:
         """Time spent in them (s)."""
+        ...
+
+    def from_anywhere(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> BoolArray:
+        """For each approach, at which points the arm's tool is in comfort from at least one back-off.
+
+        Each point stands on its own: there is no path that leads to it.
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame as it stands at back-off 0, z above the floor (m),
+                shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are.
+            step_m: from one back-off to the next (m).
+
+        Returns:
+            Truths, shape (k, n).
+        """
+        ...
+
+    def shortfall(self, arm: int, point: FloatArray, approaches: NDArray[np.int64]) -> Shortfall | None:
+        """Why, and by how much, a point is not in comfortable reach, in the best of some approaches.
+
+        Args:
+            arm: index into `arm_names`.
+            point: the tool's place in the base frame, z above the floor (m), shape (3,).
+            approaches: indices into `approaches`, shape (k,), at least one.
+
+        Returns:
+            The smallest shortfall; None where the point is in comfort in one of the approaches.
+        """
         ...

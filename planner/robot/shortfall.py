@@ -10,9 +10,9 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.shortfall import Cause, Shortfall
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import reachable_batch
+from planner.robot.kernel import aim_at, reachable_batch
 from planner.robot.limiting_joint import limiting_joint
-from planner.robot.nearest_comfort import nearest_comfort, widest_comfort
+from planner.robot.nearest_comfort import beyond_length, nearest_comfort, widest_comfort
 
 FURTHEST_M = 0.8
 """No displacement further than this is tried."""
@@ -20,11 +20,12 @@ FURTHEST_M = 0.8
 SIDEWAYS = 0.1
 """A displacement that changes the distance to the shoulder by less than this part of it leads sideways."""
 
-_HORIZONTAL = tuple((math.cos(angle), math.sin(angle), 0.0) for angle in np.arange(8) * math.pi / 4)
-DIRECTIONS = np.array((*_HORIZONTAL, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)))
+_STRAIGHT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
+_SLANTING = tuple((x * math.sqrt(0.5), y * math.sqrt(0.5), 0.0) for x in (1.0, -1.0) for y in (1.0, -1.0))
+DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)))
 """The directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
 
-_RING = np.array(((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)))
+_RING = np.array(_STRAIGHT)
 
 
 def left_shortfall(shape: ArmShape, point: FloatArray, axes: FloatArray, comfort_m: float) -> tuple[Shortfall, int]:
@@ -84,11 +85,9 @@ def _far_away(shape: ArmShape, point: FloatArray, axes: FloatArray) -> Shortfall
     It is short by at least the distance by which the wrist is beyond the arm's length, and by at least
     `FURTHEST_M` in the directions tried: the larger of the two is given.
     """
-    wrists = point - shape.tool * axes
-    outward = np.hypot(wrists[:, 0], wrists[:, 1]) - shape.offset
-    beyond_m = np.hypot(outward, wrists[:, 2]) - (shape.upper + shape.fore)
+    beyond_m = [float(beyond_length(shape, aim_at(shape, *point, *axis))) for axis in axes]
     approach = int(np.argmin(beyond_m))
-    short_by_m = max(float(beyond_m[approach]), FURTHEST_M)
+    short_by_m = max(beyond_m[approach], FURTHEST_M)
     joint = limiting_joint(shape, point, axes[approach])
     return Shortfall("too_far", joint, short_by_m, _as_point(_homewards(point)), approach)
 

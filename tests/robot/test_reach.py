@@ -82,6 +82,31 @@ def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
         np.testing.assert_array_equal(masks, again)
 
 
+@pytest.mark.parametrize("comfort_m", [0.0, 0.03])
+@pytest.mark.parametrize("arm", [0, 1])
+def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
+    asked = ROBOT.reach(TORSO_M, comfort_m)
+    points = np.vstack(list(_paths(np.random.default_rng(20))))
+    few = 3
+    expected = _naive_comfort(arm, points, comfort_m)[:, :, :few].any(axis=2)
+    assert expected.any() and not expected.all()
+    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
+    queries = asked.queries
+    assert queries > 0
+    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
+    assert asked.queries == queries
+
+
+def test_from_anywhere_and_back_offs_share_what_they_remember():
+    asked = ROBOT.reach(TORSO_M, 0.03)
+    point = np.array([[0.3, 0.1, 0.9]])
+    masks = asked.back_offs(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    anywhere = asked.from_anywhere(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    np.testing.assert_array_equal(anywhere, masks != 0)
+    assert asked.queries == queries
+
+
 def test_what_was_asked_before_is_not_queried_again():
     asked = ROBOT.reach(TORSO_M, 0.03)
     points = next(_paths(np.random.default_rng(16)))
@@ -167,20 +192,26 @@ def _paths(rng: np.random.Generator):
 
 def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
     """One query for each approach, point, back-off and comfort point, nothing left out."""
-    ring = comfort_m * np.array([(0, 0, 0), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
-    back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
-    asked = points[:, None, None, :] + back[:, None, :] + ring
     masks = np.zeros((len(APPROACHES), len(points)), dtype=np.uint32)
-    for index, approach in enumerate(APPROACHES):
-        rotations = np.broadcast_to(approach.rotation, (asked.size // 3, 3, 3))
-        answers = ROBOT.can_reach(arm, asked.reshape(-1, 3), rotations, TORSO_M)
-        comfortable = answers.reshape(len(points), COUNT, len(ring)).all(axis=2)
+    for index, comfortable in enumerate(_naive_comfort(arm, points, comfort_m)):
         row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1)]
         arrived = [row[0]] if row else []
         for mask in row[1:]:
             arrived.append(_connected(arrived[-1], mask))
         masks[index] = arrived if all(arrived) else 0
     return masks
+
+
+def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
+    """Whether each approach has each point in comfort from each back-off, shape (k, n, COUNT)."""
+    ring = comfort_m * np.array([(0, 0, 0), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
+    back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
+    asked = (points[:, None, None, :] + back[:, None, :] + ring).reshape(-1, 3)
+    answers = [
+        ROBOT.can_reach(arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
+        for approach in APPROACHES
+    ]
+    return np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3)
 
 
 def _random_rotation(rng: np.random.Generator) -> np.ndarray:

@@ -1,0 +1,75 @@
+"""Dependencies that overlap does not show.
+
+Folds whose parts overlap must keep their order, and mostly that is all. But a line may end on the crease of an earlier
+fold, or run along what that fold laid down, without any overlap to speak of; then it is not legal, or moves something
+else, as long as the earlier fold has not been done. So where the parts of two independent folds touch, the two
+are tried the other way round, and if that makes a difference they depend on each other after all.
+"""
+
+from collections.abc import Sequence
+
+import networkx as nx
+
+from planner.cloth.cloth_state import ClothState
+from planner.errors import FoldError
+from planner.folds.fold import Fold
+from planner.folds.fold_cloth import flap_silhouette, fold_cloth
+from planner.geometry.region import Region
+from planner.geometry.tolerance import AREA_M2, LENGTH_M, SNAP_M
+
+
+def is_order_free(
+    pattern: Region, folds: Sequence[Fold], moving: Sequence[Region], dag: "nx.DiGraph[int]", a: int, b: int
+) -> bool:
+    """Whether fold b, and then fold a with all that waits for it, moves the same as in the user's order.
+
+    Args:
+        pattern: the cloth spread out.
+        folds: the folds in the user's order, at least up to b.
+        moving: what each moves in that order, where it was, article frame.
+        dag: the dependencies found so far.
+        a: the earlier fold.
+        b: the later fold, to which no path leads from a.
+    """
+    chain = _chain(folds, a)
+    later = {f for c in chain for f in (c, *nx.descendants(dag, c)) if f < b}
+    order = [i for i in range(b) if i not in later] + [b] + [i for i in range(b) if i in later]
+    cloth = ClothState.spread_out(pattern)
+    for index in order:
+        fold = folds[index]
+        crease = folds[index - 1].line if fold.is_red else None
+        if not _has_ends_on_boundary(flap_silhouette(cloth, is_red=fold.is_red), fold):
+            return False
+        try:
+            folded = fold_cloth(cloth, fold.line, is_red=fold.is_red, crease=crease)
+        except FoldError:
+            return False
+        if not _is_same(folded.moving, moving[index]):
+            return False
+        cloth = folded.cloth
+    return True
+
+
+def is_touching(line_of: Fold, part: Region) -> bool:
+    """Whether a fold's line comes near another fold's part."""
+    return part.distance_to(line_of.line) <= SNAP_M
+
+
+def _chain(folds: Sequence[Fold], index: int) -> list[int]:
+    """The blue fold and its reds among which a fold is."""
+    first = index
+    while folds[first].is_red:
+        first -= 1
+    last = first + 1
+    while last < len(folds) and folds[last].is_red:
+        last += 1
+    return list(range(first, last))
+
+
+def _has_ends_on_boundary(silhouette: Region, fold: Fold) -> bool:
+    ends = (fold.line.start, fold.line.end)
+    return all(silhouette.boundary_distance(end) <= 2 * LENGTH_M for end in ends)
+
+
+def _is_same(one: Region, other: Region) -> bool:
+    return one.difference(other).area + other.difference(one).area <= AREA_M2

@@ -1,0 +1,256 @@
+"""Each fold alone: can it be done at all, wherever the article lies and the robot stands?
+
+To prove that no plan exists A* must exhaust its states, and there are many: every placement that drags can bring
+about, every back-off, every hold. But mostly one fold is to blame, and it can be seen by itself. Relax everything
+else: let the article lie wherever drags could carry it, let the robot stand at any station and back off at will, let it
+hold whatever a drag could have left it with. If even then the fold cannot be done, no plan exists.
+
+Most of those cases differ in nothing that matters. A drag or a back-off along the base's x axis only shifts a path
+along that axis; so for its apex, end and start, asked one by one, all cases with the same lateral place and height are
+one question: from anywhere along that line? The few that survive are asked in full. The relaxation drops constraints
+and adds none, so it never denies what can be done.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, towards_robot
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, grips_obstacle, held_covers
+from planner.primitives.fold_way import away_from_shoulders, follow
+from planner.primitives.obstacle import Attempt, Code, Obstacle
+from planner.primitives.state import Held, State
+from planner.primitives.work import BACK_OFF_STEP_M, Work
+
+_SETS_MAX = 64
+"""Folds that may come after more sets of other folds than this are left to the search."""
+
+_OFFSETS_MAX = 2000
+"""Where drags can lead to more placements than this, the search decides."""
+
+_BITS = 32
+
+_GUESSES, _GUESSED_PLACES, _ENOUGH = 3, 8, 2
+"""How many cases, and places in each, are tried at once before all are gone through; approaches tried first."""
+
+_EXTREMES = (1.0, 2.0, 0.0)
+"""The moments of a fold that fail first: the apex, the end, the start."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Case:
+    """A set of folds done, and what is held for the fold (nothing: free hands)."""
+
+    done: int
+    held: tuple[Held, ...]
+
+    def state(self, station: int, offset: FloatArray) -> State:
+        place = (float(offset[0]), float(offset[1]))
+        return State(self.done, place, station, 0, self.held, is_dragged=bool(self.held))
+
+
+class Alone:
+    """Asks for each fold of a planning problem whether it could be done alone."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._offsets = drag_offsets(work)
+        self._places = self._offsets
+
+    def is_impossible(self, fold: int) -> bool:
+        """Whether a fold can never be done; if so, what stopped it is left as its only obstacles."""
+        work = self._work
+        sets = work.sequence.dag.sets_before(fold, _SETS_MAX)
+        if sets is None or len(self._offsets) > _OFFSETS_MAX or work.sequence.folds[fold].is_red:
+            return False
+        before = work.obstacles.taken_away(fold)
+        self._places = self._with_line_on_table(fold)
+        if not len(self._places):
+            label = work.sequence.folds[fold].label
+            message = f"{label}: wherever drags can bring the article, the fold's line lies beyond the table's edge"
+            work.obstacles.note(Obstacle(fold, Code.LINE_OFF_TABLE, message, 1.0))
+            return True
+        if any(self._is_possible_after(done, fold) for done in sets):
+            work.obstacles.put_back(before)
+            return False
+        return True
+
+    def _is_possible_after(self, done: int, fold: int) -> bool:
+        stations = range(len(self._work.scene.stations))
+        cases = list(self._cases(done, fold))
+        return any(self._is_possible_nearby(case, fold) for case in cases[:_GUESSES]) or any(
+            self._is_possible(case, fold, station) for case in cases for station in stations
+        )
+
+    def _is_possible_nearby(self, case: _Case, fold: int) -> bool:
+        """A quick guess: whether a fold can be done at one of the places nearest to where the article lies."""
+        nearest = self._places[np.argsort(np.hypot(*self._places.T), kind="stable")[:_GUESSED_PLACES]]
+        return any(
+            self._can_follow(case.state(station, place), fold, trial)
+            for station in range(len(self._work.scene.stations))
+            for place in nearest
+            for trial in fold_trials(self._work, case.state(station, place), fold)
+        )
+
+    def _with_line_on_table(self, fold: int) -> FloatArray:
+        line = self._work.sequence.folds[fold].line
+        offsets = [(float(x), float(y)) for x, y in self._offsets]
+        is_on = [bool(self._work.table_in_article(offset).region.overlaps_with(line)) for offset in offsets]
+        return np.asarray(self._offsets[np.array(is_on, dtype=bool)])
+
+    def _cases(self, done: int, fold: int) -> Iterator[_Case]:
+        """Free hands, then whatever a drag that starts anywhere may leave held."""
+        obstacle = grips_obstacle(self._work, done, fold)
+        if obstacle is None:
+            yield _Case(done, ())
+        else:
+            self._work.obstacles.note(obstacle)
+        seen: set[tuple[object, ...]] = set()
+        for held in self._holds(done, fold):
+            key = tuple(h.key for h in held)
+            if key not in seen:
+                seen.add(key)
+                yield _Case(done, held)
+
+    def _holds(self, done: int, fold: int) -> Iterator[tuple[Held, ...]]:
+        """What drags may leave held that serves a fold.
+
+        While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
+        gripped, so what must be held in the fold has to be within a grip's radius of the table.
+        """
+        work = self._work
+        silhouette = work.sequence.cloth(done).silhouette
+        is_whole_seen = False
+        for offset in ((float(x), float(y)) for x, y in self._offsets):
+            is_whole = work.table_in_article(offset).contains(silhouette)
+            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(done, fold, offset)):
+                continue
+            is_whole_seen |= is_whole
+            for station in range(len(work.scene.stations)):
+                yield from self._serving(done, fold, offset, station)
+
+    def _serving(self, done: int, fold: int, offset: Point2, station: int) -> Iterator[tuple[Held, ...]]:
+        work = self._work
+        towards = towards_robot(work, station)
+        if hangs_ahead(work, done, offset, towards):
+            return
+        for cover in drag_covers(work, done, offset, towards).covers:
+            for arms in permutations(range(len(work.reach.arm_names)), len(cover)) if cover else ():
+                held = tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
+                if held_covers(work, done, fold, held):
+                    yield held
+
+    def _is_near(self, done: int, fold: int, offset: Point2) -> bool:
+        """Whether all that must be held in a fold lies within a grip's radius of the table."""
+        work = self._work
+        arms = len(work.reach.arm_names)
+        vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+        radius = work.sequence.folds[fold].grip_radius_m + LENGTH_M
+        edges = work.table_in_article(offset).edges
+        return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)
+
+    def _is_possible(self, case: _Case, fold: int, station: int) -> bool:
+        for trial in fold_trials(self._work, case.state(station, np.zeros(2)), fold):
+            stages = self._stages(case, trial, station)
+            for index in np.flatnonzero(stages == len(_EXTREMES)):
+                state = case.state(station, self._places[index])
+                here = (t for t in fold_trials(self._work, state, fold) if t.is_like(trial))
+                if any(self._can_follow(state, fold, same) for same in here):
+                    return True
+            self._note(case, fold, trial, station)
+        return False
+
+    def _stages(self, case: _Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
+        """How many of apex, end and start can be reached, one after the other, at each place."""
+        unrolled = trial.path.swept(trial.points, np.array(_EXTREMES)[:, None])
+        stages = np.zeros(len(self._places), dtype=np.int64)
+        alive = [np.ones((len(a), len(self._places)), dtype=bool) for a in trial.approaches]
+        left = np.arange(len(self._places))
+        for sweep, points in zip(_EXTREMES, unrolled, strict=True):
+            for grip, arm in enumerate(trial.arms):
+                tools = self._tools(case, trial, sweep, points[grip])[left]
+                rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
+                found = self._from_anywhere(station, arm, tools, trial.approaches[grip][rows])
+                alive[grip][np.ix_(rows, left)] &= found
+                left = left[alive[grip][:, left].any(axis=0)]
+                if not len(left):
+                    return stages
+            stages[left] += 1
+        return stages
+
+    def _tools(self, case: _Case, trial: FoldTrial, sweep: float, point: FloatArray) -> FloatArray:
+        """One tool point of the unrolled plane at every place, in space, shape (places, 3), m."""
+        raised = np.column_stack([self._places, np.full(len(self._places), REST_HEIGHT_M)])
+        is_held_out = bool(case.held) and sweep < 1.0
+        return point + raised if is_held_out else trial.path.top.over_edge(point + raised)
+
+    def _from_anywhere(self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]) -> BoolArray:
+        """In which approaches points are in comfort from somewhere along the base's x axis, shape (k, n)."""
+        work = self._work
+        points = work.in_base(station, tools)
+        steps = np.floor(points[:, 0] / BACK_OFF_STEP_M + LENGTH_M)
+        phases = np.column_stack([points[:, 0] - steps * BACK_OFF_STEP_M, points[:, 1:]])
+        _, first, group = np.unique(np.round(phases / LENGTH_M), axis=0, return_index=True, return_inverse=True)
+        lowest, highest = int(steps.min()), int(steps.max()) + work.back_offs
+        found = np.zeros((len(approaches), len(first)), dtype=bool)
+        for start in range(lowest, highest, _BITS):
+            lines = phases[first] + np.array([start * BACK_OFF_STEP_M, 0.0, 0.0])
+            count = min(_BITS, highest - start)
+            found |= work.reach.from_anywhere(arm, lines, approaches, count, BACK_OFF_STEP_M)
+        return found[:, group.ravel()]
+
+    def _can_follow(self, state: State, fold: int, trial: FoldTrial) -> bool:
+        """Whether nothing speaks against a fold in a state and its whole path can be followed."""
+        work = self._work
+        obstacle = geometric_obstacle(work, state, fold)
+        if obstacle is not None:
+            work.obstacles.note(obstacle)
+            return False
+        return follow(work, state.station, trial, (0, work.back_offs - 1), enough=_ENOUGH) is not None or (
+            follow(work, state.station, trial, (0, work.back_offs - 1)) is not None
+        )
+
+    def _note(self, case: _Case, fold: int, trial: FoldTrial, station: int) -> None:
+        """Remember the place at which a trial that failed everywhere was least out of the arms' way."""
+        work = self._work
+        unrolled = trial.path.swept(trial.points, trial.sweeps[:, None])
+        tools = np.stack(
+            [
+                [self._tools(case, trial, sweep, point) for sweep, point in zip(trial.sweeps, points, strict=True)]
+                for points in unrolled.transpose(1, 0, 2)
+            ]
+        )
+        away = away_from_shoulders(work, station, trial.arms, tools)
+        best = int(away.argmin())
+        if work.obstacles.is_mildest(fold, Code.OUT_OF_REACH, float(away[best])):
+            place = (float(self._places[best][0]), float(self._places[best][1]))
+            attempt = Attempt(station, place, trial.arms, tools[:, :, best], trial.approaches)
+            work.obstacles.note(Obstacle(fold, Code.OUT_OF_REACH, "", float(away[best]), attempt))
+
+
+def drag_offsets(work: Work) -> FloatArray:
+    """Where drags can carry the article as long as a part of it can lie on the table, shape (n, 2), m.
+
+    The count stops when there are more than the relaxation looks at.
+    """
+    table, size = work.scene.table, work.sequence.garment.pattern.bounds
+    corners = work.placement.to_outer(np.array([(size[i], size[j]) for i in (0, 2) for j in (1, 3)]))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    half = np.array([table.depth_m / 2, table.width_m / 2])
+    found: dict[tuple[int, int], Point2] = {(0, 0): (0.0, 0.0)}
+    front = [(0.0, 0.0)]
+    while front and len(found) <= _OFFSETS_MAX:
+        offset = front.pop()
+        for station in range(len(work.scene.stations)):
+            after = dragged(work, offset, station, 1)
+            key = (grid_key(after[0]), grid_key(after[1]))
+            if key not in found and np.all(low + after < half) and np.all(high + after > -half):
+                found[key] = after
+                front.append(after)
+    return np.array(list(found.values()))

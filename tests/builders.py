@@ -1,0 +1,134 @@
+"""Small things that many tests build: regions, garments, folds, a robot that reaches everything."""
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.garment import DrawnFold, Garment, centred_placement
+from planner.cloth.layer import Layer
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, Pose2
+from planner.geometry.region import Region
+from planner.primitives.scene import Scene
+from planner.primitives.work import Work
+
+CIRCLE_M = 0.47
+
+
+def rectangle(width_m: float, height_m: float, x_m: float = 0.0, y_m: float = 0.0) -> Region:
+    """A rectangle with its lower left corner at a place."""
+    return Region.polygon(rectangle_points(width_m, height_m, x_m, y_m))
+
+
+def rectangle_points(width_m: float, height_m: float, x_m: float = 0.0, y_m: float = 0.0) -> tuple[Point2, ...]:
+    x1, y1 = x_m + width_m, y_m + height_m
+    return ((x_m, y_m), (x1, y_m), (x1, y1), (x_m, y1))
+
+
+def star(rng: random.Random, corners: int) -> tuple[Point2, ...]:
+    """A simple polygon, mostly not convex, that winds once round the origin."""
+    turns = sorted(rng.uniform(0.0, math.tau) for _ in range(corners))
+    reach = [rng.uniform(0.15, 0.5) for _ in turns]
+    return tuple((r * math.cos(a), r * math.sin(a)) for r, a in zip(reach, turns, strict=True))
+
+
+def fold(start: Point2, end: Point2, kind: str = "blue", name: str = "a fold", radius_m: float = 0.127) -> DrawnFold:
+    return DrawnFold(name, kind, start, end, radius_m)
+
+
+def garment(outline: Sequence[Point2], *folds: DrawnFold, placement: Pose2 | None = None) -> Garment:
+    """A garment of the given folds; unless told otherwise it lies in the middle of the table."""
+    points = tuple(outline)
+    return Garment("cloth", "Cloth", points, 0.2, folds, 0.127, placement or centred_placement(points))
+
+
+def spread(outline: Sequence[Point2]) -> ClothState:
+    return ClothState.spread_out(Region.polygon(outline))
+
+
+def is_same_stack(one: ClothState, other: ClothState) -> bool:
+    """Whether the same pieces of the pattern lie at the same places, above and below the same wherever they overlap."""
+    if len(one.layers) != len(other.layers):
+        return False
+    partner = []
+    for layer in one.layers:
+        twins = [i for i, twin in enumerate(other.layers) if i not in partner and is_same_layer(layer, twin)]
+        if not twins:
+            return False
+        partner.append(twins[0])
+    for low, high in combinations(range(len(partner)), 2):
+        is_turned = partner[low] > partner[high]
+        if is_turned and not one.layers[low].region.intersection(one.layers[high].region).is_sliver:
+            return False
+    return True
+
+
+def is_same_layer(one: Layer, other: Layer) -> bool:
+    a, b = one.isometry, other.isometry
+    gaps = [abs(getattr(a, name) - getattr(b, name)) for name in ("a", "b", "c", "d", "x", "y")]
+    return max(gaps) < 1e-5 and is_same_region(one.pattern_piece, other.pattern_piece)
+
+
+def is_same_region(one: Region, other: Region, area_m2: float = 2e-5) -> bool:
+    """Whether two regions differ by less than a sliver."""
+    return one.difference(other).area + other.difference(one).area < area_m2
+
+
+class WideReach:
+    """A robot whose arms reach every place from every back-off, or from those that a test allows."""
+
+    arm_names = ("left", "right")
+    approaches = (Approach(0.0, math.radians(30.0)), Approach(0.0, math.pi / 2))
+    shoulders = ((-0.05, 0.19, 0.97), (-0.05, -0.19, 0.97))
+    queries = 0
+    query_time_s = 0.0
+
+    def __init__(self, allowed: Callable[[int, FloatArray, int], bool] | None = None) -> None:
+        """`allowed`: of an arm's number, a point in the base frame at back-off 0, and a back-off."""
+        self._allowed = allowed or (lambda arm, point, back_off: True)
+
+    def back_offs(
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+        start: int | None = None,
+    ) -> NDArray[np.uint32]:
+        row = [sum(1 << j for j in range(count) if self._allowed(arm, point, j)) for point in points]
+        row = connected(row, count, start)
+        return np.array([row] * len(approaches), dtype=np.uint32).reshape(len(approaches), len(points))
+
+    def from_anywhere(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> BoolArray:
+        seen = [any(self._allowed(arm, point, j) for j in range(count)) for point in points]
+        return np.array([seen] * len(approaches), dtype=bool).reshape(len(approaches), len(points))
+
+
+def connected(row: list[int], count: int, start: int | None = None) -> list[int]:
+    """A row of masks without the back-offs that the base cannot have come to; all 0 if it gets stuck."""
+    kept, before = [], (1 << count) - 1 if start is None else 1 << start
+    for mask in row:
+        stretches, at = [], 0
+        for j in range(count + 1):
+            if j < count and mask >> j & 1:
+                at |= 1 << j
+            elif at:
+                stretches.append(at)
+                at = 0
+        before = sum(s for s in stretches if s & before)
+        kept.append(before)
+    return kept if before else [0] * len(row)
+
+
+def work(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Work:
+    """A planning problem for a robot that reaches everything, unless told otherwise."""
+    return Work(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)

@@ -1,0 +1,62 @@
+"""Garments by name or path: what cannot be read says why."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from planner.cloth.garment_files import load_garment, shipped_garment_names
+from planner.errors import GarmentError, GarmentFileError, UnknownGarmentError
+
+TOWEL = {"name": "towel", "outline": [[0, 0], [0.4, 0], [0.4, 0.3]]}
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "towel.json"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_shipped_garment_is_found_by_its_name():
+    assert load_garment("t-shirt").title == "T-shirt"
+    assert {"t-shirt", "jeans", "tie"} <= set(shipped_garment_names())
+    assert shipped_garment_names() == sorted(shipped_garment_names())
+
+
+def test_a_garment_is_read_from_a_path_given_as_either_type(tmp_path: Path):
+    path = written(tmp_path, json.dumps(TOWEL))
+    assert load_garment(path) == load_garment(str(path))
+
+
+def test_an_unknown_name_is_said():
+    with pytest.raises(UnknownGarmentError, match="'sock'"):
+        load_garment("sock")
+
+
+def test_a_missing_file_is_said(tmp_path: Path):
+    with pytest.raises(GarmentFileError, match="cannot be read"):
+        load_garment(tmp_path / "nothing.json")
+
+
+def test_a_folder_is_no_file(tmp_path: Path):
+    with pytest.raises(GarmentFileError, match="cannot be read"):
+        load_garment(tmp_path)
+
+
+@pytest.mark.parametrize("text", ["", "{", '{"name": NaN}', "[1, 2", "\u00e9", '{"a": Infinity}', "[" * 100_000])
+def test_what_is_no_json_is_said(tmp_path: Path, text: str):
+    with pytest.raises(GarmentFileError, match="is no JSON"):
+        load_garment(written(tmp_path, text))
+
+
+def test_bytes_that_are_no_text_are_no_json(tmp_path: Path):
+    path = tmp_path / "towel.json"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(GarmentFileError, match="is no JSON"):
+        load_garment(path)
+
+
+@pytest.mark.parametrize("text", ["[]", "3", '"towel"', "null"])
+def test_json_that_is_no_object_is_no_garment(tmp_path: Path, text: str):
+    with pytest.raises(GarmentError, match="one JSON object"):
+        load_garment(written(tmp_path, text))

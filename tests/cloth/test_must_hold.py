@@ -1,0 +1,126 @@
+"""Which vertices must be held (Theorems 1 and 2). Up is +y unless a test turns it."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+
+from planner.cloth.must_hold import must_hold
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from tests.builders import rectangle, star
+from tests.replay import flat
+
+UP = (0.0, 1.0)
+
+
+def held(piece: Region, up: Point2 = UP, baseline: tuple[Segment, ...] = (), support_deg: float = 0.0) -> set[Point2]:
+    found = must_hold(piece, up, baseline, math.radians(support_deg))
+    return {(round(float(x), 4), round(float(y), 4)) for x, y in found}
+
+
+def test_a_rectangle_hangs_from_its_two_top_corners():
+    assert held(rectangle(0.4, 0.3)) == {(0.0, 0.3), (0.4, 0.3)}
+
+
+@pytest.mark.parametrize("support_deg", [0.0, 5.0, 60.0])
+def test_nothing_need_be_held_that_hangs_from_its_top_edge(support_deg: float):
+    top = Segment((0.0, 0.3), (0.4, 0.3))
+    assert held(rectangle(0.4, 0.3), baseline=(top,), support_deg=support_deg) == set()
+
+
+def test_of_two_corners_only_the_one_off_the_baseline_must_be_held():
+    assert held(rectangle(0.4, 0.3), baseline=(Segment((0.0, 0.3), (0.2, 0.3)),)) == {(0.4, 0.3)}
+
+
+def test_a_triangle_that_hangs_by_its_base_needs_nothing_at_its_tip():
+    triangle = Region.polygon([(0.0, 0.3), (0.4, 0.3), (0.2, 0.0)])
+    assert held(triangle) == {(0.0, 0.3), (0.4, 0.3)}
+    assert held(triangle, baseline=(Segment((0.0, 0.3), (0.4, 0.3)),)) == set()
+
+
+def test_a_triangle_that_hangs_by_its_tip_must_be_held_at_all_three_corners():
+    # Its sides lean by atan(0.2 / 0.3) = 33.7 degrees from the vertical.
+    triangle = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.2, 0.3)])
+    assert held(triangle) == {(0.0, 0.0), (0.4, 0.0), (0.2, 0.3)}
+    assert held(triangle, support_deg=33.0) == {(0.0, 0.0), (0.4, 0.0), (0.2, 0.3)}
+    assert held(triangle, support_deg=34.0) == {(0.2, 0.3)}
+
+
+def flaring(degrees: float) -> Region:
+    """A trapezoid 0.4 m wide on top that widens downwards on both sides by an angle from the vertical."""
+    more = 0.3 * math.tan(math.radians(degrees))
+    return Region.polygon([(-more, 0.0), (0.4 + more, 0.0), (0.4, 0.3), (0.0, 0.3)])
+
+
+def test_an_edge_that_flares_by_one_degree_must_be_held_by_the_bare_theory_only():
+    assert len(held(flaring(1.0))) == 4
+    assert held(flaring(1.0), support_deg=5.0) == {(0.0, 0.3), (0.4, 0.3)}
+
+
+def test_an_edge_that_narrows_downwards_needs_no_support_angle():
+    assert len(held(flaring(-1.0))) == 2
+
+
+def test_with_the_sixty_degrees_of_the_paper_an_edge_may_flare_by_that_much():
+    assert len(held(flaring(59.5), support_deg=60.0)) == 2
+    assert len(held(flaring(60.5), support_deg=60.0)) == 4
+
+
+def test_a_vertex_off_the_hull_need_not_be_held():
+    # A crown whose middle peak stays below the line from the left peak to the right one.
+    crown = Region.polygon([(0, 0), (0.4, 0), (0.4, 0.3), (0.3, 0.2), (0.2, 0.25), (0.1, 0.2), (0, 0.3)])
+    assert held(crown) == {(0.0, 0.3), (0.4, 0.3)}
+
+
+def test_points_on_a_straight_edge_a_micrometre_off_change_nothing():
+    noisy = Region.polygon(
+        [(0, 0), (0.2, -1e-6), (0.4, 0), (0.4 + 1e-6, 0.1), (0.4, 0.3), (0.2, 0.3 + 1e-6), (0, 0.3), (-1e-6, 0.2)]
+    )
+    assert held(noisy) == {(0.0, 0.3), (0.4, 0.3)}
+
+
+def test_a_side_a_micrometre_off_the_vertical_counts_as_running_along_it():
+    assert held(Region.polygon([(-1e-6, 0), (0.4 + 1e-6, 0), (0.4, 0.3), (0, 0.3)])) == {(0.0, 0.3), (0.4, 0.3)}
+
+
+def test_of_several_parts_the_hull_is_that_of_all():
+    # Two squares side by side, the right one lower: its left top corner is inside the common hull.
+    both = Region.union([rectangle(0.1, 0.3), rectangle(0.1, 0.1, 0.2)])
+    assert held(both) == {(0.0, 0.3), (0.1, 0.3), (0.3, 0.1)}
+
+
+def test_turning_cloth_and_direction_together_turns_the_answer():
+    rng = random.Random(4)
+    for _ in range(40):
+        region = Region.polygon(star(rng, 8))
+        if not region.shape.is_valid:
+            continue
+        turn = rng.uniform(-math.pi, math.pi)
+        up = (math.cos(math.pi / 2 + turn), math.sin(math.pi / 2 + turn))
+        turned = must_hold(region.carried(Isometry.rotation(turn)), up, (), 0.1)
+        expected = Isometry.rotation(turn).apply(must_hold(region, UP, (), 0.1))
+        assert np.array(sorted(turned.tolist())) == pytest.approx(np.array(sorted(expected.tolist())), abs=1e-6)
+
+
+@pytest.mark.parametrize("support_deg", [0.0, 5.0, 45.0])
+def test_random_polygons_agree_with_looking_for_cloth_above_each_vertex(support_deg: float):
+    rng = random.Random(6)
+    for _ in range(60):
+        region = Region.polygon(star(rng, 9))
+        if not region.shape.is_valid:
+            continue
+        looked = flat.must_hold(region.shape, UP, [], math.radians(support_deg))
+        assert held(region, support_deg=support_deg) == {(round(x, 4), round(y, 4)) for x, y in looked}
+
+
+def test_a_wider_support_angle_never_asks_for_more():
+    rng = random.Random(7)
+    for _ in range(40):
+        region = Region.polygon(star(rng, 9))
+        if region.shape.is_valid:
+            answers = [held(region, support_deg=angle) for angle in (0.0, 5.0, 30.0, 80.0)]
+            assert answers[0] >= answers[1] >= answers[2] >= answers[3]

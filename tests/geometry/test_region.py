@@ -1,0 +1,126 @@
+"""Regions: cut, moved, joined; their corners without what lies on a straight run."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+import shapely
+
+from planner.geometry.isometry import Isometry
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from tests.builders import is_same_region, rectangle, star
+
+
+def test_either_orientation_of_a_ring_gives_the_same_region():
+    points = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)]
+    for ring in (points, points[::-1]):
+        region = Region.polygon(ring)
+        assert region.area == pytest.approx(0.12)
+        assert Region.polygon(region.ring).area == pytest.approx(0.12)
+        assert sorted(map(tuple, region.ring.tolist())) == sorted(points)
+
+
+def test_points_on_a_straight_run_are_no_corners_even_when_a_micrometre_off():
+    noisy = [(0.0, 0.0), (0.1, 1e-6), (0.2, -1e-6), (0.4, 0.0), (0.4, 0.3), (0.2, 0.3 + 1e-6), (0.0, 0.3), (0.0, 0.15)]
+    assert len(Region.polygon(noisy).ring) == 4
+
+
+def test_the_length_is_the_longer_side_of_the_smallest_rectangle_round_it_however_it_lies():
+    for angle in (0.0, 0.3, math.pi / 4, 2.0):
+        assert rectangle(0.3, 0.8).moved(Isometry.rotation(angle)).length == pytest.approx(0.8, abs=1e-5)
+
+
+def test_both_sides_of_a_line_add_up_to_the_whole():
+    rng = random.Random(0)
+    for _ in range(40):
+        region = Region.polygon(star(rng, 9))
+        angle = rng.uniform(0.0, math.tau)
+        line = Segment((0.0, 0.0), (math.cos(angle), math.sin(angle)))
+        left, right = region.left_of(line), region.left_of(line.reversed)
+        # The cut may lie on the micrometre grid beside the line: at most 1 m times 1 um of area.
+        assert left.area + right.area == pytest.approx(region.area, abs=1e-6)
+        assert left.intersection(right).is_sliver
+        assert np.all(line.left_distances(left.coordinates) >= -2e-6)
+
+
+def test_moving_keeps_the_area_and_moving_back_the_region():
+    rng = random.Random(1)
+    for _ in range(40):
+        region = Region.polygon(star(rng, 8))
+        over = Isometry.reflection(Segment((0.1, 0.2), (rng.uniform(0.2, 1.0), rng.uniform(-1.0, 1.0))))
+        assert region.moved(over).area == pytest.approx(region.area, abs=1e-5)
+        assert is_same_region(region.moved(over).moved(over.inverse), region, 1e-5)
+
+
+def test_a_union_closes_a_hairline_crack_but_not_a_gap():
+    left = rectangle(0.2, 0.3)
+    touching = Region.union([left, rectangle(0.2, 0.3, 0.2 + 2e-6)])
+    assert len(touching.rings) == 1 and len(touching.ring) == 4
+    assert len(Region.union([left, rectangle(0.2, 0.3, 0.201)]).rings) == 2
+
+
+def test_a_union_never_loses_a_part():
+    here = Region.polygon([(0.0, 0.0), (0.1, 0.0), (0.0, 0.1)])
+    there = Region.polygon([(1.145958, -0.055778), (1.066005, 0.459022), (1.39205, -0.364412)])
+    # The second is as a layer is that has been moved: on the micrometre grid. 0.005 + 0.0510 m^2.
+    both = Region.union([here, there.moved(Isometry())])
+    assert both.area == pytest.approx(here.area + there.area, abs=1e-5)
+
+
+def test_unions_of_random_parts_far_apart_add_up():
+    rng = random.Random(3)
+    for _ in range(300):
+        one, other = Region.polygon(star(rng, 4)), Region.polygon(star(rng, 4))
+        if not (one.shape.is_valid and other.shape.is_valid):
+            continue
+        one, other = one.moved(Isometry()), other.moved(Isometry.rotation(rng.uniform(0.0, 6.0), 2.0))
+        assert Region.union([one, other]).area == pytest.approx(one.area + other.area, abs=1e-4)
+
+
+def test_the_bisector_at_a_corner_halves_its_angle_and_on_an_edge_stands_upright():
+    region = rectangle(0.4, 0.3)
+    assert region.inward_bisector((0.0, 0.0)) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
+    assert region.inward_bisector((0.2, 0.3)) == pytest.approx((0.0, -1.0))
+    assert region.inward_bisector((0.2, 0.2)) is None
+
+
+def test_the_bisector_of_a_reflex_corner_leads_into_the_cloth():
+    # An L: at the inner corner (0.2, 0.2) cloth fills all but the quarter towards up and right.
+    ell = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.2, 0.2), (0.2, 0.4), (0.0, 0.4)])
+    assert ell.inward_bisector((0.2, 0.2)) == pytest.approx((-math.sqrt(0.5), -math.sqrt(0.5)))
+
+
+def test_a_segment_along_the_boundary_counts_as_inside_and_one_across_a_notch_does_not():
+    ell = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.2, 0.2), (0.2, 0.4), (0.0, 0.4)])
+    assert ell.contains_segment(Segment((0.0, 0.0), (0.4, 0.0)))
+    assert ell.contains_segment(Segment((0.1, 0.0), (0.1, 0.4)))
+    assert not ell.contains_segment(Segment((0.4, 0.2), (0.2, 0.4)))
+
+
+def test_the_hull_spans_all_parts():
+    both = Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.5)])
+    assert sorted(map(tuple, both.hull.tolist())) == [(0.0, 0.0), (0.0, 0.1), (0.6, 0.0), (0.6, 0.1)]
+
+
+def test_triangles_cover_the_region_and_run_counter_clockwise():
+    rng = random.Random(2)
+    for _ in range(20):
+        region = Region.polygon(star(rng, 7))
+        if not region.shape.is_valid:
+            continue
+        a, b, c = (region.triangles[:, i] for i in range(3))
+        doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+        assert np.all(doubled > 0.0)
+        assert doubled.sum() / 2 == pytest.approx(region.area, abs=1e-9)
+
+
+def test_pieces_leave_slivers_out():
+    scrap = shapely.box(0.5, 0.0, 0.503, 0.003)
+    assert len(Region(shapely.MultiPolygon([shapely.box(0, 0, 0.1, 0.1), scrap])).pieces) == 1
+
+
+def test_the_nearest_boundary_point_of_an_inner_point_is_on_the_nearest_edge():
+    found = rectangle(0.4, 0.3).nearest_boundary_points(np.array([[0.2, 0.25], [0.39, 0.1]]))
+    assert found == pytest.approx(np.array([[0.2, 0.3], [0.4, 0.1]]))

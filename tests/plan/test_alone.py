@@ -1,0 +1,53 @@
+"""The relaxation must never deny what can be done, and should see at once what cannot."""
+
+import pytest
+
+from planner import Scene, load_garment, make_plan, shipped_garment_names
+from planner.plan import make_plan as planning
+from planner.plan.alone import drag_offsets
+from planner.primitives.obstacle import Code
+
+HALVED = ("scarf-halved", "tie-halved")
+SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
+
+
+@pytest.mark.parametrize("name", SOLVABLE)
+def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
+    looked_at = make_plan(load_garment(name), time_limit_s=60.0)
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", -1)
+    searched = make_plan(load_garment(name), time_limit_s=60.0)
+    assert looked_at.status == searched.status == "solved"
+    assert looked_at.cost_s == searched.cost_s
+
+
+@pytest.mark.parametrize("name", HALVED)
+def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, monkeypatch):
+    quick = make_plan(load_garment(name), time_limit_s=60.0)
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", -1)
+    exhausted = make_plan(load_garment(name), time_limit_s=60.0)
+    assert quick.status == exhausted.status == "infeasible"
+    assert quick.statistics.expanded < exhausted.statistics.expanded / 10
+
+
+@pytest.mark.parametrize("name", HALVED)
+def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
+    first, *others = make_plan(load_garment(name), time_limit_s=60.0).reasons
+    assert (first.fold, first.code) == (0, Code.OUT_OF_REACH)
+    assert first.cause in {"too_far", "joint_limit", "comfort_only"}
+    assert 0.0 < first.short_by_m < 0.3
+    assert first.station in dict(Scene().stations)
+    assert len(first.point) == 3
+    assert f"{first.short_by_m:.2f} m" in first.message
+    assert (others[0].fold, others[0].code) == (1, Code.WAITS_FOR_FOLD)
+
+
+def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
+    plan = make_plan(load_garment("hand-towel"))
+    offsets = drag_offsets(plan.work)
+    half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2
+    placement = plan.garment.placement
+    assert (offsets[0] == 0.0).all()
+    assert (offsets[:, 0] <= 1e-9).all(), "front drags towards itself, the sides drag sideways, nobody drags away"
+    assert (abs(placement.y_m - 0.343 + offsets[:, 1]) < half_width + 0.343).all()
+    assert (placement.x_m + 0.419 + offsets[:, 0] > -half_depth).all()

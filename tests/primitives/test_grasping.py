@@ -1,0 +1,90 @@
+"""Which arm takes which grip, and from where."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import Approach, Point2, Pose2
+from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
+from planner.primitives.scene import Scene
+from tests.builders import WideReach, garment, rectangle_points, work
+
+TOWEL = garment(rectangle_points(0.4, 0.3))
+
+
+class Fan(WideReach):
+    """Level-headed: pinches at 30 degrees from nine headings, and straight down."""
+
+    approaches = (
+        *(Approach(math.radians(h), math.radians(30)) for h in range(-120, 121, 30)),
+        Approach(0.0, math.pi / 2),
+    )
+
+
+def headings(grip: Point2, cone_deg: float, turn_deg: float = 0.0) -> list[float]:
+    """The headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
+    problem = work(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
+    found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip)
+    chosen = [Fan.approaches[i] for i in found]
+    return sorted(999.0 if a.is_vertical else round(math.degrees(a.heading_rad)) for a in chosen)
+
+
+def arms(points: list[Point2], station: int = 0) -> set[tuple[int, ...]]:
+    return set(assignments(work(TOWEL), station, np.array(points)))
+
+
+def test_an_edge_is_pinched_from_within_the_cone_round_straight_in():
+    # The middle of the left edge: inwards is along x, heading 0.
+    assert headings((0.0, 0.15), 75.0) == [-60, -30, 0, 30, 60, 999]
+    assert headings((0.0, 0.15), 60.0) == [-60, -30, 0, 30, 60, 999]
+    assert headings((0.0, 0.15), 59.0) == [-30, 0, 30, 999]
+
+
+def test_a_corner_is_pinched_from_within_the_cone_round_its_bisector():
+    # The lower left corner: the bisector is at 45 degrees; +-50 degrees of it: -5..95.
+    assert headings((0.0, 0.0), 50.0) == [0, 30, 60, 90, 999]
+
+
+def test_the_article_turned_turns_the_headings():
+    assert headings((0.0, 0.15), 31.0, turn_deg=90.0) == [60, 90, 120, 999]
+
+
+def test_half_a_turn_asks_for_nothing():
+    assert len(headings((0.0, 0.15), 180.0)) == 10
+
+
+def test_what_is_not_on_the_boundary_is_taken_straight_down_only():
+    assert headings((0.2, 0.15), 75.0) == [999]
+
+
+def test_the_left_arm_takes_the_grip_further_left():
+    # From `front` left is +y; arm 0 is the left one.
+    assert arms([(-0.7, 0.2), (-0.7, -0.2)]) == {(0, 1)}
+    assert arms([(-0.7, -0.2), (-0.7, 0.2)]) == {(1, 0)}
+
+
+def test_left_is_as_the_robot_sees_it_from_where_it_stands():
+    # `left` looks along -y: its left is +x.
+    assert arms([(0.6, 0.3), (0.2, 0.3)], station=2) == {(0, 1)}
+
+
+def test_grips_straight_behind_each_other_may_be_taken_either_way():
+    assert arms([(-0.7, 0.1), (-0.5, 0.1)]) == {(0, 1), (1, 0)}
+
+
+def test_a_single_grip_may_be_taken_by_either_arm():
+    assert arms([(-0.7, 0.3)]) == {(0,), (1,)}
+
+
+def test_the_nearest_pair_of_fewer_than_two_is_nowhere_near():
+    assert nearest_pair_m(np.array([[0.0, 0.0]])) == math.inf
+    assert nearest_pair_m(np.array([[0.0, 0.0], [3.0, 4.0], [0.0, 1.0]])) == pytest.approx(1.0)
+
+
+def test_the_base_stands_on_the_back_off_grid():
+    problem = work(TOWEL)
+    assert problem.back_offs == 17
+    assert problem.base_pose(0, 4) == Pose2(-1.15, 0.0, 0.0)
+    assert work(TOWEL, Scene(back_off_max_m=0.0)).back_offs == 1
+    assert work(TOWEL, Scene(back_off_max_m=0.29)).back_offs == 6
