@@ -13,7 +13,7 @@ and adds none, so it never denies what can be done.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import islice, permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key
-from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, towards_robot
+from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, grips_obstacle, held_covers
 from planner.primitives.fold_way import away_from_shoulders, follow
 from planner.primitives.obstacle import Attempt, Code, Obstacle
@@ -36,8 +36,8 @@ _OFFSETS_MAX = 2000
 
 _BITS = 32
 
-_GUESSES, _GUESSED_PLACES, _ENOUGH = 3, 8, 2
-"""How many cases, and places in each, are tried at once before all are gone through; approaches tried first."""
+_GUESSES, _GUESSED_DRAGS, _ENOUGH = 3, 10, 2
+"""How many cases, and drags in each, are tried before all is gone through; and how many approaches first."""
 
 _EXTREMES = (1.0, 2.0, 0.0)
 """The moments of a fold that fail first: the apex, the end, the start."""
@@ -56,10 +56,11 @@ class _Case:
 
 
 class Alone:
-    """Asks for each fold of a planning problem whether it could be done alone."""
+    """Asks for each fold of a planning problem, begun at a station, whether it could be done alone."""
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, work: Work, station: int) -> None:
         self._work = work
+        self._station = station
         self._offsets = drag_offsets(work)
         self._places = self._offsets
 
@@ -70,6 +71,11 @@ class Alone:
         if sets is None or len(self._offsets) > _OFFSETS_MAX or work.sequence.folds[fold].is_red:
             return False
         before = work.obstacles.taken_away(fold)
+        guesses = (case for done in sets for case in islice(self._cases(done, fold), _GUESSES))
+        if any(self._is_possible_nearby(case, fold) for case in guesses):
+            work.obstacles.put_back(before)
+            return False
+        work.obstacles.taken_away(fold)
         self._places = self._with_line_on_table(fold)
         if not len(self._places):
             label = work.sequence.folds[fold].label
@@ -83,19 +89,15 @@ class Alone:
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
         stations = range(len(self._work.scene.stations))
-        cases = list(self._cases(done, fold))
-        return any(self._is_possible_nearby(case, fold) for case in cases[:_GUESSES]) or any(
-            self._is_possible(case, fold, station) for case in cases for station in stations
-        )
+        return any(self._is_possible(case, fold, station) for case in self._cases(done, fold) for station in stations)
 
     def _is_possible_nearby(self, case: _Case, fold: int) -> bool:
-        """A quick guess: whether a fold can be done at one of the places nearest to where the article lies."""
-        nearest = self._places[np.argsort(np.hypot(*self._places.T), kind="stable")[:_GUESSED_PLACES]]
+        """A quick guess: whether a fold can be done from the first station where drags from there may bring it."""
+        steps = min(longest_drag(self._work), _GUESSED_DRAGS)
+        places = [dragged(self._work, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
+        states = [case.state(self._station, np.array(place)) for place in places]
         return any(
-            self._can_follow(case.state(station, place), fold, trial)
-            for station in range(len(self._work.scene.stations))
-            for place in nearest
-            for trial in fold_trials(self._work, case.state(station, place), fold)
+            self._can_follow(state, fold, trial) for state in states for trial in fold_trials(self._work, state, fold)
         )
 
     def _with_line_on_table(self, fold: int) -> FloatArray:
@@ -174,7 +176,7 @@ class Alone:
         left = np.arange(len(self._places))
         for sweep, points in zip(_EXTREMES, unrolled, strict=True):
             for grip, arm in enumerate(trial.arms):
-                tools = self._tools(case, trial, sweep, points[grip])[left]
+                tools = self._tools(case, trial, sweep, points[grip], self._places[left])
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
                 found = self._from_anywhere(station, arm, tools, trial.approaches[grip][rows])
                 alive[grip][np.ix_(rows, left)] &= found
@@ -184,9 +186,9 @@ class Alone:
             stages[left] += 1
         return stages
 
-    def _tools(self, case: _Case, trial: FoldTrial, sweep: float, point: FloatArray) -> FloatArray:
+    def _tools(self, case: _Case, trial: FoldTrial, sweep: float, point: FloatArray, places: FloatArray) -> FloatArray:
         """One tool point of the unrolled plane at every place, in space, shape (places, 3), m."""
-        raised = np.column_stack([self._places, np.full(len(self._places), REST_HEIGHT_M)])
+        raised = np.column_stack([places, np.full(len(places), REST_HEIGHT_M)])
         is_held_out = bool(case.held) and sweep < 1.0
         return point + raised if is_held_out else trial.path.top.over_edge(point + raised)
 
@@ -219,19 +221,24 @@ class Alone:
     def _note(self, case: _Case, fold: int, trial: FoldTrial, station: int) -> None:
         """Remember the place at which a trial that failed everywhere was least out of the arms' way."""
         work = self._work
-        unrolled = trial.path.swept(trial.points, trial.sweeps[:, None])
-        tools = np.stack(
-            [
-                [self._tools(case, trial, sweep, point) for sweep, point in zip(trial.sweeps, points, strict=True)]
-                for points in unrolled.transpose(1, 0, 2)
-            ]
-        )
-        away = away_from_shoulders(work, station, trial.arms, tools)
+        extremes = self._everywhere(case, trial, np.array(_EXTREMES), self._places)
+        away = away_from_shoulders(work, station, trial.arms, extremes)
         best = int(away.argmin())
         if work.obstacles.is_mildest(fold, Code.OUT_OF_REACH, float(away[best])):
-            place = (float(self._places[best][0]), float(self._places[best][1]))
-            attempt = Attempt(station, place, trial.arms, tools[:, :, best], trial.approaches)
+            place = self._places[best : best + 1]
+            tools = self._everywhere(case, trial, trial.sweeps, place)[:, :, 0]
+            offset = (float(place[0, 0]), float(place[0, 1]))
+            attempt = Attempt(station, offset, trial.arms, tools, trial.approaches)
             work.obstacles.note(Obstacle(fold, Code.OUT_OF_REACH, "", float(away[best]), attempt))
+
+    def _everywhere(self, case: _Case, trial: FoldTrial, sweeps: FloatArray, places: FloatArray) -> FloatArray:
+        """The tools of a trial at some moments and places, shape (grips, sweeps, places, 3), table frame (m)."""
+        unrolled = trial.path.swept(trial.points, sweeps[:, None])
+        rows = [
+            [self._tools(case, trial, sweep, point, places) for sweep, point in zip(sweeps, points, strict=True)]
+            for points in unrolled.transpose(1, 0, 2)
+        ]
+        return np.array(rows)
 
 
 def drag_offsets(work: Work) -> FloatArray:

@@ -122,9 +122,11 @@ class _Planner:
         self._primitives = [kind(work) for kind in PRIMITIVES]
         self._achieved = self._furthest = 0
         self._expanded = 0
+        self._station = 0
         self._blocking: list[int] = []
 
     def plan(self, station: int) -> Plan:
+        self._station = station
         start = State(0, (0.0, 0.0), station, 0)
         unrest = self._work.unrest(0, start.offset)
         if unrest is not None:
@@ -155,7 +157,7 @@ class _Planner:
 
     def _is_over(self) -> bool:
         if self._expanded == LOOK_ALONE_AFTER and not self._blocking:
-            alone = Alone(self._work)
+            alone = Alone(self._work, self._station)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
         return bool(self._blocking) or time.perf_counter() > self._deadline or self._should_stop()
 

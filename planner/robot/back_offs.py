@@ -15,6 +15,7 @@ empty; an entry that finds its place taken moves on to the next. When it is thre
 learns no more, and the answers stay the same.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -133,12 +134,35 @@ def _recalled(ask: Question, memory: Memory, point: FloatArray, back_off: int) -
 def _is_out_of_reach(ask: Question, memory: Memory, point: FloatArray) -> tuple[bool, int]:
     """Whether a point can be had from no back-off at all; queries made."""
     queries = 0
-    for back_off in range(ask.back_offs):
+    nearest, farthest = _within_length(ask, point)
+    for back_off in range(nearest, farthest):
         answer, asked = _recalled(ask, memory, point, back_off)
         queries += asked
         if answer:
             return False, queries
     return True, queries
+
+
+@njit(cache=True, nogil=True)
+def _within_length(ask: Question, point: FloatArray) -> tuple[int, int]:
+    """The first back-off, and the one after the last, at which the wrist may be within the arm's length.
+
+    Backing off moves the wrist along x, and what is within the length is one stretch of that line.
+    """
+    shape, tool = ask.shape, ask.shape.tool
+    x, y = point[0] - ask.shoulder[0] - tool * ask.axis[0], point[1] - ask.shoulder[1] - tool * ask.axis[1]
+    z = point[2] - ask.shoulder[2] - tool * ask.axis[2]
+    length = shape.upper + shape.fore + LENGTH_M
+    if abs(z) >= length:
+        return 0, 0
+    outward = shape.offset + math.sqrt(length * length - z * z) + LENGTH_M
+    if abs(y) >= outward:
+        return 0, 0
+    if ask.step <= 0.0:
+        return 0, ask.back_offs
+    half = math.sqrt(outward * outward - y * y)
+    first, last = math.floor((-half - x) / ask.step), math.ceil((half - x) / ask.step)
+    return max(int(first), 0), min(int(last) + 1, ask.back_offs)
 
 
 @njit(cache=True, nogil=True)
