@@ -20,7 +20,7 @@ from planner.primitives.work import BACK_OFF_STEP_M, Work
 AHEAD_M = 0.7
 """About as far ahead of its shoulder a hand works on a table (m)."""
 
-_FEW = 4
+_FEW = 6
 """So many approaches are tried first: mostly one of the best will do."""
 
 
@@ -87,22 +87,50 @@ class FoldWays:
         3. So all approaches are asked only for the back-offs in between.
         """
         here, last = state.back_off, self._work.back_offs - 1
+        if state.held and self._is_hopeless(state, fold):
+            return ()
         staying = self._within(state, fold, (here, here), 1)
         if staying:
             return staying[:1]
-        few = self._within(state, fold, (0, last), _FEW)
+        few = self._few(state, fold)
         straight = {end for way in few for end in way.straight_ends(state)}
         low = max((end + 1 for end in straight if end < here), default=0)
         high = min((end - 1 for end in straight if end > here), default=last)
         found = few + self._within(state, fold, (low, high), None)
         if not found:
-            for trial in self._possible(state, fold):
-                self._note_out_of_reach(state, trial)
+            self._note_all_out_of_reach(state, fold)
         return found
 
-    def _within(self, state: State, fold: int, window: tuple[int, int], enough: int | None) -> tuple[FoldWay, ...]:
-        """The ways that keep to a window of back-offs, with enough of the best approaches for each arm."""
-        start = state.back_off if state.held else None
+    def _few(self, state: State, fold: int) -> tuple[FoldWay, ...]:
+        """The ways in a few of the best approaches, begun wherever the base stands best."""
+        return self._within(state, fold, (0, self._work.back_offs - 1), _FEW, is_from_anywhere=True)
+
+    def _is_hopeless(self, state: State, fold: int) -> bool:
+        """Whether one hand alone cannot follow the path wherever the base stands: that holds for all back-offs."""
+        is_for_one_hand = all(len(trial.arms) == 1 for trial in self._possible(state, fold))
+        if not is_for_one_hand or self._few(state, fold):
+            return False
+        self._note_all_out_of_reach(state, fold)
+        return True
+
+    def _note_all_out_of_reach(self, state: State, fold: int) -> None:
+        for trial in self._possible(state, fold):
+            self._note_out_of_reach(state, trial)
+
+    def _within(
+        self,
+        state: State,
+        fold: int,
+        window: tuple[int, int],
+        enough: int | None,
+        *,
+        is_from_anywhere: bool = False,
+    ) -> tuple[FoldWay, ...]:
+        """The ways that keep to a window of back-offs, with enough of the best approaches for each arm.
+
+        With grips held they begin where the base stands; asked from anywhere, one answer serves every back-off.
+        """
+        start = state.back_off if state.held and not is_from_anywhere else None
         key = (self._key(state, fold), window, enough, start)
         if key not in self._found:
             trials = self._possible(state, fold)

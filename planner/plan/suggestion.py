@@ -1,0 +1,48 @@
+"""A suggestion: a change to what was asked, and the plan that the change makes possible."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from planner.plan.plan import Plan
+
+ASSUMPTIONS = frozenset({"friction", "grip_radius", "comfort_radius"})
+"""Kinds of suggestions that nobody can carry out: they hold only if the world is kinder than assumed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Suggestion:
+    """A change that gives a plan, or a quicker one.
+
+    Attributes:
+        kind: "placement", "fold_line", "order", "station", "friction", "grip_radius" or "comfort_radius".
+        message: what to do and what the plan then costs, with the numbers; directions as the robot at the near
+            edge of the table sees them.
+        change: fields to put into the plan request in place of its own.
+        size: how big the change is, for comparing within its kind: m, a count, or a coefficient.
+        plan: the plan that proves it.
+        cost_s: what that plan costs (s).
+    """
+
+    kind: str
+    message: str
+    change: Mapping[str, Any]
+    size: float
+    plan: Plan
+    cost_s: float
+
+    @property
+    def is_assumption(self) -> bool:
+        """Whether it assumes something about the world instead of changing it."""
+        return self.kind in ASSUMPTIONS
+
+    def to_dict(self) -> dict[str, Any]:
+        """The suggestion as JSON, without its plan."""
+        return {
+            "kind": self.kind,
+            "is_assumption": self.is_assumption,
+            "message": self.message,
+            "change": dict(self.change),
+            "size": self.size,
+            "cost_s": self.cost_s,
+        }

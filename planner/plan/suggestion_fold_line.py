@@ -1,0 +1,112 @@
+"""Suggesting to shift the line of a fold that cannot be done, across its own direction, as little as possible."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.cloth.garment import DrawnFold, Garment
+from planner.errors import FieldError
+from planner.folds.fold import snapped_line
+from planner.folds.fold_cloth import flap_silhouette
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.plan.suggestion_trial import Asked, Proof, Search, Trial, narrowed
+from planner.plan.suggestion_words import direction_words, in_cm
+
+STEPS_M = (0.1, 0.2)
+NARROWED_TO_M = 0.0125
+_FAR_M = 20.0
+_DECIMALS = 5
+
+
+def fold_lines(asked: Asked, folds: Sequence[int]) -> Search:
+    """Look for the smallest shift of each of some folds, to either side; to the side where less cloth moves first."""
+    sides = [_Side(asked, fold, sign) for fold in folds for sign in (1, -1)]
+    for before_m, shift_m in zip((0.0, *STEPS_M), STEPS_M, strict=False):
+        for side in tuple(sides):
+            trial = side.shifted(shift_m)
+            if trial is None:
+                continue
+            plan = yield trial
+            if plan is None:
+                return
+            proof = Proof.of(trial, plan)
+            if proof is not None:
+                sides.remove(side)
+                yield from narrowed(side.shifted, before_m, shift_m, proof, NARROWED_TO_M)
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    """A fold, and the side to which it may be shifted: 1 is left of its line, where less moves; -1 right."""
+
+    asked: Asked
+    fold: int
+    sign: int
+
+    def shifted(self, by_m: float) -> Trial | None:
+        """The trial of a shift; None where it is not legal."""
+        drawn = self.asked.garment.folds[self.fold]
+        line = Segment(drawn.start, drawn.end)
+        nx, ny = (self.sign * part for part in line.left)
+        moved = Segment(
+            (line.start[0] + by_m * nx, line.start[1] + by_m * ny), (line.end[0] + by_m * nx, line.end[1] + by_m * ny)
+        )
+        garment = redrawn(self.asked.garment, self.fold, moved)
+        if garment is None:
+            return None
+        x, y = self.asked.placement.to_outer(np.array([nx, ny])) - self.asked.placement.to_outer(np.zeros(2))
+        what = f"Shift fold {self.fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
+        change = {"garment": garment.to_dict()}
+        return Trial("fold_line", what, change, by_m, replace(self.asked, garment=garment))
+
+
+def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:
+    """The garment with a fold along another line; None if that fold, or one after it, is then not legal.
+
+    The folds after it keep their lines; where an end no longer meets the edge of the cloth it follows the edge along
+    the line.
+    """
+    folds = garment.folds[:fold]
+    try:
+        for index in range(fold, len(garment.folds)):
+            drawn = garment.folds[index]
+            cloth = FoldSequence.of(replace(garment, folds=folds)).final
+            silhouette = flap_silhouette(cloth, is_red=drawn.is_red)
+            if index > fold and _is_snapped(drawn, silhouette):
+                folds = (*folds, drawn)
+                continue
+            ends = chord(silhouette, line if index == fold else Segment(drawn.start, drawn.end))
+            if ends is None:
+                return None
+            folds = (*folds, replace(drawn, start=ends.start, end=ends.end))
+        changed = replace(garment, folds=folds)
+        FoldSequence.of(changed)
+    except FieldError:
+        return None
+    return changed
+
+
+def chord(silhouette: Region, line: Segment) -> Segment | None:
+    """The stretch of a whole line within a silhouette that has most in common with the segment given (m, rounded)."""
+    whole = Segment(line.at(-_FAR_M), line.at(line.length + _FAR_M))
+    best, most_m = None, 0.0
+    for ends in silhouette.overlaps_with(whole):
+        low, high = sorted(line.positions(np.array(ends)))
+        common_m = float(min(high, line.length) - max(low, 0.0))
+        if common_m > most_m:
+            best, most_m = (float(low), float(high)), common_m
+    if best is None:
+        return None
+    (x0, y0), (x1, y1) = line.at(best[0]), line.at(best[1])
+    return Segment((round(x0, _DECIMALS), round(y0, _DECIMALS)), (round(x1, _DECIMALS), round(y1, _DECIMALS)))
+
+
+def _is_snapped(drawn: DrawnFold, silhouette: Region) -> bool:
+    try:
+        snapped_line(drawn, silhouette)
+    except FieldError:
+        return False
+    return True

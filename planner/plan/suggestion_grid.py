@@ -1,0 +1,68 @@
+"""Where on the table a garment could be laid: a grid of placements, the garment wholly on the table."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Point2, Pose2
+from planner.geometry.table import Table
+from planner.geometry.tolerance import LENGTH_M
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """How far a garment can be moved while it lies wholly on the table.
+
+    Attributes:
+        low: the smallest move along x and y of the table frame (m).
+        high: the largest (m).
+    """
+
+    low: Point2
+    high: Point2
+
+    @staticmethod
+    def of(garment: Garment, placement: Pose2, table: Table) -> "Room":
+        """The room round a garment with this placement."""
+        points = placement.to_outer(np.array(garment.outline))
+        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        x, y = table.depth_m / 2, table.width_m / 2
+        return Room((float(-x - x0), float(-y - y0)), (float(x - x1), float(y - y1)))
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the garment is larger than the table."""
+        return any(high < low - LENGTH_M for low, high in zip(self.low, self.high, strict=True))
+
+    def holds(self, dx_m: float, dy_m: float) -> bool:
+        """Whether the garment lies wholly on the table after this move."""
+        moves = zip(self.low, (dx_m, dy_m), self.high, strict=True)
+        return all(low - LENGTH_M <= by <= high + LENGTH_M for low, by, high in moves)
+
+    @property
+    def nearest(self) -> Point2:
+        """The smallest move that brings it wholly onto the table; (0, 0) if it lies there."""
+        x, y = (min(max(0.0, low), high) for low, high in zip(self.low, self.high, strict=True))
+        return (x, y)
+
+    def moves(self, step_m: float) -> Iterator[tuple[int, int]]:
+        """All moves by whole steps along x and y that the room holds, as numbers of steps."""
+        if not self.is_none:
+            columns, rows = (_steps(low, high, step_m) for low, high in zip(self.low, self.high, strict=True))
+            yield from ((i, j) for i in columns for j in rows)
+
+
+def turned_in_place(garment: Garment, placement: Pose2, quarters: int) -> Pose2:
+    """The placement turned by quarter turns, the middle of the outline's bounding box staying where it is."""
+    outline = np.array(garment.outline)
+    middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
+    turned = Pose2(placement.x_m, placement.y_m, placement.yaw_rad + quarters * math.pi / 2)
+    dx, dy = placement.to_outer(middle) - turned.to_outer(middle)
+    return turned.moved(float(dx), float(dy))
+
+
+def _steps(low: float, high: float, step_m: float) -> range:
+    return range(math.ceil((low - LENGTH_M) / step_m), math.floor((high + LENGTH_M) / step_m) + 1)

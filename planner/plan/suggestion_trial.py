@@ -1,0 +1,123 @@
+"""What one kind of suggestion asks to have tried, and what it says of the outcome.
+
+Each kind is a generator, its *search*: it yields trials, is sent the plan of each, and yields a suggestion when it has
+found one. So a search reads as if it had all the time in the world, while somebody else shares out the time among
+the kinds. Sent None instead of a plan, there is no more time: it may tell what it still has, and returns.
+"""
+
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
+
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Pose2
+from planner.plan.make_plan import make_plan
+from planner.plan.plan import Plan
+from planner.plan.suggestion import Suggestion
+from planner.primitives.scene import Scene
+
+WORTH_TELLING_S = 1.0
+"""A second suggestion of a kind, or one where there is a plan already, saves at least this much (s)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A plan request, budget apart; the attributes are those of `make_plan`, `placement` filled in."""
+
+    garment: Garment
+    scene: Scene
+    placement: Pose2
+    start_station: str
+    robot: str
+    comfort_radius_m: float
+    heuristic: str
+    max_expanded: int
+
+    def plan(self, time_limit_s: float, should_stop: Callable[[], bool]) -> Plan:
+        """The answer to the request; raises what `make_plan` does."""
+        return make_plan(
+            self.garment,
+            self.scene,
+            placement=self.placement,
+            start_station=self.start_station,
+            robot=self.robot,
+            comfort_radius_m=self.comfort_radius_m,
+            heuristic=self.heuristic,
+            time_limit_s=time_limit_s,
+            max_expanded=self.max_expanded,
+            should_stop=should_stop,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """A change that may help.
+
+    Attributes:
+        kind: the kind of suggestion that it would be.
+        what: what to do, a sentence without its full stop.
+        change: the fields of the request that change.
+        size: how big the change is.
+        asked: the request with the change.
+    """
+
+    kind: str
+    what: str
+    change: Mapping[str, Any]
+    size: float
+    asked: Asked
+
+
+class Proof(NamedTuple):
+    """A trial that succeeded, its plan, and what that costs (s)."""
+
+    trial: Trial
+    plan: Plan
+    cost_s: float
+
+    @staticmethod
+    def of(trial: Trial, plan: Plan | None) -> "Proof | None":
+        """The trial as a proof, if its plan is solved."""
+        return None if plan is None or plan.cost_s is None else Proof(trial, plan, plan.cost_s)
+
+    @property
+    def suggestion(self) -> Suggestion:
+        """The proven trial as a suggestion."""
+        message = f"{self.trial.what}: {self.cost_s:.1f} s"
+        return Suggestion(self.trial.kind, message, self.trial.change, self.trial.size, self.plan, self.cost_s)
+
+    def is_worth_more_than(self, cost_s: float) -> bool:
+        """Whether it is so much cheaper that it should be told as well."""
+        return self.cost_s < cost_s - WORTH_TELLING_S
+
+
+Search: TypeAlias = Generator[Trial | Suggestion, Plan | None, None]
+Narrowing: TypeAlias = Generator[Trial | Suggestion, Plan | None, Proof]
+
+
+def narrowed(
+    trial_at: Callable[[float], Trial | None], fails_at: float, works_at: float, proof: Proof, step: float
+) -> Narrowing:
+    """Tell a change that works; then look for a smaller one, halving between it and one that fails, and tell that.
+
+    Args:
+        trial_at: the trial of a change of some amount; None where there is none, which counts as failing.
+        fails_at: an amount that does not work.
+        works_at: an amount that does.
+        proof: that it does.
+        step: how exact the result is to be; amounts between are `fails_at` and whole multiples of it.
+
+    Returns:
+        The proof of the smallest amount that was seen to work.
+    """
+    yield proof.suggestion
+    first = proof
+    low, high = 0, round((works_at - fails_at) / step)
+    while high - low > 1:
+        middle = (low + high) // 2
+        trial = trial_at(fails_at + middle * step)
+        better = None if trial is None else Proof.of(trial, (yield trial))
+        low, high, proof = (middle, high, proof) if better is None else (low, middle, better)
+    if proof is not first:
+        yield proof.suggestion
+    return proof

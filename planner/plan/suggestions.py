@@ -1,0 +1,170 @@
+"""Where there is no plan: the smallest changes that give one, each planned to prove it.
+
+Every kind of change is a search of its own (see `suggestion_trial`). They take turns, one trial at a time: the next
+is whichever has used least time so far, so that none starves the others. What a person can change comes first, and
+assumptions about the world after it. A request that has a plan is only told of a better place on the table.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+
+from planner.cloth.garment import Garment
+from planner.errors import RequestError
+from planner.geometry.pose import Pose2
+from planner.plan.make_plan import TIME_LIMIT_S
+from planner.plan.plan import Plan
+from planner.plan.suggestion import Suggestion
+from planner.plan.suggestion_assumption import comforts, frictions, grip_radii
+from planner.plan.suggestion_budget import Budget
+from planner.plan.suggestion_fold_line import fold_lines
+from planner.plan.suggestion_order import orders
+from planner.plan.suggestion_placement import placements
+from planner.plan.suggestion_station import stations
+from planner.plan.suggestion_trial import Asked, Search, Trial
+from planner.primitives.obstacle import Code
+from planner.primitives.scene import Scene
+
+TOLD_MAX = 3
+"""So many suggestions of one kind at most."""
+
+_FIRST_PLAN_SHARE = 0.5
+_CHANGES_SHARE = 0.6
+_FOLDS_MAX = 3
+
+
+def suggestions(
+    garment: Garment,
+    scene: Scene | None = None,
+    *,
+    placement: Pose2 | None = None,
+    start_station: str = "front",
+    robot: str = "pr2",
+    comfort_radius_m: float = 0.03,
+    heuristic: str = "arm_time",
+    time_limit_s: float = 10.0,
+    max_expanded: int = 100_000,
+    should_stop: Callable[[], bool] | None = None,
+    plan: Plan | None = None,
+) -> Iterator[Suggestion]:
+    """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
+
+    The request is planned before this returns, so that bad input raises here and not while iterating.
+
+    Args:
+        garment: as for `make_plan`, like all that follow.
+        scene: likewise.
+        placement: likewise.
+        start_station: likewise.
+        robot: likewise.
+        comfort_radius_m: likewise.
+        heuristic: likewise.
+        time_limit_s: the budget of the whole search (s, 0.01..60).
+        max_expanded: the budget of each plan in states.
+        should_stop: asked while searching; true ends the suggestions.
+        plan: the answer to the request, where it is known.
+
+    Returns:
+        The suggestions as they are found, at most `TOLD_MAX` of a kind.
+
+    Raises:
+        FoldError: a fold is not legal on the cloth as it is then.
+        RequestError: an option is out of range.
+    """
+    low, high = TIME_LIMIT_S
+    if not low <= time_limit_s <= high:
+        raise RequestError("time_limit_s", f"{time_limit_s} is not between {low:g} and {high:g}")
+    asked = Asked(
+        garment,
+        scene or Scene(),
+        placement or garment.placement,
+        start_station,
+        robot,
+        comfort_radius_m,
+        heuristic,
+        max_expanded,
+    )
+    budget = Budget(time_limit_s, should_stop)
+    known = plan or asked.plan(max(_FIRST_PLAN_SHARE * time_limit_s, low), budget.is_stopped)
+    return _searched(asked, known, budget)
+
+
+def _searched(asked: Asked, known: Plan, budget: Budget) -> Iterator[Suggestion]:
+    """Let every kind of change have its turns, and in the end its last word."""
+    if known.is_solved:
+        changes, assumptions = [_Lane(placements(asked, known.cost_s))], []
+    else:
+        folds = _blocking(known)
+        changes = _lanes(fold_lines(asked, folds), placements(asked, None), orders(asked), stations(asked))
+        assumptions = _lanes(comforts(asked), frictions(asked), grip_radii(asked, folds))
+    yield from _by_turns(changes, budget, _CHANGES_SHARE if assumptions else 1.0)
+    yield from _by_turns(assumptions, budget, 1.0)
+    yield from _by_turns(changes, budget, 1.0)
+    for lane in () if budget.is_stopped() else (*changes, *assumptions):
+        yield from lane.last_words()
+
+
+def _blocking(plan: Plan) -> tuple[int, ...]:
+    """The folds to blame, a few at most; those that merely wait for others only if there is nobody else."""
+    about = [reason for reason in plan.reasons if reason.fold is not None]
+    to_blame = [r for r in about if r.code is not Code.WAITS_FOR_FOLD] or about
+    folds = {r.fold: None for r in to_blame if r.fold is not None} or range(len(plan.garment.folds))
+    return tuple(folds)[:_FOLDS_MAX]
+
+
+def _lanes(*searches: Search) -> list["_Lane"]:
+    return [_Lane(search) for search in searches]
+
+
+def _by_turns(lanes: Sequence["_Lane"], budget: Budget, share: float) -> Iterator[Suggestion]:
+    """Let the lane that has used least time go on, until this share of the budget is gone."""
+    while not budget.has_spent(share):
+        running = [lane for lane in lanes if not lane.is_done]
+        if not running:
+            return
+        yield from min(running, key=lambda lane: lane.spent_s).go_on(budget)
+
+
+class _Lane:
+    """One kind's search, and what it has used.
+
+    Attributes:
+        spent_s: the time that it has used (s).
+        is_done: whether it has nothing more to try.
+    """
+
+    def __init__(self, search: Search) -> None:
+        self.spent_s = 0.0
+        self.is_done = False
+        self._search = search
+        self._trial: Trial | None = None
+        self._told = 0
+
+    def go_on(self, budget: Budget) -> Iterator[Suggestion]:
+        """Have the next trial planned, and tell what it was good for."""
+        started = time.perf_counter()
+        found = [] if self._trial is not None else list(self._told_of(None))
+        if self._trial is not None and not self.is_done:
+            found += self._told_of(self._trial.asked.plan(budget.trial_s, budget.is_stopped))
+        self.spent_s += time.perf_counter() - started
+        yield from found
+
+    def last_words(self) -> Iterator[Suggestion]:
+        """What it can still tell when there is no time for trials."""
+        while self._trial is not None and not self.is_done:
+            yield from self._told_of(None)
+
+    def _told_of(self, plan: Plan | None) -> Iterator[Suggestion]:
+        """Answer the search; what it tells before it wants its next trial."""
+        while not self.is_done:
+            try:
+                wish = self._search.send(plan)
+            except StopIteration:
+                self.is_done = True
+                return
+            if isinstance(wish, Trial):
+                self._trial = wish
+                return
+            yield wish
+            plan = None
+            self._told += 1
+            self.is_done = self._told >= TOLD_MAX
