@@ -1,6 +1,6 @@
 """The scene: table, stations, and every number of the cost model, with its default. Nowhere else.
 
-The default scene is one in which a PR2 can fold all the shipped garments: a table 1.60 m deep and
+The default scene is one in which a PR2 can fold all nine articles of the paper's Table 1: a table 1.60 m deep and
 0.98 m wide, the base centre standing 0.15 m outside the edge at each of five stations.
 """
 
