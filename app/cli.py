@@ -8,18 +8,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypedDict
 
 import typer
 from pydantic import ValidationError
 from rich.console import Console
 
 from app.settings import Settings
-from app.tables import check_table, dag_table, plan_table
+from app.tables import check_table, dag_table, plan_table, suggestion_table
 from planner import check_garment, fold_dag, load_garment, make_plan
 from planner.cloth.garment_files import read_json
 from planner.errors import FieldError, FoldingError, RequestError, SceneError
 from planner.plan.plan import Plan
+from planner.plan.suggestions import suggestions
 from planner.primitives.scene import Scene
 from planner.strict_model import first_error
 
@@ -48,6 +49,15 @@ class HeuristicName(StrEnum):
 
     ARM_TIME = "arm_time"
     ZERO = "zero"
+
+
+class _Options(TypedDict):
+    """Options of a plan request."""
+
+    start_station: str
+    comfort_radius_m: float
+    heuristic: str
+    time_limit_s: float
 
 
 def main() -> None:
@@ -86,25 +96,28 @@ def plan(
     heuristic: HeuristicName = HeuristicName.ARM_TIME,
     time_limit_s: Annotated[float, typer.Option(help="How long to search (s).")] = 10.0,
     json_to: JsonOption = None,
+    suggest: Annotated[bool, typer.Option("--suggest", help="Look for changes that give a (quicker) plan.")] = False,
 ) -> None:
     """Plan a garment's folds, and print the plan."""
     with _blaming(garment):
         chosen = load_garment(garment)
     with _blaming(scene):
         where = Scene() if scene is None else _scene(scene)
+    options = _Options(
+        start_station=start,
+        comfort_radius_m=comfort_radius_m,
+        heuristic=heuristic.value,
+        time_limit_s=time_limit_s,
+    )
     with _blaming(garment):
-        answer = make_plan(
-            chosen,
-            where,
-            start_station=start,
-            comfort_radius_m=comfort_radius_m,
-            heuristic=heuristic.value,
-            time_limit_s=time_limit_s,
-        )
+        answer = make_plan(chosen, where, **options)
     _write_json(answer.to_dict(), json_to)
     if answer.is_solved and json_to != STANDARD_OUTPUT:
         _output.print(plan_table(answer))
-    raise typer.Exit(_status(answer))
+    status = _status(answer)
+    if suggest and json_to != STANDARD_OUTPUT:
+        _print_suggestions(answer, options)
+    raise typer.Exit(status)
 
 
 @cli.command()
@@ -137,6 +150,14 @@ def _scene(path: Path) -> Scene:
     if not isinstance(data, dict):
         raise SceneError("", "a scene file holds one JSON object")
     return Scene.from_dict(data)
+
+
+def _print_suggestions(answer: Plan, options: _Options) -> None:
+    found = list(suggestions(answer.garment, answer.scene, plan=answer, **options))
+    if found:
+        _output.print(suggestion_table(answer.garment, found))
+    else:
+        _output.print(f"No change was found within {options['time_limit_s']:g} s.")
 
 
 def _status(answer: Plan) -> int:

@@ -31,6 +31,7 @@ class DocumentState:
         timeline: the plan's timeline, when it is solved.
         problem: why there can be no answer at all (a fold that is not legal), or None.
         playback: the clock.
+        is_dark: whether it is shown on a dark ground; of several pages, the last one to say decides.
     """
 
     version: int
@@ -41,6 +42,7 @@ class DocumentState:
     timeline: Timeline | None = None
     problem: str | None = None
     playback: Playback = Playback()
+    is_dark: bool = False
 
     @property
     def is_planning(self) -> bool:
@@ -89,8 +91,8 @@ class Document:
         """Take another garment; its plan is wanted from now on."""
 
         def change(state: DocumentState) -> DocumentState:
-            speed = state.playback.speed
-            return DocumentState(state.version + 1, garment, state.scene, playback=Playback(speed=speed))
+            playback = Playback(speed=state.playback.speed)
+            return DocumentState(state.version + 1, garment, state.scene, playback=playback, is_dark=state.is_dark)
 
         self._change(change)
 
@@ -123,6 +125,10 @@ class Document:
     def set_speed(self, speed: float) -> None:
         """Let time run faster or slower."""
         self._change_playback(lambda playback: playback.sped(self._clock(), speed))
+
+    def set_theme(self, *, is_dark: bool) -> None:
+        """Show the document on a dark ground or on a light one."""
+        self._change(lambda state: replace(state, is_dark=is_dark))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""

@@ -6,6 +6,7 @@ The threads are daemons: a search that is slow to notice that it should stop doe
 import os
 import queue
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, Generic, TypeVar
@@ -48,7 +49,7 @@ class JobPool:
     def __init__(self, workers: int | None = None) -> None:
         """So many at once; by default as many as there are cores. Threads start with the first job."""
         self._workers = workers or os.cpu_count() or 1
-        self._jobs: queue.SimpleQueue[Job[Any]] = queue.SimpleQueue()
+        self._jobs: queue.SimpleQueue[Job[Any] | None] = queue.SimpleQueue()
         self._open: set[Job[Any]] = set()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
@@ -65,15 +66,23 @@ class JobPool:
         self._jobs.put(job)
         return job
 
-    def close(self) -> None:
-        """Stop everything that runs or waits."""
+    def close(self, patience_s: float = 1.5) -> None:
+        """Stop everything that runs or waits, and wait a little for the threads to end.
+
+        A thread that were still in compiled code when the interpreter ends could bring it down.
+        """
         with self._lock:
             for job in self._open:
                 job.stop()
+            threads, self._threads = self._threads, []
+        for _ in threads:
+            self._jobs.put(None)
+        deadline = time.monotonic() + patience_s
+        for thread in threads:
+            thread.join(max(0.0, deadline - time.monotonic()))
 
     def _run(self) -> None:
-        while True:
-            job = self._jobs.get()
+        while (job := self._jobs.get()) is not None:
             job.run()
             with self._lock:
                 self._open.discard(job)

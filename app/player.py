@@ -61,6 +61,8 @@ class Player:
     def _update(self) -> None:
         state = self._document.state
         shown, self._shown = self._shown, state
+        if shown is None or shown.is_dark != state.is_dark:
+            self._stage.set_theme(is_dark=state.is_dark)
         if state.timeline is None:
             if shown is None or shown.version != state.version or shown.plan is not state.plan:
                 self._show_lying(state)

@@ -9,6 +9,7 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Point2
 from planner.plan.garment_check import GarmentCheck
 from planner.plan.plan import Plan
+from planner.plan.suggestion import Suggestion
 
 _POINTS_SHOWN = 4
 
@@ -61,6 +62,21 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
         table.add_row(str(index), fold.name, needed, _points(fold.must_hold))
+    return table
+
+
+def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
+    """What would give a plan, or a quicker one: what a person can change first, as the suggestions come."""
+    table = _table(f"{garment.title}: {len(found)} suggestion{'' if len(found) == 1 else 's'}")
+    table.add_column("kind")
+    table.add_column("what")
+    table.add_column("size", justify="right")
+    table.add_column("cost [s]", justify="right")
+    table.add_column("assumption?")
+    for one in sorted(found, key=lambda one: one.is_assumption):
+        is_so = "yes" if one.is_assumption else "no"
+        what = one.message.rpartition(":")[0]
+        table.add_row(one.kind.replace("_", " "), what, f"{one.size:.3g}", f"{one.cost_s:.2f}", is_so)
     return table
 
 

@@ -15,7 +15,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.api.body import parsed
 from app.api.live_messages import document_message, playback_message, problem_message
-from app.api.messages import COMMANDS, Choose, Pause, Play, Seek, SetSpeed
+from app.api.messages import COMMANDS, Choose, Pause, Play, Seek, SetSpeed, SetTheme
 from app.document import Document
 from app.open_document import UnknownDocumentError
 from app.workspace import Workspace
@@ -102,5 +102,7 @@ def _obey(text: str, workspace: Workspace, document: Document) -> None:
             document.seek(t_s)
         case SetSpeed(speed=speed):
             document.set_speed(speed)
+        case SetTheme(dark=is_dark):
+            document.set_theme(is_dark=is_dark)
         case Choose(garment=name):
             document.choose(workspace.garments.garment(name))

@@ -57,4 +57,5 @@ def status_text(state: DocumentState) -> str:
         return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
     if plan.status == "budget_exceeded":
         return "No plan: the time for searching ran out"
-    return f"No plan: {plan.reasons[0].message}" if plan.reasons else "No plan"
+    first = next((reason.message for reason in plan.reasons if reason.message), None)
+    return f"No plan: {first}" if first else "No plan"

@@ -85,6 +85,13 @@ class SetSpeed(StrictModel):
     speed: Annotated[float, Field(ge=SPEED_MIN, le=SPEED_MAX)]
 
 
+class SetTheme(StrictModel):
+    """Show the stage on a dark ground or on a light one."""
+
+    do: Literal["theme"]
+    dark: bool
+
+
 class Choose(StrictModel):
     """Take another garment."""
 
@@ -92,5 +99,5 @@ class Choose(StrictModel):
     garment: str
 
 
-Command = Annotated[Play | Pause | Seek | SetSpeed | Choose, Field(discriminator="do")]
-COMMANDS: TypeAdapter[Play | Pause | Seek | SetSpeed | Choose] = TypeAdapter(Command)
+Command = Annotated[Play | Pause | Seek | SetSpeed | SetTheme | Choose, Field(discriminator="do")]
+COMMANDS: TypeAdapter[Play | Pause | Seek | SetSpeed | SetTheme | Choose] = TypeAdapter(Command)

@@ -1,7 +1,7 @@
 """The cloth on the stage: its two faces in two colours, and the outline of every layer.
 
 A face of cloth has no thickness, so it is drawn twice from the same triangles: once where it is seen from
-the front, once where it is seen from behind.
+the front, once where it is seen from behind. It casts no shadow: it would fall on its own other drawing.
 """
 
 import numpy as np
@@ -9,6 +9,7 @@ import viser
 from numpy.typing import NDArray
 
 from app.ui.colours import Palette
+from app.ui.lighting import ink, paint
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.plan.frame import ClothSurface
@@ -26,19 +27,24 @@ _NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
 class ClothView:
     """Shows one cloth surface at a time."""
 
-    def __init__(self, server: viser.ViserServer, palette: Palette) -> None:
+    def __init__(self, server: viser.ViserServer) -> None:
         """Build the nodes, still without cloth."""
         add_mesh = server.scene.add_mesh_simple
-        self._front = add_mesh(FRONT, _NO_POINTS, _NO_TRIANGLES, color=palette.cloth_front, side="front")
-        self._back = add_mesh(BACK, _NO_POINTS, _NO_TRIANGLES, color=palette.cloth_back, side="back")
+        self._front = add_mesh(FRONT, _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
+        self._back = add_mesh(BACK, _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
         self._edges = server.scene.add_line_segments(
             EDGES,
             np.zeros((1, 2, 3)),
-            palette.cloth_edge,
+            (0, 0, 0),
             thickness=_EDGE_PX,
             thickness_units="screen",
         )
         self._triangles: NDArray[np.int64] = _NO_TRIANGLES
+
+    def recolour(self, palette: Palette) -> None:
+        """Change to other colours."""
+        self._front.color, self._back.color = paint(palette.cloth_front), paint(palette.cloth_back)
+        self._edges.colors = ink(palette.cloth_edge)
 
     def show(self, cloth: ClothSurface) -> None:
         """Put this surface in place of the one before."""

@@ -1,4 +1,4 @@
-"""The colours of the stage, seen before a light ground or a dark one.
+"""The colours of the stage as they should look, before a light ground or a dark one.
 
 Blue, red and the cloth's two faces keep apart for every kind of colour vision.
 """
@@ -17,23 +17,41 @@ def rgb(code: str) -> Rgb:
 
 @dataclass(frozen=True, slots=True)
 class Palette:
-    """What each thing on the stage is painted with."""
+    """What each thing on the stage looks like."""
 
     cloth_front: Rgb = rgb("F0E6D2")
     cloth_back: Rgb = rgb("B4C3D6")
     cloth_edge: Rgb = rgb("6E6453")
     fold_blue: Rgb = rgb("0047A3")
     fold_red: Rgb = rgb("B33600")
-    table: Rgb = rgb("6A5D4F")
-    table_foot: Rgb = rgb("4C443B")
-    floor_cell: Rgb = rgb("A9ACB1")
-    floor_section: Rgb = rgb("8C9096")
+    table: Rgb = rgb("A3917F")
+    table_foot: Rgb = rgb("7A6D60")
+    floor_cell: Rgb = rgb("D5D6D8")
+    floor_section: Rgb = rgb("BFC1C4")
     station: Rgb = rgb("8A8F98")
-    route: Rgb = rgb("5B6470")
+    route: Rgb = rgb("4A525D")
     grip: Rgb = rgb("202226")
-    robot_light: Rgb = rgb("DADCDF")
-    robot_grey: Rgb = rgb("8E949C")
-    robot_dark: Rgb = rgb("474B52")
+    robot_light: Rgb = rgb("E6E8EA")
+    robot_grey: Rgb = rgb("A9AEB5")
+    robot_dark: Rgb = rgb("5A5F67")
 
 
 LIGHT = Palette()
+
+DARK = Palette(
+    cloth_front=rgb("5A5142"),
+    cloth_back=rgb("2C3B50"),
+    cloth_edge=rgb("B5A98F"),
+    fold_blue=rgb("7CC0FF"),
+    fold_red=rgb("FFA070"),
+    table=rgb("36312C"),
+    table_foot=rgb("2A2622"),
+    floor_cell=rgb("3A3E45"),
+    floor_section=rgb("4C515A"),
+    station=rgb("5C626C"),
+    route=rgb("B6BCC6"),
+    grip=rgb("E8E8E4"),
+    robot_light=rgb("A4A9B0"),
+    robot_grey=rgb("747A83"),
+    robot_dark=rgb("474B52"),
+)

@@ -8,31 +8,39 @@ import viser
 from numpy.typing import NDArray
 
 from app.ui.colours import Palette
+from app.ui.lighting import ink, paint
 from planner.geometry.pose import Point3
 
 ROOT = "/primitive"
 
-_GRIP_RADIUS_M = 0.012
+_POINT_RADIUS_M = 0.005
 _PATH_PX = 2.5
 _ROUTE_PX = 3.0
 _ABOVE_FLOOR_M = 0.006
+_NAME_AT: Point3 = (-0.16, 0.0, 0.075)
+"""Where a hand's letter is, in the tool frame (m): beside the palm."""
 
 
 class GripView:
-    """Grip points named L and R, paths from pick by the apex to the place, and routes on the floor."""
+    """Grip points, paths from pick by the apex to the place, hands named L and R, and routes on the floor."""
 
-    def __init__(self, server: viser.ViserServer, arms: Sequence[str], floor_z_m: float, palette: Palette) -> None:
+    def __init__(self, server: viser.ViserServer, hands: Mapping[str, str], floor_z_m: float) -> None:
         """Nothing is seen before `show`.
 
         Args:
             server: where to build the nodes ``/primitive/<arm>`` and ``/primitive/route``.
-            arms: the arms' names.
+            hands: the node of each arm's hand, by the arm's name; its letter goes along with it.
             floor_z_m: the floor's height in the table frame (m), negative.
-            palette: the colours.
         """
         self._route_z_m = floor_z_m + _ABOVE_FLOOR_M
-        self._hands = {arm: _HandMarks(server, arm, palette) for arm in arms}
-        self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX, palette)
+        self._hands = {arm: _HandMarks(server, arm, node) for arm, node in hands.items()}
+        self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX)
+
+    def recolour(self, palette: Palette) -> None:
+        """Change to other colours."""
+        self._route.colors = ink(palette.route)
+        for marks in self._hands.values():
+            marks.recolour(palette)
 
     def show(self, primitive: Mapping[str, Any] | None) -> None:
         """Draw a primitive, given as in the plan's JSON, in place of the one before; None draws nothing."""
@@ -46,14 +54,25 @@ class GripView:
 
 
 class _HandMarks:
-    """Pick, path and place of one hand."""
+    """Pick, path and place of one hand, and its letter."""
 
-    def __init__(self, server: viser.ViserServer, arm: str, palette: Palette) -> None:
+    def __init__(self, server: viser.ViserServer, arm: str, hand: str) -> None:
         node = f"{ROOT}/{arm}"
-        self._pick = _point(server, f"{node}/pick", palette)
-        self._place = _point(server, f"{node}/place", palette)
-        self._path = _polyline(server, f"{node}/path", _PATH_PX, palette)
-        self._name = server.scene.add_label(f"{node}/name", arm[:1].upper(), anchor="bottom-left", visible=False)
+        self._pick = _point(server, f"{node}/pick")
+        self._place = _point(server, f"{node}/place")
+        self._path = _polyline(server, f"{node}/path", _PATH_PX)
+        self._name = server.scene.add_label(
+            f"{hand}/name",
+            arm[:1].upper(),
+            position=_NAME_AT,
+            depth_test=True,
+            anchor="center-center",
+            visible=False,
+        )
+
+    def recolour(self, palette: Palette) -> None:
+        self._pick.color = self._place.color = paint(palette.grip)
+        self._path.colors = ink(palette.route)
 
     def show(self, grip: Mapping[str, Any] | None) -> None:
         for node in (self._pick, self._place, self._path, self._name):
@@ -61,25 +80,17 @@ class _HandMarks:
         if grip is None:
             return
         points: list[Point3] = [grip[end] for end in ("pick", "apex", "place") if grip[end] is not None]
-        self._pick.position = self._name.position = points[0]
-        self._place.position = points[-1]
+        self._pick.position, self._place.position = points[0], points[-1]
         self._path.points = _legs(points)
 
 
-def _point(server: viser.ViserServer, node: str, palette: Palette) -> viser.IcosphereHandle:
-    return server.scene.add_icosphere(
-        node, radius=_GRIP_RADIUS_M, color=palette.grip, subdivisions=2, cast_shadow=False, visible=False
-    )
+def _point(server: viser.ViserServer, node: str) -> viser.IcosphereHandle:
+    return server.scene.add_icosphere(node, radius=_POINT_RADIUS_M, subdivisions=2, cast_shadow=False, visible=False)
 
 
-def _polyline(server: viser.ViserServer, node: str, width_px: float, palette: Palette) -> viser.LineSegmentsHandle:
+def _polyline(server: viser.ViserServer, node: str, width_px: float) -> viser.LineSegmentsHandle:
     return server.scene.add_line_segments(
-        node,
-        np.zeros((1, 2, 3)),
-        palette.route,
-        thickness=width_px,
-        thickness_units="screen",
-        visible=False,
+        node, np.zeros((1, 2, 3)), (0, 0, 0), thickness=width_px, thickness_units="screen", visible=False
     )
 
 

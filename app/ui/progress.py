@@ -28,6 +28,11 @@ class Stint:
         fold = self.primitive.get("fold")
         return None if fold is None else int(fold)
 
+    @property
+    def end_s(self) -> float:
+        """When it ends (s)."""
+        return float(self.primitive["start_s"]) + float(self.primitive["duration_s"])
+
     def placement_with(self, base: Pose2) -> Pose2:
         """The article's placement while the base stands there.
 

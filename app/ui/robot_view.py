@@ -3,6 +3,7 @@
 import viser
 
 from app.ui.colours import Palette, Rgb
+from app.ui.lighting import paint
 from app.ui.robot_model import Link, load_robot_model
 from app.ui.rotation import product, turn, yaw
 from planner.geometry.pose import Pose2
@@ -15,25 +16,38 @@ _GREY_PARTS = ("caster", "wrist", "gripper", "elbow", "forearm_roll", "upper_arm
 
 
 class RobotView:
-    """Shows a robot with its meshes; its base drives on the floor."""
+    """Shows a robot with its meshes; its base drives on the floor.
 
-    def __init__(self, server: viser.ViserServer, card: RobotCard, floor_z_m: float, palette: Palette) -> None:
+    Attributes:
+        hands: the node between the fingertips of each arm, by the arm's name; what hangs below it goes along.
+    """
+
+    def __init__(self, server: viser.ViserServer, card: RobotCard, floor_z_m: float) -> None:
         """Build the nodes, every joint at zero and the base at the origin.
 
         Args:
             server: where to build them.
             card: the robot.
             floor_z_m: the floor's height in the table frame (m), negative.
-            palette: the colours.
         """
         self._floor_z_m = floor_z_m
         self._root = server.scene.add_frame(ROOT, show_axes=False, position=(0.0, 0.0, floor_z_m))
         self._shown: dict[str, float] = {}
         self._moved: dict[str, list[tuple[Link, viser.FrameHandle]]] = {}
+        self._painted: list[tuple[str, viser.MeshHandle]] = []
+        nodes: dict[str, str] = {}
         for link in load_robot_model(card.urdf_path, card.package_dir):
-            handle = _add_link(server, link, palette)
+            nodes[link.name] = ROOT + link.node
+            handle, meshes = _add_link(server, link)
+            self._painted.extend((link.name, mesh) for mesh in meshes)
             if link.joint is not None:
                 self._moved.setdefault(link.joint, []).append((link, handle))
+        self.hands = {arm.name: nodes[arm.tool_frame] for arm in card.arms}
+
+    def recolour(self, palette: Palette) -> None:
+        """Change to other colours."""
+        for link_name, mesh in self._painted:
+            mesh.color = paint(_colour(link_name, palette))
 
     def pose(self, base: Pose2, joints: dict[str, float]) -> None:
         """Put the base somewhere (table frame) and the joints (rad, m) too; unknown names are passed over."""
@@ -46,20 +60,21 @@ class RobotView:
                     _move(link, handle, link.factor * value)
 
 
-def _add_link(server: viser.ViserServer, link: Link, palette: Palette) -> viser.FrameHandle:
+def _add_link(server: viser.ViserServer, link: Link) -> tuple[viser.FrameHandle, list[viser.MeshHandle]]:
     node = ROOT + link.node
     origin = link.origin
     handle = server.scene.add_frame(node, show_axes=False, position=origin.position, wxyz=origin.wxyz)
-    for index, visual in enumerate(link.visuals):
+    meshes = [
         server.scene.add_mesh_simple(
             f"{node}/visual_{index}",
             visual.vertices,
             visual.triangles,
-            color=_colour(link.name, palette),
             position=visual.pose.position,
             wxyz=visual.pose.wxyz,
         )
-    return handle
+        for index, visual in enumerate(link.visuals)
+    ]
+    return handle, meshes
 
 
 def _move(link: Link, handle: viser.FrameHandle, value: float) -> None:

@@ -7,26 +7,27 @@ follows. It knows nothing of clocks: whoever owns it says which frame to show.
 import numpy as np
 
 from app.ui.cloth_view import ClothView
-from app.ui.colours import LIGHT, Palette
+from app.ui.colours import DARK, LIGHT
 from app.ui.fold_view import FoldView
 from app.ui.grip_view import GripView
+from app.ui.lighting import add_lights
 from app.ui.private_viser import start_private_viser
 from app.ui.progress import Stint, stints
 from app.ui.robot_view import RobotView
 from app.ui.table_view import TableView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
+from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import TIME_S
 from planner.plan.frame import ClothSurface, Frame
 from planner.plan.plan import Plan
 from planner.primitives.scene import Scene
 from planner.robot.card import RobotCard
 
-CAMERA_FROM = (1.05, 1.55, 1.45)
-CAMERA_TO = (-0.45, 0.0, 0.1)
+CAMERA_FROM = (0.80, 2.07, 1.80)
+CAMERA_TO = (-0.68, 0.01, -0.01)
 CAMERA_FOV_RAD = 0.72
-LIGHT_INTENSITY = 0.7
-
-_AT_REST_M = 0.05
+"""The table and the robot fit into a view of 2:1, also while the robot is backed off."""
 
 
 class Stage:
@@ -38,28 +39,37 @@ class Stage:
         secret: what that port wants to hear (see `app.ui.private_viser`).
     """
 
-    def __init__(self, card: RobotCard, scene: Scene, palette: Palette = LIGHT) -> None:
+    def __init__(self, card: RobotCard, scene: Scene) -> None:
         """Start a server and build everything that is always there; about half a second the first time."""
         self.scene = scene
         self._card = card
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()
-        self._look(palette)
         floor_z_m = -scene.table.height_m
         with self._server.atomic():
-            TableView(self._server, scene, palette)
-            self._cloth = ClothView(self._server, palette)
-            self._folds = FoldView(self._server, scene.table, palette)
-            self._grips = GripView(self._server, [arm.name for arm in card.arms], floor_z_m, palette)
-            self._robot = RobotView(self._server, card, floor_z_m, palette)
+            self._look()
+            self._table = TableView(self._server, scene)
+            self._cloth = ClothView(self._server)
+            self._folds = FoldView(self._server)
+            self._robot = RobotView(self._server, card, floor_z_m)
+            self._grips = GripView(self._server, self._robot.hands, floor_z_m)
         self._stints: tuple[Stint, ...] = ()
-        self._primitive: int | None = None
-        self._height_m = 0.0
+        self._marked: Stint | None = None
+        self.set_theme(is_dark=False)
 
     @property
     def has_watchers(self) -> bool:
         """Whether any browser shows this stage now."""
         return bool(self._server.get_clients())
+
+    def set_theme(self, *, is_dark: bool) -> None:
+        """Show everything in the colours for a dark ground or for a light one."""
+        palette = DARK if is_dark else LIGHT
+        with self._server.atomic():
+            self._server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
+            for view in (self._table, self._cloth, self._folds, self._robot, self._grips):
+                view.recolour(palette)
+        self._server.flush()
 
     def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
         """Show a garment that lies there and has no plan, and the robot waiting at a station."""
@@ -67,8 +77,7 @@ class Stage:
             self._begin(garment, ())
             self._robot.pose(base, self._waiting_joints())
             self._cloth.show(cloth)
-            self._grips.show(None)
-            self._folds.place(garment.placement, _top_at_rest(cloth), frozenset(), None)
+            self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), frozenset(), None)
         self._server.flush()
 
     def show_plan(self, plan: Plan) -> None:
@@ -90,9 +99,8 @@ class Stage:
         """Stop the server; whoever watches is cut off."""
         self._server.stop()
 
-    def _look(self, palette: Palette) -> None:
-        self._server.gui.configure_theme(show_logo=False, show_share_button=False)
-        self._server.scene.configure_environment_map("city", environment_intensity=LIGHT_INTENSITY)
+    def _look(self) -> None:
+        add_lights(self._server)
         camera = self._server.initial_camera
         camera.position, camera.look_at = CAMERA_FROM, CAMERA_TO
         camera.fov = CAMERA_FOV_RAD
@@ -103,22 +111,19 @@ class Stage:
 
     def _begin(self, garment: Garment, plan: tuple[Stint, ...]) -> None:
         self._stints = plan
-        self._primitive = None
+        self._marked = None
+        self._grips.show(None)
         self._folds.show_garment(garment)
 
     def _show_stint(self, frame: Frame) -> None:
         stint = self._stints[frame.primitive]
-        if frame.primitive != self._primitive:
-            self._primitive = frame.primitive
-            self._height_m = _top_at_rest(frame.cloth)
-            self._grips.show(stint.primitive)
-        is_last_moment = frame.t_s >= stint.primitive["start_s"] + stint.primitive["duration_s"]
-        done = stint.done_after if is_last_moment else stint.done
-        self._folds.place(stint.placement_with(frame.base), self._height_m, done, stint.fold)
+        is_over = frame.t_s >= stint.end_s - TIME_S
+        self._mark(None if is_over else stint)
+        done = stint.done_after if is_over else stint.done
+        current = None if is_over else stint.fold
+        self._folds.place(stint.placement_with(frame.base), frame.cloth, frame.top, done, current)
 
-
-def _top_at_rest(cloth: ClothSurface) -> float:
-    """How high the cloth that lies is stacked (m), parts in the air left out."""
-    heights = cloth.vertices[:, 2]
-    lying = heights[heights < _AT_REST_M]
-    return float(np.max(lying, initial=0.0))
+    def _mark(self, stint: Stint | None) -> None:
+        if stint is not self._marked:
+            self._marked = stint
+            self._grips.show(stint.primitive if stint else None)

@@ -4,6 +4,7 @@ import numpy as np
 import viser
 
 from app.ui.colours import Palette
+from app.ui.lighting import paint
 from app.ui.rotation import yaw
 from planner.geometry.pose import Pose2
 from planner.primitives.scene import Scene
@@ -16,18 +17,23 @@ _ARROW = np.array([[0.16, 0.0, 0.0], [-0.10, 0.11, 0.0], [-0.04, 0.0, 0.0], [-0.
 class TableView:
     """Floor, table and stations; built once for a scene."""
 
-    def __init__(self, server: viser.ViserServer, scene: Scene, palette: Palette) -> None:
+    def __init__(self, server: viser.ViserServer, scene: Scene) -> None:
         """Build the nodes ``/floor``, ``/table`` and ``/stations``."""
         self._server = server
-        self._palette = palette
         self._floor_z_m = -scene.table.height_m
-        self._add_floor()
-        self._add_table(scene)
-        for name, pose in scene.stations:
-            self._add_station(name, pose)
+        self._floor = self._add_floor()
+        self._top, self._foot = self._add_table(scene)
+        self._stations = [self._add_station(name, pose) for name, pose in scene.stations]
 
-    def _add_floor(self) -> None:
-        self._server.scene.add_grid(
+    def recolour(self, palette: Palette) -> None:
+        """Change to other colours."""
+        self._floor.cell_color, self._floor.section_color = palette.floor_cell, palette.floor_section
+        self._top.color, self._foot.color = paint(palette.table), paint(palette.table_foot)
+        for station in self._stations:
+            station.color = paint(palette.station)
+
+    def _add_floor(self) -> viser.GridHandle:
+        return self._server.scene.add_grid(
             "/floor",
             plane="xy",
             position=(0.0, 0.0, self._floor_z_m),
@@ -37,37 +43,33 @@ class TableView:
             section_size=1.0,
             cell_thickness=0.4,
             section_thickness=0.7,
-            cell_color=self._palette.floor_cell,
-            section_color=self._palette.floor_section,
             shadow_opacity=0.25,
         )
 
-    def _add_table(self, scene: Scene) -> None:
+    def _add_table(self, scene: Scene) -> tuple[viser.BoxHandle, viser.BoxHandle]:
         """A top, and one foot in its middle: a robot's base goes under the edges."""
         table = scene.table
         foot_m = table.height_m - _TOP_THICKNESS_M
         add_box = self._server.scene.add_box
-        add_box(
+        top = add_box(
             "/table/top",
             dimensions=(table.depth_m, table.width_m, _TOP_THICKNESS_M),
             position=(0.0, 0.0, -_TOP_THICKNESS_M / 2),
-            color=self._palette.table,
         )
-        add_box(
+        foot = add_box(
             "/table/foot",
             dimensions=(table.depth_m * 0.35, table.width_m * 0.12, foot_m),
             position=(0.0, 0.0, -_TOP_THICKNESS_M - foot_m / 2),
-            color=self._palette.table_foot,
         )
+        return top, foot
 
-    def _add_station(self, name: str, pose: Pose2) -> None:
+    def _add_station(self, name: str, pose: Pose2) -> viser.MeshHandle:
         """A flat arrow on the floor where the base stands and looks, with the station's name behind it."""
         node = f"/stations/{name}"
-        self._server.scene.add_mesh_simple(
+        arrow = self._server.scene.add_mesh_simple(
             node,
             _ARROW,
             np.array([[0, 1, 2], [0, 2, 3]]),
-            color=self._palette.station,
             side="double",
             cast_shadow=False,
             position=(pose.x_m, pose.y_m, self._floor_z_m + _ABOVE_FLOOR_M),
@@ -81,3 +83,4 @@ class TableView:
             depth_test=True,
             anchor="center-center",
         )
+        return arrow

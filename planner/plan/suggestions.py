@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.make_plan import TIME_LIMIT_S
+from planner.plan.make_plan import TIME_LIMIT_S, compile_kernels
 from planner.plan.plan import Plan
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_assumption import comforts, frictions, grip_radii
@@ -83,6 +83,7 @@ def suggestions(
         heuristic,
         max_expanded,
     )
+    compile_kernels()
     budget = Budget(time_limit_s, should_stop)
     known = plan or asked.plan(max(_FIRST_PLAN_SHARE * time_limit_s, low), budget.is_stopped)
     return _searched(asked, known, budget)

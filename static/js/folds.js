@@ -2,7 +2,7 @@
 
 import { byId, element } from "./dom.js";
 
-const KINDS = { blue: "Blue: all layers", red: "Red: last flap" };
+const KINDS = { blue: ["Blue", "all layers"], red: ["Red", "last flap"] };
 
 export class Folds {
   constructor() {
@@ -37,13 +37,17 @@ export class Folds {
 function row(fold, index, edges) {
   const before = edges.filter(([, to]) => to === index).map(([from]) => from);
   const waits = before.length ? `after ${before.join(", ")}` : "";
-  const kind = element("small", "", KINDS[fold.kind]);
+  const [colour, moved] = KINDS[fold.kind];
   const stroke = element("span", fold.kind === "red" ? "stroke is-red" : "stroke");
-  return element(
+  stroke.setAttribute("role", "img");
+  stroke.setAttribute("aria-label", colour);
+  const shown = element(
     "li",
     "row",
     element("span", "row-mark", stroke),
-    element("span", "row-name", `${index}. ${fold.name || "fold"}`, kind),
+    element("span", "row-name", `${index}. ${fold.name || "fold"} `, element("small", "", moved)),
     element("span", "row-end", waits),
   );
+  shown.title = `${colour}: ${moved}`;
+  return shown;
 }

@@ -25,13 +25,14 @@ const stage = new StageFrame(name, onKey);
 const theme = new Theme();
 
 garments.load();
-stage.load(theme.isDark);
-theme.addEventListener("change", () => stage.load(theme.isDark));
+stage.load();
+theme.addEventListener("change", tellTheme);
 document.addEventListener("keydown", onKey);
 
 live.addEventListener("open", (event) => {
+  tellTheme();
   if (!event.detail.again) return;
-  stage.load(theme.isDark);
+  stage.load();
   garments.load();
 });
 live.addEventListener("lost", () => say("Connection lost, trying again...", "lost"));
@@ -49,6 +50,10 @@ live.addEventListener("document", (event) => {
 clock.addEventListener("tick", () => {
   for (const part of [folds, plan, lanes]) part.tick(clock.now);
 });
+
+function tellTheme() {
+  live.send({ do: "theme", dark: theme.isDark });
+}
 
 /**
  * @param {string} text

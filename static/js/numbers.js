@@ -1,7 +1,7 @@
 /** The numbers of a plan, or, when there is none, the reasons as sentences. */
 
 import { byId, element } from "./dom.js";
-import { KINDS, seconds } from "./words.js";
+import { KINDS, seconds, WHY_NOT } from "./words.js";
 
 const COUNTERS = [
   ["Expanded", "expanded"],
@@ -19,7 +19,7 @@ const TIMES = [
 export function showNumbers(message) {
   const { plan, status, text } = message;
   const solved = status === "solved";
-  byId("numbers-title").textContent = solved || !plan ? "Numbers" : "Why there is no plan";
+  byId("numbers-title").textContent = solved || status === "planning" ? "Numbers" : WHY_NOT;
   byId("numbers").replaceChildren(...(solved ? figures(plan) : sentences(plan, status, text)));
 }
 
@@ -38,8 +38,8 @@ function figures(plan) {
 }
 
 function sentences(plan, status, text) {
-  if (!plan) return [element("p", "hint", status === "planning" ? "Planning..." : text)];
-  const messages = plan.reasons.map((reason) => reason.message);
+  if (status === "planning") return [element("p", "hint", "Planning...")];
+  const messages = (plan?.reasons ?? []).map((reason) => reason.message).filter(Boolean);
   if (!messages.length) messages.push(text);
   return [element("ul", "reasons", ...messages.map((message) => element("li", "", message)))];
 }

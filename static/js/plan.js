@@ -1,7 +1,7 @@
 /** The list `Plan`: one row for each primitive; a click goes to its start. */
 
 import { byId, element } from "./dom.js";
-import { how, KINDS, seconds, what } from "./words.js";
+import { how, KINDS, seconds, what, WHY_NOT } from "./words.js";
 
 export class PlanList {
   /** @param {(t_s: number) => void} onSeek */
@@ -58,5 +58,5 @@ function mark(primitive, garment) {
 
 function emptyText(status) {
   if (status === "solved") return "Nothing to do.";
-  return status === "planning" ? "Being worked out." : "There is none; the reasons are under Numbers.";
+  return status === "planning" ? "Being worked out." : `There is none: see \u201C${WHY_NOT}\u201D.`;
 }

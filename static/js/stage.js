@@ -13,8 +13,7 @@ export class StageFrame {
     this.frame.addEventListener("load", () => this.frame.contentWindow?.addEventListener("keydown", onKey));
   }
 
-  /** @param {boolean} isDark */
-  load(isDark) {
-    this.frame.src = `/viser/${this.name}/${isDark ? "?darkMode" : ""}`;
+  load() {
+    this.frame.src = `/viser/${this.name}/`;
   }
 }

@@ -29,4 +29,7 @@ export function how(primitive) {
   return [hands, from, primitive.holds ? "holds on" : ""].filter(Boolean).join(", ");
 }
 
+/** The heading over the reasons. */
+export const WHY_NOT = "Why there is no plan";
+
 export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };

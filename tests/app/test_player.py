@@ -14,6 +14,10 @@ class CountingStage:
         self.has_watchers = has_watchers
         self.lying, self.plans = 0, 0
         self.times: list[float] = []
+        self.themes: list[bool] = []
+
+    def set_theme(self, *, is_dark: bool) -> None:
+        self.themes.append(is_dark)
 
     def show_garment(self, *_: object) -> None:
         self.lying += 1
@@ -72,5 +76,20 @@ def test_a_paused_stage_gets_one_update_for_each_change(plan: Plan) -> None:
             until(lambda t_s=t_s: stage.times and stage.times[-1] == t_s)
         time.sleep(0.2)
         assert len(stage.times) <= 4
+    finally:
+        player.close()
+
+
+def test_the_stage_follows_the_theme_and_another_garment_keeps_it() -> None:
+    document, stage = Document(load_garment("hand-towel"), Scene()), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.set_theme(is_dark=True)
+        until(lambda: stage.themes == [False, True])
+        document.choose(load_garment("t-shirt"))
+        until(lambda: stage.lying == 2)
+        assert document.state.is_dark
+        assert stage.themes == [False, True]
     finally:
         player.close()

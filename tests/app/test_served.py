@@ -58,7 +58,16 @@ def test_play_seek_speed_and_pause_are_obeyed(served: Served) -> None:
 
 @pytest.mark.parametrize(
     "garbage",
-    ["", "{", "[]", '{"do": "dance"}', '{"do": "seek", "t_s": "1"}', '{"do": "seek", "t_s": 1e400}', "9" * 5000],
+    [
+        "",
+        "{",
+        "[]",
+        '{"do": "dance"}',
+        '{"do": "seek", "t_s": "1"}',
+        '{"do": "seek", "t_s": 1e400}',
+        '{"do": "theme", "dark": 1}',
+        "9" * 5000,
+    ],
 )
 def test_a_command_that_makes_no_sense_is_told_so(served: Served, garbage: str) -> None:
     with live(served) as page:

@@ -13,14 +13,19 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from app.ui.cloth_view import outlines
-from app.ui.dashes import dash_dot, solid
+from app.ui.colours import DARK, LIGHT, Palette
+from app.ui.dashes import dash_dot, solid, split_at
+from app.ui.lighting import ink, paint, seen
 from app.ui.lying_cloth import lying_cloth
 from app.ui.private_viser import LOOPBACK, SECRET_HEADER
 from app.ui.progress import stints
+from app.ui.relief import Relief
 from app.ui.robot_model import load_robot_model
 from app.ui.rotation import from_matrix, product, turn
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.table_top import TableTop
+from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.frame import ClothSurface
 from planner.robot.pr2 import load_robot
 
@@ -91,6 +96,123 @@ def test_fold_lines_go_as_folds_are_done(stage: Stage, plan: Plan) -> None:
     assert all(line is not None and line.visible for line in lines)
     stage.show(plan.timeline().at(plan.timeline().duration_s))
     assert not any(line is None or line.visible for line in lines)
+
+
+def line_points(stage: Stage, index: int) -> NDArray[np.float64]:
+    line = stage._server.scene.get_handle_by_name(f"/folds/{index}")
+    assert line is not None
+    return np.asarray(line.points, dtype=float) if line.visible else np.zeros((0, 2, 3))
+
+
+def test_fold_lines_are_where_they_are_however_one_came_there(stage: Stage, plan: Plan) -> None:
+    timeline = plan.timeline()
+    folds = range(len(plan.garment.folds))
+    for t_s in np.linspace(0.0, timeline.duration_s, 12):
+        stage.show_plan(plan)
+        stage.show(timeline.at(float(t_s)))
+        jumped = [line_points(stage, i) for i in folds]
+        stage.show_plan(plan)
+        stage.show(timeline.at(0.0))
+        stage.show(timeline.at(float(t_s)))
+        for before, after in zip(jumped, (line_points(stage, i) for i in folds), strict=True):
+            np.testing.assert_array_equal(before, after)
+
+
+def test_fold_lines_lie_on_the_cloth_all_through(stage: Stage, plan: Plan) -> None:
+    timeline = plan.timeline()
+    stage.show_plan(plan)
+    for t_s in np.linspace(0.0, timeline.duration_s, 40):
+        frame = timeline.at(float(t_s))
+        stage.show(frame)
+        layers = int(frame.cloth.layers.max()) + 1
+        for i in range(len(plan.garment.folds)):
+            points = line_points(stage, i)
+            heights = points[..., 2][frame.top.beyond(points) == 0.0]
+            assert np.all(heights <= layers * LAYER_GAP_M + 0.003 + 1e-6)
+
+
+@pytest.mark.parametrize("name", ["t-shirt", "letter-towel", "big-towel", "vest"])
+def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(stage: Stage, name: str) -> None:
+    plan = make_plan(load_garment(name))
+    stage.show_plan(plan)
+    stage.show(plan.timeline().at(plan.timeline().duration_s / 2))
+    assert stage._server.scene.get_handle_by_name("/primitive/left/path") is not None
+    stage.show(plan.timeline().at(plan.timeline().duration_s))
+    assert not any(len(line_points(stage, i)) for i in range(len(plan.garment.folds)))
+    marks = [f"/primitive/{arm.name}/{part}" for arm in CARD.arms for part in ("pick", "place", "path")]
+    for mark in (*marks, *(f"{node}/name" for node in stage._robot.hands.values()), "/primitive/route"):
+        handle = stage._server.scene.get_handle_by_name(mark)
+        assert handle is not None
+        assert not handle.visible, mark
+
+
+def test_a_hands_letter_goes_along_with_it(stage: Stage, plan: Plan) -> None:
+    for arm in CARD.arms:
+        assert stage._robot.hands[arm.name].endswith(arm.tool_frame)
+
+
+def test_a_theme_colours_the_whole_stage(stage: Stage, plan: Plan) -> None:
+    stage.show_plan(plan)
+    scene = stage._server.scene
+    for is_dark, palette in ((True, DARK), (False, LIGHT)):
+        stage.set_theme(is_dark=is_dark)
+        front, line = scene.get_handle_by_name("/cloth/front"), scene.get_handle_by_name("/folds/0")
+        assert front is not None and line is not None
+        assert tuple(front.color) == paint(palette.cloth_front)
+        assert tuple(line.colors) == tuple(ink(palette.fold_blue))
+
+
+@pytest.mark.parametrize("palette", [LIGHT, DARK])
+def test_what_lies_level_looks_like_the_colour_asked_for(palette: Palette) -> None:
+    for wanted in (palette.cloth_front, palette.cloth_back, palette.table, palette.robot_light, palette.robot_grey):
+        assert np.abs(np.subtract(seen(paint(wanted)), wanted)).max() <= 2
+
+
+def sheet(*layers: tuple[float, float, float]) -> ClothSurface:
+    """Squares of cloth on the table, each with its near and far x and its height, from y = 0 to y = 1."""
+    corners = []
+    for low, high, z in layers:
+        a, b, c, d = (low, 0.0, z), (high, 0.0, z), (high, 1.0, z), (low, 1.0, z)
+        corners.extend([a, b, c, a, c, d])
+    triangles = np.arange(len(corners)).reshape(-1, 3)
+    return ClothSurface(np.array(corners), triangles, np.repeat(np.arange(len(layers)), 2))
+
+
+TOP = TableTop((-1.0, -1.0), (1.0, 1.0))
+
+
+def test_cloth_is_as_high_as_its_topmost_layer_there() -> None:
+    relief = Relief.of(sheet((0.0, 0.8, 0.0015), (0.5, 0.9, 0.003)), TOP)
+    points = np.array([[0.2, 0.5], [0.6, 0.5], [0.85, 0.5], [0.95, 0.5]])
+    np.testing.assert_array_equal(relief.heights_at(points), [0.0015, 0.003, 0.003, -np.inf])
+
+
+def test_cloth_in_the_air_does_not_lie() -> None:
+    standing = ClothSurface(
+        np.array([[0.0, 0.0, 0.0015], [0.0, 1.0, 0.0015], [0.0, 0.0, 0.5]]),
+        np.array([[0, 1, 2]]),
+        np.zeros(1, dtype=np.int64),
+    )
+    assert Relief.of(standing, TOP).heights_at(np.array([[0.0, 0.5]]))[0] == -np.inf
+
+
+def test_hanging_cloth_is_rolled_back_into_the_plane() -> None:
+    garment = load_garment("big-towel")
+    top = TableTop.of(Scene().table)
+    relief = Relief.of(lying_cloth(garment, Scene().table), top)
+    a, b, c = (relief.triangles[:, i] for i in range(3))
+    sides = b - a, c - a
+    area = float((sides[0][:, 0] * sides[1][:, 1] - sides[0][:, 1] * sides[1][:, 0]).sum() / 2)
+    assert area == pytest.approx(garment.pattern.area, rel=1e-3)
+
+
+def test_a_line_is_cut_where_it_crosses_and_nowhere_else() -> None:
+    segments = np.array([[[0.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [0.2, 0.0]]])
+    cut = split_at(segments, 0, 0.5)
+    assert len(cut) == 3
+    lengths = np.linalg.norm(cut[:, 1] - cut[:, 0], axis=1)
+    assert lengths.sum() == pytest.approx(np.sqrt(2.0) + 0.2)
+    assert np.all((cut[..., 0].max(axis=1) <= 0.5) | (cut[..., 0].min(axis=1) >= 0.5))
 
 
 def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:

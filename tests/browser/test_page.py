@@ -1,5 +1,6 @@
 """The page in a real browser. What is on the stage is asked of the page's own scene, not of pixels."""
 
+import itertools
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -178,6 +179,66 @@ def test_another_garment_is_planned_and_shown(page: Page) -> None:
     page.get_by_role("combobox", name="Garment").select_option("t-shirt")
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
     expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_the_stage_takes_on_the_pages_theme(page: Page) -> None:
+    background = """() => {
+      const stage = document.getElementById("stage").contentDocument;
+      let part = stage.querySelector("canvas");
+      const colour = () => getComputedStyle(part).backgroundColor;
+      while (part.parentElement && colour() === "rgba(0, 0, 0, 0)") part = part.parentElement;
+      return colour();
+    }"""
+    light = page.evaluate(background)
+    page.get_by_role("button", name="Dark").click()
+    until(lambda: page.evaluate(background) != light)
+    page.get_by_role("button", name="Light").click()
+    until(lambda: page.evaluate(background) == light)
+
+
+def test_the_base_lane_shows_that_the_base_drives_within_a_fold(page: Page) -> None:
+    moved = page.evaluate(
+        """async () => {
+          const { Lanes } = await import("/static/js/lanes.js");
+          const seen = [];
+          const lanes = new Lanes((t) => seen.push(t));
+          const fold = (start_s, back_off_m) =>
+            ({ kind: "fold", fold: 0, start_s, duration_s: 5, grips: [], base: { back_off_m } });
+          const primitives = [fold(0, 0), fold(5, 0.3), fold(10, 0.1)];
+          lanes.show({ folds: [{ name: "half" }] }, { cost_s: 15, primitives });
+          const lane = document.querySelector(".lane[data-lane=base]");
+          const blocks = [...lane.querySelectorAll(".block")].map((block) => block.textContent);
+          const box = lane.getBoundingClientRect();
+          lane.dispatchEvent(new MouseEvent("click", { clientX: box.left + box.width / 5 }));
+          return { blocks, seen };
+        }"""
+    )
+    assert moved["blocks"] == ["30 cm back", "20 cm ahead"]
+    assert moved["seen"] == [pytest.approx(3.0, abs=0.05)]
+
+
+@pytest.mark.parametrize("width", [721, 900, 1000, 1440])
+def test_the_status_covers_nothing_of_the_bar(page: Page, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 600})
+    edges = page.evaluate(
+        """() => ["h1", ".bar-garment", "#status", ".bar-end"].map((name) => {
+          const box = document.querySelector(name).getBoundingClientRect();
+          return [box.left, box.right];
+        })"""
+    )
+    for (_, right), (left, _) in itertools.pairwise(edges):
+        assert right <= left + 0.5
+
+
+def test_a_reason_without_words_is_not_shown(page: Page) -> None:
+    page.evaluate(
+        """async () => {
+          const { showNumbers } = await import("/static/js/numbers.js");
+          const plan = { reasons: [{ message: "" }, { message: "Too far." }] };
+          showNumbers({ plan, status: "infeasible", text: "No plan: Too far." });
+        }"""
+    )
+    expect(page.locator(".reasons li")).to_have_text(["Too far."])
 
 
 def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:

@@ -1,0 +1,80 @@
+"""The lights of the stage, and paint that looks under them as it should.
+
+The browser maps light to screen colours by a film curve (the ACES fit that three.js has): it greys and
+darkens, so cream comes out as cold white. The lights here are white and their sum on whatever lies level is known.
+So the curve can be run backwards: `paint` is the surface colour that, lying level in this light, looks like the
+colour asked for. What stands upright gets less light and looks darker, which is what shows its form.
+"""
+
+import math
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.ui.colours import Rgb
+from planner.geometry.pose import FloatArray
+
+SKY = "/sky"
+
+_SKY_INTENSITY = 4.4
+_GROUND_COLOUR = (120, 120, 122)
+_SUN_INTENSITY = 3.0  # of viser's default light, which stands nearly overhead and casts the shadows
+_SUN_COSINE = 1.0 / math.hypot(1.0, 0.2, 0.2)
+_LEVEL_LIGHT = (_SKY_INTENSITY + _SUN_INTENSITY * _SUN_COSINE) / math.pi
+
+_EXPOSURE = 1.0 / 0.6
+_INTO_FILM = np.array([[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]])
+_OUT_OF_FILM = np.array([[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]])
+_SHOULDER = (0.0245786, 0.000090537, 0.983729, 0.4329510, 0.238081)
+
+
+def add_lights(server: viser.ViserServer) -> None:
+    """White light from all round, more of it from above, and viser's own overhead light."""
+    server.scene.configure_environment_map(None)
+    server.scene.configure_default_lights(enabled=True, cast_shadow=True)
+    server.scene.add_light_hemisphere(
+        SKY, sky_color=(255, 255, 255), ground_color=_GROUND_COLOUR, intensity=_SKY_INTENSITY, position=(0.0, 0.0, 1.0)
+    )
+
+
+def paint(wanted: Rgb) -> Rgb:
+    """The colour of a surface that looks as wanted when it lies level; as near as paint can come."""
+    return _before_film(wanted, _LEVEL_LIGHT)
+
+
+def ink(wanted: Rgb) -> NDArray[np.uint8]:
+    """The colour of a line, on which no light falls, that looks as wanted; as near as ink can come. Shape (3,)."""
+    return np.array(_before_film(wanted, 1.0), dtype=np.uint8)
+
+
+def seen(painted: Rgb) -> Rgb:
+    """What a surface of a colour looks like when it lies level."""
+    a, b, c, d, e = _SHOULDER
+    x = _INTO_FILM @ (_linear(painted) * _LEVEL_LIGHT * _EXPOSURE)
+    film = (x * (x + a) - b) / (x * (c * x + d) + e)
+    return _codes(_OUT_OF_FILM @ film)
+
+
+def _before_film(wanted: Rgb, light: float) -> Rgb:
+    film = np.linalg.solve(_OUT_OF_FILM, _linear(wanted))
+    return _codes(np.linalg.solve(_INTO_FILM, _unshouldered(film)) / _EXPOSURE / light)
+
+
+def _unshouldered(film: FloatArray) -> FloatArray:
+    """Solve film = (x(x + a) - b) / (x(cx + d) + e) for x >= 0."""
+    a, b, c, d, e = _SHOULDER
+    square, line, rest = 1.0 - c * film, a - d * film, -b - e * film
+    return np.asarray((-line + np.sqrt(line**2 - 4.0 * square * rest)) / (2.0 * square))
+
+
+def _linear(colour: Rgb) -> FloatArray:
+    encoded = np.array(colour) / 255.0
+    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+
+
+def _codes(linear: FloatArray) -> Rgb:
+    kept = np.clip(linear, 0.0, 1.0)
+    encoded = np.where(kept <= 0.0031308, kept * 12.92, 1.055 * kept ** (1 / 2.4) - 0.055)
+    red, green, blue = (round(255.0 * float(part)) for part in encoded)
+    return red, green, blue

@@ -1,0 +1,68 @@
+"""How high the cloth lies under a point: what is drawn on the cloth follows its steps from layer to layer.
+
+Asked of one moment's surface and of nothing else, so that it does not matter how that moment was reached. Cloth
+that hangs is rolled back into the plane first; cloth that stands or is in the air does not lie.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import LENGTH_M
+from planner.plan.frame import ClothSurface
+
+_ROUND_M = 1e-3  # so far beyond its edge cloth still counts: a fold line runs along the edge of what is folded
+
+
+@dataclass(frozen=True, slots=True)
+class Relief:
+    """The parts of a cloth that lie.
+
+    Attributes:
+        triangles: in the unrolled plane, table frame, counter-clockwise, shape (n, 3, 2), m.
+        heights: how far each is off the table (m), shape (n,).
+    """
+
+    triangles: FloatArray
+    heights: FloatArray
+
+    @staticmethod
+    def of(cloth: ClothSurface, top: TableTop) -> "Relief":
+        """The relief of a surface that hangs beside a top."""
+        unrolled = _unrolled(cloth.vertices, top)[cloth.triangles]
+        heights = unrolled[..., 2]
+        is_lying = heights.max(axis=1) - heights.min(axis=1) <= LENGTH_M
+        flat = unrolled[is_lying, :, :2]
+        sides = flat[:, 1:] - flat[:, :1]
+        is_turned = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0] < 0.0
+        flat[is_turned] = flat[is_turned, ::-1]
+        return Relief(flat, heights[is_lying].max(axis=1, initial=0.0))
+
+    def heights_at(self, points: FloatArray) -> FloatArray:
+        """The height (m) of the topmost cloth under points of the unrolled plane, shape (n, 2) -> (n,).
+
+        -inf where no cloth lies.
+        """
+        if not len(self.triangles):
+            return np.full(len(points), -np.inf)
+        sides = np.roll(self.triangles, -1, axis=1) - self.triangles
+        lengths = np.maximum(np.hypot(sides[..., 0], sides[..., 1]), LENGTH_M)
+        inwards = np.stack([-sides[..., 1], sides[..., 0]], axis=-1) / lengths[..., None]
+        offsets = (inwards * self.triangles).sum(axis=-1)
+        is_over = np.ones((len(points), len(self.triangles)), dtype=np.bool_)
+        for side in range(3):
+            is_over &= points @ inwards[:, side].T >= offsets[:, side] - _ROUND_M
+        return np.asarray(np.where(is_over, self.heights, -np.inf).max(axis=1))
+
+
+def _unrolled(points: FloatArray, top: TableTop) -> FloatArray:
+    """Points in space, shape (n, 3), rolled back from beside the top: place in the plane and distance off it."""
+    nearest = np.clip(points[:, :2], top.low, top.high)
+    out = points[:, :2] - nearest
+    gaps = np.hypot(out[:, 0], out[:, 1])
+    is_beside = gaps > 0.0
+    outwards = out / np.where(is_beside, gaps, 1.0)[:, None]
+    plane = nearest - outwards * np.where(is_beside, points[:, 2], 0.0)[:, None]
+    return np.column_stack([plane, np.where(is_beside, gaps, points[:, 2])])

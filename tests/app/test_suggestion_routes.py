@@ -1,0 +1,152 @@
+import asyncio
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from typer.testing import CliRunner
+
+from app.cli import cli
+from tests.app.conftest import Served
+from tests.app.samples import towel
+
+pytestmark = pytest.mark.anyio
+
+FRONT_ONLY = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}}
+FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
+STUCK = {"garment": towel(placement=FAR), "scene": FRONT_ONLY, "time_limit_s": 3.0}
+
+
+def events_in(text: str) -> list[tuple[str, dict[str, Any]]]:
+    """Server-sent events by name, with their data."""
+    events = []
+    for block in text.strip().split("\n\n"):
+        fields = dict(line.split(": ", 1) for line in block.splitlines() if not line.startswith(":"))
+        if fields:
+            events.append((fields["event"], json.loads(fields["data"])))
+    return events
+
+
+async def test_suggestions_come_as_events_and_done_comes_last(client: httpx.AsyncClient) -> None:
+    answer = await client.post("/api/suggestions", json=STUCK)
+    assert answer.status_code == 200
+    assert answer.headers["content-type"].startswith("text/event-stream")
+    *found, (last, done) = events_in(answer.text)
+    assert found
+    assert {name for name, _ in found} == {"suggestion"}
+    assert last == "done"
+    assert done["count"] == len(found)
+    assert 0.0 < done["elapsed_s"] < 10.0
+    assert set(found[0][1]) == {"kind", "is_assumption", "message", "change", "size", "cost_s", "plan_id"}
+
+
+async def test_a_change_merged_into_the_request_gives_the_plan_told(client: httpx.AsyncClient) -> None:
+    answer = await client.post("/api/suggestions", json=STUCK)
+    found = [data for name, data in events_in(answer.text) if name == "suggestion"]
+    for one in found:
+        told = (await client.get(f"/api/plans/{one['plan_id']}")).json()
+        again = (await client.post("/api/plans", json={**STUCK, "time_limit_s": 10.0, **one["change"]})).json()
+        assert told["status"] == again["status"] == "solved"
+        assert told["cost_s"] == again["cost_s"] == one["cost_s"]
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "field"),
+    [
+        ({}, 422, "garment"),
+        ({"garment": towel(), "time_limit_s": 0}, 422, "time_limit_s"),
+        ({"garment": towel(), "colour": "red"}, 422, "colour"),
+        ({"garment": towel(), "start_station": "roof"}, 422, "start_station"),
+        ({"garment": towel(), "robot": "nobody"}, 422, "robot"),
+        ({"garment": towel(), "scene": {"friction": -1.0}}, 422, "scene.friction"),
+        ({"garment": towel(outline=[[0, 0], [1, 0]])}, 422, "garment.outline"),
+        ({"garment": "no-such-garment"}, 404, None),
+    ],
+)
+async def test_a_bad_request_is_a_problem_and_no_stream(
+    client: httpx.AsyncClient, body: dict[str, Any], status: int, field: str | None
+) -> None:
+    answer = await client.post("/api/suggestions", json=body)
+    assert answer.status_code == status
+    assert answer.headers["content-type"] == "application/problem+json"
+    if field is not None:
+        assert answer.json()["errors"][0]["field"].startswith(field)
+
+
+async def test_an_illegal_fold_is_named(client: httpx.AsyncClient) -> None:
+    beside = {"name": "beside", "kind": "blue", "start": [3.0, 0.0], "end": [3.0, 1.0]}
+    answer = await client.post("/api/suggestions", json={"garment": towel(folds=[beside])})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["field"] == "garment.folds[0].start"
+
+
+async def test_the_server_answers_others_while_it_searches(client: httpx.AsyncClient) -> None:
+    search = asyncio.create_task(client.post("/api/suggestions", json=STUCK))
+    await asyncio.sleep(0.2)
+    started = time.perf_counter()
+    assert (await client.get("/api/health")).status_code == 200
+    assert time.perf_counter() - started < 1.0
+    await search
+
+
+async def test_when_the_client_goes_away_the_search_stops(served: Served) -> None:
+    async with httpx.AsyncClient(base_url=served.url, timeout=60.0) as browser:
+        async with browser.stream("POST", "/api/suggestions", json={**STUCK, "time_limit_s": 60.0}) as stream:
+            async for line in stream.aiter_lines():
+                if line.startswith("event: suggestion"):
+                    break
+        await asyncio.sleep(1.0)
+        before_s = cpu_s(served)
+        await asyncio.sleep(1.0)
+        assert cpu_s(served) - before_s < 0.5
+
+
+def cpu_s(served: Served) -> float:
+    """The processor time that a server has used (s)."""
+    stat = Path(f"/proc/{served.process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(stat[11]) + int(stat[12])) / 100.0
+
+
+async def test_the_map_of_placements_has_costs_and_a_best(client: httpx.AsyncClient) -> None:
+    await client.put("/api/garments/my-towel", json=towel())
+    answer = await client.get("/api/placements", params={"garment": "my-towel", "step_m": 0.4, "time_limit_s": 20})
+    assert answer.status_code == 200
+    found = answer.json()
+    assert set(found) == {"step_m", "cells", "best", "complete"}
+    assert found["complete"] is True
+    assert set(found["best"]) == {"x_m", "y_m", "yaw_rad", "cost_s"}
+    assert found["best"]["cost_s"] == min(cell["cost_s"] for cell in found["cells"] if cell["cost_s"] is not None)
+
+
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        ({}, "garment"),
+        ({"garment": "tie", "step_m": "0"}, "step_m"),
+        ({"garment": "tie", "time_limit_s": "nan"}, "time_limit_s"),
+    ],
+)
+async def test_a_bad_question_about_placements_names_the_parameter(
+    client: httpx.AsyncClient, options: dict[str, str], field: str
+) -> None:
+    answer = await client.get("/api/placements", params=options)
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["field"] == field
+
+
+async def test_placements_of_an_unknown_garment_are_not_found(client: httpx.AsyncClient) -> None:
+    assert (await client.get("/api/placements", params={"garment": "nothing"})).status_code == 404
+
+
+def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path) -> None:
+    garment, scene = tmp_path / "towel.json", tmp_path / "scene.json"
+    garment.write_text(json.dumps(STUCK["garment"]))
+    scene.write_text(json.dumps(FRONT_ONLY))
+    command = ["plan", str(garment), "--scene", str(scene), "--time-limit-s", "2", "--suggest"]
+    result = CliRunner().invoke(cli, command)
+    assert result.exit_code == 3
+    assert "out_of_reach" in result.stderr
+    for heading in ("kind", "what", "size", "cost", "assumption?", "placement"):
+        assert heading in result.stdout

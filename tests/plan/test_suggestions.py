@@ -1,0 +1,214 @@
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from planner import Garment, Plan, Scene, load_garment, make_plan
+from planner.errors import FoldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.plan.suggestion_fold_line import chord, redrawn
+from planner.plan.suggestion_grid import Room, turned_in_place
+from planner.plan.suggestion_map import placement_map
+from planner.plan.suggestion_order import orders
+from planner.plan.suggestion_station import stations
+from planner.plan.suggestion_trial import Asked, Trial
+from planner.plan.suggestion_words import direction_words, moved_words
+from planner.plan.suggestions import suggestions
+from tests.builders import fold, garment, rectangle_points
+
+FRONT_ONLY = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
+FAR = Pose2(0.4, 0.15, -math.pi / 2)
+
+
+def towel(placement: Pose2 | None = None) -> Garment:
+    """A towel, 40 cm along the robot's arms and 30 cm deep, folded once away from the robot."""
+    half = fold((0.3, 0.2), (0.0, 0.2))
+    return garment(rectangle_points(0.3, 0.4), half, placement=placement or Pose2(-0.7, 0.15, -math.pi / 2))
+
+
+def asked(cloth: Garment, scene: Scene | None = None) -> Asked:
+    return Asked(cloth, scene or Scene(), cloth.placement, "front", "pr2", 0.03, "arm_time", 1000)
+
+
+def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
+    """The plan of a request once a change has been put into it, as a client would."""
+    assert len(change) == 1
+    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
+    options = {name: parts.get(name, float)(value) for name, value in change.items()}
+    request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 30.0, **options}
+    return make_plan(request.pop("garment"), request.pop("scene"), **request)
+
+
+@pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
+def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str):
+    cloth = load_garment(name)
+    found = next(s for s in suggestions(cloth, time_limit_s=60.0) if not s.is_assumption)
+    assert found.kind == "fold_line"
+    assert f"{found.cost_s:.1f} s" in found.message
+    assert "towards the robot" in found.message
+    plan = planned_with(found.change, cloth)
+    assert plan.cost_s == found.cost_s == found.plan.cost_s
+
+
+def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded():
+    cloth = towel(FAR)
+    assert not make_plan(cloth, FRONT_ONLY).is_solved
+    found = next(s for s in suggestions(cloth, FRONT_ONLY, time_limit_s=5.0) if s.kind == "placement")
+    assert "towards the robot" in found.message
+    assert planned_with(found.change, cloth, FRONT_ONLY).cost_s == found.cost_s
+
+
+def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_at_most():
+    cloth = towel(FAR)
+    found = list(suggestions(cloth, FRONT_ONLY, time_limit_s=4.0))
+    assert len({s.kind for s in found}) > 1
+    for kind in {s.kind for s in found}:
+        assert len([s for s in found if s.kind == kind]) <= 3
+    for one in found:
+        assert planned_with(one.change, cloth, FRONT_ONLY).cost_s == one.cost_s
+
+
+def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
+    cloth = load_garment("t-shirt")
+    there = cloth.placement.moved(0.4, 0.0)
+    found = list(suggestions(cloth, placement=there, time_limit_s=3.0))
+    assert [s.kind for s in found] == ["placement"]
+    assert found[0].cost_s < make_plan(cloth, placement=there).cost_s - 1.0
+
+
+def test_what_is_planned_already_is_not_planned_again():
+    cloth = towel(FAR)
+    known = make_plan(cloth, FRONT_ONLY)
+    assert list(suggestions(cloth, FRONT_ONLY, plan=known, should_stop=lambda: True)) == []
+
+
+def test_a_search_that_is_told_to_stop_does_so_within_a_second():
+    cloth = towel(FAR)
+    is_unwanted = False
+    found = suggestions(cloth, FRONT_ONLY, time_limit_s=60.0, should_stop=lambda: is_unwanted)
+    next(found)
+    is_unwanted = True
+    started = time.perf_counter()
+    assert list(found) == []
+    assert time.perf_counter() - started < 1.0
+
+
+@pytest.mark.parametrize("options", [{"time_limit_s": 0.0}, {"start_station": "roof"}, {"heuristic": "magic"}])
+def test_a_wrong_option_is_refused_before_the_first_suggestion(options: dict[str, Any]):
+    with pytest.raises(RequestError) as caught:
+        suggestions(towel(), **options)
+    assert caught.value.field == next(iter(options))
+
+
+def test_an_illegal_fold_is_refused_before_the_first_suggestion():
+    with pytest.raises(FoldError):
+        suggestions(garment(rectangle_points(0.3, 0.4), fold((1.0, 0.2), (2.0, 0.2))))
+
+
+def test_a_shifted_line_runs_from_edge_to_edge_and_later_lines_follow_the_cloth():
+    # A triangle, 1 m wide at the bottom and 1 m high: at height y it is 1 - y wide.
+    first, second = fold((0.9, 0.2), (0.1, 0.2)), fold((0.5, 0.2), (0.5, 1.0))
+    cloth = garment([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0)], first, second)
+    changed = redrawn(cloth, 0, Segment((0.9, 0.3), (0.1, 0.3)))
+    assert changed is not None
+    assert changed.folds[0].start == pytest.approx((0.85, 0.3), abs=1e-4)
+    assert changed.folds[0].end == pytest.approx((0.15, 0.3), abs=1e-4)
+    assert changed.folds[1].start == pytest.approx((0.5, 0.3), abs=1e-4)
+
+
+def test_a_line_shifted_off_the_cloth_is_none():
+    assert redrawn(towel(), 0, Segment((0.3, 0.5), (0.0, 0.5))) is None
+
+
+def test_of_several_stretches_the_one_where_the_line_was_is_taken():
+    # Two towers on a base: at y = 0.8 the whole line meets both.
+    towers = [(0, 0), (1, 0), (1, 1), (0.7, 1), (0.7, 0.5), (0.3, 0.5), (0.3, 1), (0, 1)]
+    line = chord(Region.polygon(towers), Segment((0.95, 0.8), (0.75, 0.8)))
+    assert line is not None
+    assert line.start == pytest.approx((1.0, 0.8), abs=1e-4)
+    assert line.end == pytest.approx((0.7, 0.8), abs=1e-4)
+
+
+def test_another_order_ends_in_the_same_outline():
+    quarter_folds = (fold((0.3, 0.2), (0.0, 0.2), name="half"), fold((0.15, 0.2), (0.15, 0.4), name="across"))
+    lengthwise = (fold((0.15, 0.0), (0.15, 0.4), name="across"), fold((0.3, 0.2), (0.15, 0.2), name="half"))
+    for folds in (quarter_folds, lengthwise):
+        cloth = garment(rectangle_points(0.3, 0.4), *folds)
+        for trial in all_trials(asked(cloth)):
+            names = [f.name for f in trial.asked.garment.folds]
+            assert sorted(names) == sorted(f.name for f in folds)
+            assert names != [f.name for f in folds]
+
+
+def all_trials(request: Asked) -> list[Trial]:
+    """What the search for orders would try if nothing worked."""
+    trials, search = [], orders(request)
+    unsolved = make_plan(towel(FAR), FRONT_ONLY)
+    wish = next(search, None)
+    try:
+        while isinstance(wish, Trial):
+            trials.append(wish)
+            wish = search.send(unsolved)
+    except StopIteration:
+        pass
+    return trials
+
+
+def test_no_station_is_proposed_that_is_there_already():
+    scene = replace(Scene(), stations=(*Scene().stations, ("far", Pose2(0.95, 0.0, math.pi))))
+    first = next(stations(asked(towel(), scene)))
+    assert isinstance(first, Trial)
+    assert [name for name, _ in first.asked.scene.stations][-1] == "middle_left"
+
+
+def test_turned_in_place_the_middle_stays():
+    cloth = towel()
+    middle = np.array([0.15, 0.2])
+    for quarters in range(4):
+        turned = turned_in_place(cloth, cloth.placement, quarters)
+        assert turned.to_outer(middle) == pytest.approx(cloth.placement.to_outer(middle))
+
+
+def test_the_room_of_a_garment_ends_where_its_edge_meets_the_tables():
+    # At yaw -90 degrees the towel reaches from x = -0.7 to -0.3 and from y = -0.15 to 0.15; the table is 1.6 x 0.98 m.
+    room = Room.of(towel(), Pose2(-0.7, 0.15, -math.pi / 2), Scene().table)
+    assert room.low == pytest.approx((-0.1, -0.34))
+    assert room.high == pytest.approx((1.1, 0.34))
+    assert room.nearest == (0.0, 0.0)
+    assert len(list(room.moves(0.1))) == 13 * 7
+
+
+def test_a_garment_larger_than_the_table_has_no_room():
+    room = Room.of(garment(rectangle_points(2.0, 2.0)), Pose2(0.0, 0.0, 0.0), Scene().table)
+    assert room.is_none
+    assert not list(room.moves(0.1))
+
+
+def test_directions_are_the_robots():
+    assert moved_words(-0.08, 0.05) == "8 cm towards the robot and 5 cm to the left"
+    assert moved_words(0.1, 0.0) == "10 cm away from the robot"
+    assert direction_words(0.0, -1.0) == "to the right"
+    assert direction_words(0.7, 0.7) == "away from the robot and to the left"
+
+
+def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():
+    found = placement_map(towel(), FRONT_ONLY, step_m=0.3, time_limit_s=20.0)
+    assert found.is_complete
+    assert len(found.cells) == 4 * 3  # the room above, in steps of 0.3 m
+    costs = [cell.cost_s for cell in found.cells if cell.cost_s is not None]
+    assert found.best is not None
+    assert found.best.cost_s == min(costs)
+    assert len(costs) < len(found.cells)
+    assert make_plan(towel(), FRONT_ONLY, placement=found.best.placement).cost_s == found.best.cost_s
+
+
+def test_a_map_cut_short_says_so():
+    found = placement_map(towel(), step_m=0.02, time_limit_s=0.2)
+    assert not found.is_complete
+    assert found.to_dict()["complete"] is False
