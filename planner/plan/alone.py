@@ -11,7 +11,7 @@ one question: from anywhere along that line? The few that survive are asked in f
 and adds none, so it never denies what can be done.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice, permutations
 
@@ -58,7 +58,9 @@ class _Case:
 class Alone:
     """Asks for each fold of a planning problem, begun at a station, whether it could be done alone."""
 
-    def __init__(self, work: Work, station: int) -> None:
+    def __init__(self, work: Work, station: int, should_stop: Callable[[], bool]) -> None:
+        """Once it should stop, every fold may be possible."""
+        self._should_stop = should_stop
         self._work = work
         self._station = station
         self._offsets = drag_offsets(work)
@@ -158,6 +160,8 @@ class Alone:
         return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)
 
     def _is_possible(self, case: _Case, fold: int, station: int) -> bool:
+        if self._should_stop():
+            return True
         for trial in fold_trials(self._work, case.state(station, np.zeros(2)), fold):
             stages = self._stages(case, trial, station)
             for index in np.flatnonzero(stages == len(_EXTREMES)):

@@ -157,9 +157,12 @@ class _Planner:
 
     def _is_over(self) -> bool:
         if self._expanded == LOOK_ALONE_AFTER and not self._blocking:
-            alone = Alone(self._work, self._station)
+            alone = Alone(self._work, self._station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
-        return bool(self._blocking) or time.perf_counter() > self._deadline or self._should_stop()
+        return bool(self._blocking) or self._is_out_of_budget()
+
+    def _is_out_of_budget(self) -> bool:
+        return time.perf_counter() > self._deadline or self._should_stop()
 
     def _next_unseen(self) -> list[int]:
         """The folds that no state has done yet though nothing is left that they wait for."""
