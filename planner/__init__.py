@@ -11,6 +11,7 @@ from planner.folds.fold_sequence import FoldSequence, fold_dag
 from planner.plan.garment_check import check_garment
 from planner.plan.make_plan import make_plan
 from planner.plan.plan import Plan
+from planner.plan.suggestions import suggestions
 from planner.primitives.scene import Scene
 
 __all__ = [
@@ -23,4 +24,5 @@ __all__ = [
     "load_garment",
     "make_plan",
     "shipped_garment_names",
+    "suggestions",
 ]

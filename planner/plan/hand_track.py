@@ -7,6 +7,7 @@ it is free it rises and goes home.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
@@ -27,8 +28,13 @@ _DESCENT_STEPS = 6
 _RISE_S = 0.8
 _HOME_S = 3.0
 _GRASP_S = 0.3
+_SWINGS_RAD = (-1.4, -0.7, 0.0, 0.7, 1.4)
+_ELBOW_CLEAR_M = 0.12
 _TURN_RAD_S = 2.0
 _TURN_STEP_S = 0.01
+_FAST_RAD, _FINER = 0.1, 8
+"""Where joints go further than this from one point to the next, so many points are put in between (rad)."""
+
 _JUMP_RAD = 0.3
 """Joints that differ by more than this belong to different ways to reach a pose: nothing lies between them (rad)."""
 
@@ -129,7 +135,7 @@ class _Tracker:
         else:
             self._track.add(start, self._now)
         goal = self._in_base(base, np.array(hand.points[0]))
-        descent = self._descent(goal, hand.approach)
+        descent = self._descent(goal, hand.approach, self._elbow_up(goal, hand.approach))
         self._track.add(up, self._now)
         self._track.add(down, descent[0])
         self._now = descent[0]
@@ -143,17 +149,19 @@ class _Tracker:
         count = max(len(hand.points), int(np.ceil(drive / _BASE_STEP_M)) + 1)
         if self._is_turned(hand.approach):
             count = max(count, int((end - start) / _TURN_STEP_S))
-        shares = np.linspace(0.0, 1.0, count)
-        points = _resampled(np.array(hand.points), shares)
-        turn = self._turn(hand.approach, end - start)
-        chain: list[FloatArray] = []
-        for point, share in zip(points, shares, strict=True):
-            there = self._in_base(base[0].between(base[1], float(share)), point)
-            rotation = turn(float(share))
-            chain.append(self._solved(there, rotation, chain[-1] if chain else self._now))
-        self._track.add(start, chain[0])
-        self._now = chain[0]
-        self._add_chain(chain[1:], start, end)
+        corners, turn = np.array(hand.points), self._turn(hand.approach, end - start)
+
+        def solved(share: float, near: FloatArray) -> FloatArray:
+            there = self._in_base(base[0].between(base[1], share), _along(corners, share))
+            return self._solved(there, turn(share), near)
+
+        self._now = solved(0.0, self._now)
+        self._track.add(start, self._now)
+        for before, after in pairwise(np.linspace(0.0, 1.0, count)):
+            joints = solved(float(after), self._now)
+            parts = 1 if np.abs(joints - self._now).max() < _FAST_RAD else _FINER
+            for share in np.linspace(before, after, parts + 1)[1:]:
+                self._add_chain([solved(float(share), self._now)], start, start + float(share) * (end - start))
         self._approach = hand.approach
         self._grip(start, is_closed=hand.is_closed)
 
@@ -197,10 +205,30 @@ class _Tracker:
                 return chain
         return [self._now]
 
-    def _descent(self, goal: FloatArray, approach: Approach) -> list[FloatArray]:
+    def _elbow_up(self, goal: FloatArray, approach: Approach) -> FloatArray:
+        """Of the ways to take a pose, the nearest whose elbow is well over the table, or the one where it is highest.
+
+        While the hand then follows a path the arm stays near to how it began, so it is begun well.
+        """
+        found = [self._now]
+        for pan in _SWINGS_RAD:
+            for roll in _SWINGS_RAD:
+                seed = self._now.copy()
+                seed[0] += pan
+                seed[2] += roll
+                joints = self._machine.joints_near(self._arm, goal, approach.rotation, self._torso_m, seed)
+                if joints is not None:
+                    found.append(self._unwound(joints))
+        heights = [self._machine.elbow_height(self._arm, joints, self._torso_m) for joints in found]
+        clear = [j for j, h in zip(found[1:], heights[1:], strict=True) if h >= self._height_m + _ELBOW_CLEAR_M]
+        if clear:
+            return min(clear, key=lambda joints: float(np.abs(joints - self._now).max()))
+        return found[1 + int(np.argmax(heights[1:]))] if len(found) > 1 else self._now
+
+    def _descent(self, goal: FloatArray, approach: Approach, near: FloatArray) -> list[FloatArray]:
         """From above a goal, as high as is in reach, straight down to it."""
         for height in VIA_HEIGHTS_M:
-            chain, now = [], self._now
+            chain, now = [], near
             for lift in np.linspace(height, 0.0, _DESCENT_STEPS):
                 target = goal + np.array([0.0, 0.0, lift])
                 found = self._machine.joints_near(self._arm, target, approach.rotation, self._torso_m, now)
@@ -210,7 +238,7 @@ class _Tracker:
                 chain.append(now)
             if len(chain) == _DESCENT_STEPS:
                 return chain
-        return [self._solved(goal, approach.rotation, self._now)] * 2
+        return [self._solved(goal, approach.rotation, near)] * 2
 
     def _solved(self, position: FloatArray, rotation: FloatArray, near: FloatArray) -> FloatArray:
         found = self._machine.joints_near(self._arm, position, rotation, self._torso_m, near)
@@ -238,7 +266,7 @@ class _Tracker:
             track.openings_m += [track.openings_m[-1], goal]
 
 
-def _resampled(points: FloatArray, shares: FloatArray) -> FloatArray:
-    """Points of a polyline, shape (n, 3), at shares of its way counted by corners."""
+def _along(points: FloatArray, share: float) -> FloatArray:
+    """The point of a polyline, shape (n, 3), at a share of its way counted by corners."""
     corners = np.linspace(0.0, 1.0, len(points))
-    return np.column_stack([np.interp(shares, corners, points[:, axis]) for axis in range(3)])
+    return np.array([np.interp(share, corners, points[:, axis]) for axis in range(3)])

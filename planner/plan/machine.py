@@ -29,6 +29,10 @@ class Machine(Protocol):
         """The joints nearest to `near` that bring the tool to a pose of the base frame, or None."""
         ...
 
+    def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
+        """How high an arm's elbow is above the floor (m)."""
+        ...
+
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
         ...

@@ -87,6 +87,10 @@ class Pr2:
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 
+    def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
+        """How high an arm's elbow is above the floor (m) at seven joint angles."""
+        return self._arms[arm].elbow_height(joints, float(torso_m))
+
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """The tool's position (m), shape (3,), and rotation, shape (3, 3), at seven joint angles."""
         return self._arms[arm].tool_pose(joints, float(torso_m))

@@ -53,6 +53,11 @@ class SidedArm:
         position, rotation = tool_pose(self.shape, self._mirrored_joints(joints))
         return self.mirrored_places(position + self.shoulder(torso_m)), self._mirrored_rotation(rotation)
 
+    def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
+        """How high the elbow is above the floor (m)."""
+        _, lift, *_ = self._mirrored_joints(joints)
+        return float(self.shoulder(torso_m)[2] - self.shape.upper * np.sin(lift))
+
     def _mirrored_joints(self, joints: FloatArray) -> FloatArray:
         return np.array(joints * MIRROR if self.is_mirrored else joints, dtype=float, order="C")
 

@@ -107,5 +107,5 @@ def test_a_tool_takes_cloth_from_outside_at_an_allowed_pitch(name: str):
             pitch = math.degrees(math.atan2(-z, math.hypot(x, y)))
             assert min(abs(pitch - allowed) for allowed in (15, 30, 45, 60, 90)) < 0.5, f"{pitch:.1f} degrees"
             if pitch < 89:
-                off = math.acos((x * way.into_cloth[0] + y * way.into_cloth[1]) / math.hypot(x, y))
+                off = math.acos(min(1.0, (x * way.into_cloth[0] + y * way.into_cloth[1]) / math.hypot(x, y)))
                 assert off <= cone + 0.02, f"primitive {number}, {arm} arm: {math.degrees(off):.0f} degrees off"
