@@ -174,10 +174,6 @@ class Region:
         shape = shapely.transform(self.shape, isometry.apply)
         return Region(shapely.set_precision(shape, GRID_M))
 
-    def carried(self, isometry: Isometry) -> "Region":
-        """The region carried by an isometry exactly, off the grid."""
-        return Region(shapely.transform(self.shape, isometry.apply))
-
     def left_of(self, line: Segment) -> "Region":
         """The part to the left of the whole line through a segment."""
         return Region(shapely.intersection(self.shape, _half_plane(line), grid_size=GRID_M))

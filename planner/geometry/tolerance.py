@@ -26,11 +26,6 @@ SNAP_M: Final = 5e-3
 """A fold's end point may lie this far from the silhouette's boundary and is put onto it (m)."""
 
 
-def is_same_length(a_m: float, b_m: float) -> bool:
-    """Whether two lengths or coordinates (m) agree to `LENGTH_M`."""
-    return abs(a_m - b_m) <= LENGTH_M
-
-
 def grid_key(value: float) -> int:
     """The number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad)."""
     return round(value / LENGTH_M)

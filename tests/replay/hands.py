@@ -1,7 +1,6 @@
 """Where the robot's tools really are in a film of a plan, by pinocchio from the URDF and the joints' names alone."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import distribution
@@ -74,12 +73,3 @@ def distance_to_way(point: Space, way: list[Space]) -> float:
         share = 0.0 if square == 0.0 else float(np.clip((spot - a) @ (b - a) / square, 0.0, 1.0))
         best = min(best, float(np.linalg.norm(spot - a - share * (b - a))))
     return best
-
-
-def joint_speeds(before: dict[str, Any], after: dict[str, Any]) -> Iterator[tuple[str, float, float]]:
-    """Each joint's mean speed between two samples and what the URDF allows (rad/s or m/s)."""
-    model, _ = robot()
-    passed = after["t_s"] - before["t_s"]
-    for name, value in before["joints"].items() if passed > 1e-3 else ():
-        limit = float(model.velocityLimit[model.joints[model.getJointId(name)].idx_v])
-        yield name, abs(after["joints"][name] - value) / passed, limit
