@@ -12,7 +12,7 @@ READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types test-quick test test-long browser bench lock clean
+.PHONY: help run check format lint types test-quick test test-long browser bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -40,11 +40,14 @@ test-quick: $(READY_DEV)
 test: $(READY_DEV) browser ## every test
 	$(PYTEST) -n $(JOBS) --dist loadfile
 
-test-long: $(READY_DEV) browser ## every test, with twenty times the random cases
+test-long: $(READY_DEV) browser ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long
 
 bench: $(READY) ## the benchmark tables, also as JSON under bench/out/
 	$(BIN)/python -m bench
+
+figures: $(READY) ## draw the figures of docs/model.md from the planner
+	$(BIN)/python -m docs.figures.draw
 
 # The browser tests take Debian's Chromium where there is one, Playwright's own otherwise.
 browser: $(READY_DEV)

@@ -132,15 +132,17 @@ def dag(garment: GarmentArgument, json_to: JsonOption = None) -> None:
 
 
 @cli.command()
-def check(garment: GarmentArgument) -> None:
+def check(garment: GarmentArgument, json_to: JsonOption = None) -> None:
     """Check that a garment file is good, its folds are legal, and each can be held by two grippers."""
     with _blaming(garment):
         chosen = load_garment(garment)
         report = check_garment(chosen)
-    _output.print(check_table(chosen, report))
+    _write_json(report.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        _output.print(check_table(chosen, report))
     for index, fold in enumerate(report.folds):
-        if fold.grips_needed is None:
-            _errors.print(f"{garment}: folds[{index}] '{fold.name}': two grippers cannot hold it")
+        if fold.problem is not None:
+            _errors.print(f"{garment}: folds[{index}]: two grippers cannot hold it: {fold.problem}")
     if not report.is_holdable:
         raise typer.Exit(NO_PLAN)
 

@@ -1,69 +1,64 @@
 """The document: the one object that owns what can change. It knows neither viser nor FastAPI.
 
-REST, page and stage are skins over it: they call its methods, and are told when it has changed. Its state is
-a value that is swapped under a lock, so a reader takes one and never sees half a change.
+REST, page and stage are skins over it: they call its methods, and are told when it has changed. Its state is a value
+that is swapped under a lock, so a reader takes one and never sees half a change. A change of the drawing is on the disk
+before anybody sees it.
 """
 
 import threading
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 
+from app.document_state import Answer, Checks, DocumentState, Film, HeldFold, Question
+from app.drawing.draft import Draft
+from app.drawing.drawing import Drawing
+from app.drawing.edit import Edit, StaleVersionError
 from app.playback import Playback
-from planner.cloth.garment import Garment
+from planner.errors import FoldingError
 from planner.plan.plan import Plan
 from planner.plan.timeline import Timeline
-from planner.primitives.scene import Scene
 
 Listener = Callable[[], None]
+Keep = Callable[[int, Draft], None]
 
 
-@dataclass(frozen=True, slots=True)
-class DocumentState:
-    """A document at one instant.
+class EndedDocumentError(FoldingError):
+    """The document has been closed or removed."""
 
-    Attributes:
-        version: grows with every change of what is to be planned.
-        garment: the garment, its folds and its placement.
-        scene: the scene it lies in.
-        plan: the answer for this version; None while it is being worked out or when that failed.
-        plan_id: the name under which the plan can be read, with the plan.
-        timeline: the plan's timeline, when it is solved.
-        problem: why there can be no answer at all (a fold that is not legal), or None.
-        playback: the clock.
-        is_dark: whether it is shown on a dark ground; of several pages, the last one to say decides.
-    """
-
-    version: int
-    garment: Garment
-    scene: Scene
-    plan: Plan | None = None
-    plan_id: str | None = None
-    timeline: Timeline | None = None
-    problem: str | None = None
-    playback: Playback = Playback()
-    is_dark: bool = False
-
-    @property
-    def is_planning(self) -> bool:
-        """Whether the answer is still being worked out."""
-        return self.plan is None and self.problem is None
+    def __str__(self) -> str:
+        return "the document has been closed"
 
 
 class Document:
-    """A garment in a scene, its plan, and the playback of that plan."""
+    """A drawing with its history, the answer to it, and the playback of that answer."""
 
-    def __init__(self, garment: Garment, scene: Scene, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        draft: Draft,
+        *,
+        version: int = 1,
+        keep: Keep = lambda _version, _draft: None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         """A document that wants a plan.
 
         Args:
-            garment: what is to be folded.
-            scene: where.
+            draft: what is drawn, and how it came about.
+            version: the version to begin with.
+            keep: puts a draft onto the disk under the version that it is to have; called before anybody sees it. What
+                it raises stops the change.
             clock: the wall clock (s).
         """
         self._clock = clock
+        self._keep = keep
         self._lock = threading.Lock()
-        self._state = DocumentState(version=1, garment=garment, scene=scene)
+        self._edits = threading.Lock()
+        self._has_ended = False
+        self._is_quiet = threading.Event()
+        self._is_quiet.set()
+        self._state = DocumentState(version, draft)
         self._listeners: list[Listener] = []
 
     @property
@@ -87,28 +82,68 @@ class Document:
 
         return unsubscribe
 
-    def choose(self, garment: Garment) -> None:
-        """Take another garment; its plan is wanted from now on."""
+    def edit(self, edit: Edit) -> DocumentState:
+        """Change the drawing; returns the state that this led to.
+
+        Raises:
+            StaleVersionError: the change was made to another version than the current one.
+            EndedDocumentError: the document has been closed.
+        """
+        return self._redraw(lambda draft: draft.edited(edit, self._clock()), edit.base_version)
+
+    def undo(self, base_version: int | None = None) -> DocumentState:
+        """Take the last step back, a gesture that is going on as a whole; raises `StaleVersionError`."""
+        return self._redraw(Draft.undone, base_version)
+
+    def redo(self, base_version: int | None = None) -> DocumentState:
+        """Take the step again that was undone last; raises `StaleVersionError`."""
+        return self._redraw(Draft.redone, base_version)
+
+    def give_way(self, at_most_s: float) -> None:
+        """Wait while the drawing is being changed: whoever changes it sees that at once, a plan comes later anyway."""
+        self._is_quiet.wait(at_most_s)
+
+    def end(self) -> None:
+        """Refuse all further changes of the drawing: nobody would see them."""
+        with self._edits:
+            self._has_ended = True
+
+    def settle(self, version: int, question: Question, plan: Plan, plan_id: str) -> None:
+        """Put in the answer to a question that was asked at a version; one that comes too late is dropped."""
 
         def change(state: DocumentState) -> DocumentState:
-            playback = Playback(speed=state.playback.speed)
-            return DocumentState(state.version + 1, garment, state.scene, playback=playback, is_dark=state.is_dark)
+            belongs_to = state.version if state.question == question else version
+            if state.answer is not None and belongs_to < state.answer.version:
+                return state
+            answered = state.answered(Answer(belongs_to, question, plan, plan_id))
+            if plan.is_solved:
+                return answered
+            return replace(answered, film=None, playback=state.playback.lasting(self._clock(), 0.0))
 
         self._change(change)
 
-    def settle(self, version: int, plan: Plan, plan_id: str, timeline: Timeline | None) -> None:
-        """Put in the answer for a version; one that comes too late is dropped."""
-        duration_s = timeline.duration_s if timeline else 0.0
+    def show_film(self, plan: Plan, timeline: Timeline) -> None:
+        """Put in the timeline of the answer; one of another plan is dropped. The time stays where it is."""
 
         def change(state: DocumentState) -> DocumentState:
-            playback = Playback(duration_s=duration_s, speed=state.playback.speed)
-            return replace(state, plan=plan, plan_id=plan_id, timeline=timeline, playback=playback)
+            if state.answer is None or state.answer.plan is not plan or state.question is None:
+                return state
+            film = Film(state.answer.version, plan, timeline)
+            return replace(state, film=film, playback=state.playback.lasting(self._clock(), timeline.duration_s))
 
-        self._change(change, only_version=version)
+        self._change(change)
 
-    def fail(self, version: int, problem: str) -> None:
+    def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
+        """Put in what the folds of a drawing need; for another drawing it is dropped."""
+
+        def change(state: DocumentState) -> DocumentState:
+            return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
+
+        self._change(change)
+
+    def fail(self, version: int, failure: str) -> None:
         """Put in that a version has no answer at all."""
-        self._change(lambda state: replace(state, problem=problem), only_version=version)
+        self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def play(self) -> None:
         """Let time run; without a solved plan nothing happens."""
@@ -121,6 +156,10 @@ class Document:
     def seek(self, t_s: float) -> None:
         """Go to a time in the plan (s)."""
         self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
+
+    def rewind(self) -> None:
+        """Stop time at the start."""
+        self._change_playback(lambda playback: playback.paused(self._clock()).sought(self._clock(), 0.0))
 
     def set_speed(self, speed: float) -> None:
         """Let time run faster or slower."""
@@ -136,14 +175,36 @@ class Document:
         if playback.is_playing and playback.has_ended(self._clock()):
             self.pause()
 
+    def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
+        """Change the draft; one change at a time, for only this makes new versions."""
+        with self._edits, self._noise():
+            if self._has_ended:
+                raise EndedDocumentError
+            version, draft = self._state.version, self._state.draft
+            if base_version not in (None, version):
+                raise StaleVersionError(base_version, version)
+            after = change(draft)
+            if after is draft:
+                return self._state
+            self._keep(version + 1, after)
+            return self._change(lambda state: state.redrawn(after, self._clock()))
+
+    @contextmanager
+    def _noise(self) -> Iterator[None]:
+        self._is_quiet.clear()
+        try:
+            yield
+        finally:
+            self._is_quiet.set()
+
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
         self._change(lambda state: replace(state, playback=change(state.playback)))
 
-    def _change(self, change: Callable[[DocumentState], DocumentState], only_version: int | None = None) -> None:
+    def _change(self, change: Callable[[DocumentState], DocumentState]) -> DocumentState:
         with self._lock:
-            if only_version not in (None, self._state.version):
-                return
-            self._state = change(self._state)
-            listeners = tuple(self._listeners)
-        for listener in listeners:
-            listener()
+            before, self._state = self._state, change(self._state)
+            after, listeners = self._state, tuple(self._listeners)
+        if after is not before:
+            for listener in listeners:
+                listener()
+        return after

@@ -1,12 +1,11 @@
 """The garments that can be asked for by name: the shipped ones, and one's own in a folder."""
 
 import json
-import os
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.durable_file import write_at_once
 from planner.cloth.garment import NAME_PATTERN, Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, UnknownGarmentError
@@ -58,7 +57,7 @@ class GarmentShelf:
         path = self._path(garment.name)
         is_new = not path.exists()
         self._folder.mkdir(parents=True, exist_ok=True)
-        _write_at_once(path, json.dumps(garment.to_dict(), indent=1))
+        write_at_once(path, json.dumps(garment.to_dict(), indent=1))
         return is_new
 
     def remove(self, name: str) -> None:
@@ -96,29 +95,3 @@ def _read(path: Path) -> Garment:
         return Garment.from_dict(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError, FieldError) as error:
         raise GarmentFileError(f"{path.name}: {error}") from error
-
-
-def _write_at_once(path: Path, text: str) -> None:
-    """The whole file or nothing of it, also when the power fails."""
-    with tempfile.NamedTemporaryFile(
-        "w", encoding="utf-8", dir=path.parent, prefix=f".{path.stem}-", delete=False
-    ) as file:
-        try:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-            Path(file.name).replace(path)
-        except BaseException:
-            Path(file.name).unlink(missing_ok=True)
-            raise
-    _sync_folder(path.parent)
-
-
-def _sync_folder(folder: Path) -> None:
-    if os.name != "posix":
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -1,6 +1,9 @@
-"""A document that is open: with its stage, its player and its planner."""
+"""A document that is open: with its planner, and, once somebody looks at it, its stage and its player."""
 
-from dataclasses import dataclass
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from app.document import Document
 from app.job_pool import JobPool
@@ -8,43 +11,78 @@ from app.plan_store import PlanStore
 from app.player import Player
 from app.replanner import Replanner
 from app.ui.stage import Stage
-from planner.cloth.garment import Garment
-from planner.errors import FoldingError
-from planner.primitives.scene import Scene
 from planner.robot.pr2 import load_robot
 
 ROBOT = "pr2"
 
 
-@dataclass
-class UnknownDocumentError(FoldingError):
-    """No open document has this name."""
-
-    name: str
-
-    def __str__(self) -> str:
-        return f"there is no open document {self.name!r}"
-
-
-@dataclass(frozen=True, slots=True)
 class OpenDocument:
-    """What belongs to an open document."""
+    """What belongs to an open document.
 
-    document: Document
-    stage: Stage
-    player: Player
-    replanner: Replanner
+    Attributes:
+        id: the document's id.
+        document: the document.
+    """
 
-    @staticmethod
-    def open(garment: Garment, pool: JobPool, plans: PlanStore) -> "OpenDocument":
-        """Open a document on a garment, with a stage of its own; its plan is being made when this returns."""
-        scene = Scene()
-        document = Document(garment, scene)
-        stage = Stage(load_robot(ROBOT).card, scene)
-        return OpenDocument(document, stage, Player(document, stage), Replanner(document, pool, plans))
+    def __init__(self, document_id: str, document: Document, pool: JobPool, plans: PlanStore) -> None:
+        """Its plan is being made from now on."""
+        self.id = document_id
+        self.document = document
+        self._card = load_robot(ROBOT).card
+        self._replanner = Replanner(document, pool, plans, len(self._card.arms))
+        self._lock = threading.Lock()
+        self._shown: tuple[Stage, Player] | None = None
+        self._users = 0
+        self._used_s = time.monotonic()
+        self._goodbyes: list[Callable[[], None]] = []
+
+    def show(self) -> Stage:
+        """Its stage; the first who asks waits until it is built."""
+        with self._lock:
+            if self._shown is None:
+                stage = Stage(self._card, self.document.state.drawing.scene)
+                self._shown = (stage, Player(self.document, stage))
+            return self._shown[0]
+
+    @property
+    def unused_s(self) -> float:
+        """How long nobody has used it (s); 0 while somebody does."""
+        with self._lock:
+            return 0.0 if self._users else time.monotonic() - self._used_s
+
+    @contextmanager
+    def in_use(self, say_goodbye: Callable[[], None] = lambda: None) -> Iterator[None]:
+        """Keep it open meanwhile; `say_goodbye` is called if the document is removed nevertheless."""
+        with self._lock:
+            self._users += 1
+            self._goodbyes.append(say_goodbye)
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._users -= 1
+                self._goodbyes.remove(say_goodbye)
+                self._used_s = time.monotonic()
+
+    def say_goodbye(self) -> None:
+        """Tell everybody who uses it that it is no more."""
+        with self._lock:
+            goodbyes = tuple(self._goodbyes)
+        for say_goodbye in goodbyes:
+            say_goodbye()
+
+    def touch(self) -> None:
+        """Somebody has just used it."""
+        with self._lock:
+            self._used_s = time.monotonic()
 
     def close(self) -> None:
         """End all that."""
-        self.replanner.close()
-        self.player.close()
-        self.stage.close()
+        with self._lock:
+            shown, self._shown = self._shown, None
+        self.document.end()
+        self._replanner.close()
+        if shown is not None:
+            stage, player = shown
+            player.close()
+            stage.close()

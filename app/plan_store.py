@@ -45,3 +45,8 @@ class PlanStore:
             if plan_id not in self._plans:
                 raise UnknownPlanError(plan_id)
             return self._plans[plan_id]
+
+    def drop(self, plan_id: str) -> None:
+        """Keep a plan no longer; one that is not there is no fault."""
+        with self._lock:
+            self._plans.pop(plan_id, None)

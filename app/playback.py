@@ -15,7 +15,8 @@ class Playback:
 
     Attributes:
         duration_s: the plan's length (s); 0 when there is none.
-        t_s: the time in the plan at the instant `since_s` (s).
+        t_s: the time in the plan at the instant `since_s` (s); beyond the end of a plan that has become shorter it
+            waits for a longer one.
         since_s: an instant of the wall clock (s).
         is_playing: whether time runs.
         speed: how many seconds of the plan pass in one.
@@ -31,6 +32,12 @@ class Playback:
         """The time in the plan (s), never beyond its ends."""
         ran_s = self.speed * (now_s - self.since_s) if self.is_playing else 0.0
         return min(max(self.t_s + ran_s, 0.0), self.duration_s)
+
+    def lasting(self, now_s: float, duration_s: float) -> "Playback":
+        """The playback of another plan, of this length (s), at the same time in it."""
+        t_s = self.at(now_s) if self.is_playing else self.t_s
+        is_playing = self.is_playing and duration_s > 0.0
+        return replace(self, duration_s=duration_s, t_s=t_s, since_s=now_s, is_playing=is_playing)
 
     def has_ended(self, now_s: float) -> bool:
         """Whether the plan has been played to its end."""

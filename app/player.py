@@ -4,9 +4,12 @@ import logging
 import threading
 import time
 
-from app.document import Document, DocumentState
+from app.document import Document
+from app.document_state import DocumentState, Film
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
+from planner.cloth.garment import Garment
+from planner.plan.plan import Plan
 
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25
@@ -26,6 +29,8 @@ class Player:
         self._is_closed = False
         self._due_s = 0.0
         self._shown: DocumentState | None = None
+        self._plan: Plan | None = None
+        self._spread: Garment | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         self._thread = threading.Thread(target=self._run, name="player", daemon=True)
@@ -63,16 +68,28 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._stage.set_theme(is_dark=state.is_dark)
-        if state.timeline is None:
-            if shown is None or shown.version != state.version or shown.plan is not state.plan:
-                self._show_lying(state)
+        if state.film is None or self._has_left(state, state.film):
+            self._show_spread(state)
             return
-        if shown is None or shown.plan is not state.plan:
-            assert state.plan is not None
-            self._stage.show_plan(state.plan)
-        self._stage.show(state.timeline.at(self._document.t_s))
+        if self._plan is not state.film.plan:
+            self._plan = state.film.plan
+            self._stage.show_scene(state.film.plan.scene)
+            self._stage.show_plan(state.film.plan)
+        self._spread = None
+        self._stage.show(state.film.timeline.at(self._document.t_s))
         self._document.stop_at_end()
 
-    def _show_lying(self, state: DocumentState) -> None:
-        base = next(iter(dict(state.scene.stations).values()))
-        self._stage.show_garment(state.garment, lying_cloth(state.garment, state.scene.table), base)
+    def _has_left(self, state: DocumentState, film: Film) -> bool:
+        """Whether the drawing has gone on from a film that stands at its beginning: the cloth is shown as drawn."""
+        return film.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
+
+    def _show_spread(self, state: DocumentState) -> None:
+        """Show the garment spread out; while the drawing is none, what was shown before stays."""
+        spread, scene = state.solution.spread, state.drawing.scene
+        if spread is None or spread is self._spread:
+            return
+        self._spread, self._plan = spread, None
+        self._stage.show_scene(scene)
+        stations = dict(scene.stations)
+        base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
+        self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)

@@ -1,26 +1,50 @@
-"""Plans a document anew whenever something in it asks for it. The latest wins."""
+"""Plans a document anew whenever its drawing changes. The latest wins.
 
+A search for an older drawing is stopped, with one exception. While somebody drags, the next drawing comes before a
+search is done, and stopping each for the next would never show a plan. So during a gesture a search is given a little
+time to end, and its plan is shown as what it is: that of an older version.
+"""
+
+import logging
 import threading
+import time
+from collections import OrderedDict
 from functools import partial
 
-from app.document import Document, DocumentState
+from app.document import Document
+from app.document_state import DocumentState, Question
+from app.held_folds import held_folds
 from app.job_pool import Job, JobPool, ShouldStop
 from app.plan_store import PlanStore
 from planner import make_plan
-from planner.errors import FoldingError
+from planner.errors import FoldingError, SceneError
+from planner.plan.plan import Plan
+
+PATIENCE_S = 0.5
+"""So long after it began a search may go on although a preview has made it out of date (s)."""
+
+_REMEMBERED = 8
+_GIVE_WAY_S = 0.1
+
+_log = logging.getLogger(__name__)
 
 
 class Replanner:
-    """Watches a document; a search for an older version of it is stopped."""
+    """Watches a document."""
 
-    def __init__(self, document: Document, pool: JobPool, plans: PlanStore) -> None:
+    def __init__(self, document: Document, pool: JobPool, plans: PlanStore, arms: int) -> None:
         """Start the first search at once, in the pool."""
         self._document = document
         self._pool = pool
         self._plans = plans
+        self._arms = arms
+        self._lock = threading.Lock()
         self._version = 0
         self._job: Job[None] | None = None
-        self._lock = threading.Lock()
+        self._asked: DocumentState | None = None
+        self._is_behind = False
+        self._filming: Plan | None = None
+        self._remembered: OrderedDict[Question, Plan] = OrderedDict()
         self._unsubscribe = document.subscribe(self._look)
         self._look()
 
@@ -28,8 +52,7 @@ class Replanner:
         """Search no more."""
         self._unsubscribe()
         with self._lock:
-            if self._job is not None:
-                self._job.stop()
+            self._stop()
 
     def _look(self) -> None:
         state = self._document.state
@@ -37,19 +60,118 @@ class Replanner:
             if state.version <= self._version:
                 return
             self._version = state.version
-            if self._job is not None:
-                self._job.stop()
-            self._job = self._pool.start(partial(self._plan, state))
+            if self._asked is not None and state.question is not None and self._asked.question == state.question:
+                self._is_behind = False
+            elif self._asked is not None and state.draft.gesture is not None:
+                self._is_behind = True
+            else:
+                self._go_on(state)
 
-    def _plan(self, state: DocumentState, should_stop: ShouldStop) -> None:
+    def _go_on(self, state: DocumentState) -> None:
+        """Do what is left to be done for a version, in place of what is being done."""
+        self._stop()
+        if not self._is_settled(state):
+            self._asked = state
+            self._job = self._pool.start(partial(self._work, state, time.monotonic()))
+
+    def _is_settled(self, state: DocumentState) -> bool:
+        """Whether nothing is left to be done for a version."""
+        if state.failure is not None:
+            return True
+        if state.checks is None or state.checks.version != state.version:
+            return False
+        if state.question is None:
+            return True
+        if state.answer is None or not state.is_answered:
+            return False
+        plan, film = state.answer.plan, state.film
+        return not plan.is_solved or self._filming is plan or (film is not None and film.plan is plan)
+
+    def _stop(self) -> None:
+        if self._job is not None:
+            self._job.stop()
+        self._asked, self._job, self._is_behind = None, None, False
+
+    def _work(self, state: DocumentState, began_s: float, should_stop: ShouldStop) -> None:
+        def is_unwanted() -> bool:
+            self._document.give_way(_GIVE_WAY_S)
+            return should_stop() or (self._is_behind and time.monotonic() - began_s > PATIENCE_S)
+
+        plan: Plan | None = None
         try:
-            plan = make_plan(state.garment, state.scene, should_stop=should_stop)
-            timeline = plan.timeline() if plan.primitives else None
+            self._check(state)
+            plan = self._planned(state, is_unwanted)
+        except SceneError as error:
+            self._document.fail(state.version, str(error.within("scene")))
         except FoldingError as error:
             self._document.fail(state.version, str(error))
-            return
         except Exception:
-            self._document.fail(state.version, "The planner failed.")
-            raise
-        if not should_stop():
-            self._document.settle(state.version, plan, self._plans.add(plan), timeline)
+            _log.exception("version %s could not be planned", state.version)
+            self._document.fail(state.version, "the planner failed")
+        film_of = self._to_be_filmed(state, plan)
+        if film_of is not None:
+            self._film(film_of)
+
+    def _to_be_filmed(self, state: DocumentState, plan: Plan | None) -> Plan | None:
+        """The plan that a search ended with, if it is shown now; if something else is wanted by now, that is begun."""
+        with self._lock:
+            if self._asked is not state:
+                return None
+            now = self._document.state
+            is_shown = now.answer is not None and now.answer.plan is plan and now.is_answered
+            self._asked = self._job = None
+            self._filming = plan if plan is not None and plan.is_solved and is_shown else None
+            self._go_on(now)
+            return self._filming
+
+    def _film(self, plan: Plan) -> None:
+        timeline = None
+        try:
+            timeline = plan.timeline()
+        except Exception:
+            _log.exception("a plan could not be filmed")
+        with self._lock:
+            self._filming = None
+        if timeline is not None:
+            self._document.show_film(plan, timeline)
+
+    def _check(self, state: DocumentState) -> None:
+        if state.checks is None or state.checks.version != state.version:
+            self._document.put_checks(state.drawing, tuple(held_folds(state.solution, self._arms)))
+
+    def _planned(self, state: DocumentState, is_unwanted: ShouldStop) -> Plan | None:
+        """The answer, once it is published; None when there is nothing to plan, or nobody wants it any more."""
+        question = state.question
+        if question is None or is_unwanted():
+            return None
+        plan = self._remembered.get(question)
+        if plan is None:
+            plan = make_plan(
+                question.garment,
+                question.scene,
+                start_station=question.start_station,
+                comfort_radius_m=question.comfort_radius_m,
+                should_stop=is_unwanted,
+            )
+            if is_unwanted():
+                return None
+            if plan.status != "budget_exceeded":  # with more time, or on a quieter machine, there may be one
+                self._remember(question, plan)
+        self._publish(state.version, question, plan)
+        return plan
+
+    def _remember(self, question: Question, plan: Plan) -> None:
+        with self._lock:
+            self._remembered[question] = plan
+            while len(self._remembered) > _REMEMBERED:
+                self._remembered.popitem(last=False)
+
+    def _publish(self, version: int, question: Question, plan: Plan) -> None:
+        """Show the plan; one made for a preview need not be readable any more when it is not shown any more."""
+        before, plan_id = self._document.state.answer, self._plans.add(plan)
+        self._document.settle(version, question, plan, plan_id)
+        state = self._document.state
+        kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
+        for made in {plan_id} if before is None else {plan_id, before.plan_id}:
+            if made not in kept:
+                self._plans.drop(made)

@@ -1,6 +1,7 @@
 """Serves the designer on one address, until it is told to stop."""
 
 import socket
+import sys
 from collections.abc import Callable
 
 import uvicorn
@@ -10,6 +11,9 @@ from app.settings import Settings
 
 _LARGEST_MESSAGE = 4 << 20
 _GRACE_S = 1
+_SWITCH_S = 0.0001
+"""How long a thread keeps the interpreter (s). A request changes threads several times, each time waiting so long for a
+search that runs meanwhile; Python's own 5 ms would be felt."""
 
 
 class _AnnouncingServer(uvicorn.Server):
@@ -31,6 +35,7 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
     Raises:
         OSError: the address cannot be listened on.
     """
+    sys.setswitchinterval(_SWITCH_S)
     with _listening(settings.host, settings.port) as listener:
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
         config = uvicorn.Config(

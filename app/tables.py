@@ -1,17 +1,32 @@
 """What the command line prints for people."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rich.table import Table
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Point2
-from planner.plan.garment_check import GarmentCheck
+from planner.plan.garment_check import FoldCheck, GarmentCheck
 from planner.plan.plan import Plan
 from planner.plan.suggestion import Suggestion
+from planner.plan.vertex_check import Support
 
 _POINTS_SHOWN = 4
+
+_SUPPORTS = {
+    Support.HANGS_FREELY: "must be held, hanging freely: nothing above",
+    Support.ON_THE_LINE: "need not, on the fold line",
+    Support.CLOTH_ABOVE: "need not, held by the cloth above",
+    Support.CLOTH_NEARLY_ABOVE: "need not, held by the cloth nearly straight above",
+    Support.WITHIN_THE_HULL: "need not, held by the cloth on both sides: no corner of the convex hull",
+}
+"""In words, those first that must be held."""
+
+_WHY = (
+    '"Above" leads away from the fold line: so the part hangs while it is folded. A corner of its convex hull must be '
+    "held unless it is on the line or going up from it leads into the cloth."
+)
 
 
 def plan_table(plan: Plan) -> Table:
@@ -53,16 +68,39 @@ def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
 
 
 def check_table(garment: Garment, report: GarmentCheck) -> Table:
-    """What must be held in each fold, and by how many grippers."""
-    table = _table(f"{garment.title}: a good file, {len(report.folds)} legal folds")
+    """For each fold by how many grippers it can be held, and which corners must be held, and why."""
+    width, height = report.size_m
+    table = _table(
+        f"{garment.title}: a good file, {len(report.folds)} legal fold{'' if len(report.folds) == 1 else 's'}; "
+        f"outline of {report.points} points, {width:.3f} x {height:.3f} m, {report.area_m2:.3f} m2"
+    )
+    table.caption, table.caption_justify = _WHY, "left"
     table.add_column("fold", justify="right")
     table.add_column("name")
+    table.add_column("kind")
     table.add_column("grippers", justify="right")
-    table.add_column("must be held [m]")
+    table.add_column("corners of the part that moves [m]")
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
-        table.add_row(str(index), fold.name, needed, _points(fold.must_hold))
+        kind = "red" if fold.is_red else "blue"
+        lines = [*_corners(fold), _held_at(fold, garment.folds[index].grip_radius_m)]
+        table.add_row(str(index), fold.name, kind, needed, "\n".join(lines), end_section=True)
     return table
+
+
+def _corners(fold: FoldCheck) -> Iterator[str]:
+    """The corners that must be held, then those that need not be, each with the reason."""
+    for support, why in _SUPPORTS.items():
+        points = [vertex.point for vertex in fold.vertices if vertex.support is support]
+        if points:
+            yield f"{_points(points)}: {why}"
+
+
+def _held_at(fold: FoldCheck, radius_m: float) -> str:
+    """Where the hands take hold, or what keeps them from it."""
+    if fold.problem is not None or not fold.grips:
+        return fold.problem or "nothing must be held"
+    return f"held at {_points(fold.grips)}: a grip holds what is within {radius_m:g} m"
 
 
 def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:

@@ -1,13 +1,27 @@
-"""All that the server holds while it runs: garments, plans, searches, open documents."""
+"""All that the server holds while it runs: garments, documents, plans, searches."""
 
+import logging
+import threading
+
+from app.document import Document
+from app.document_shelf import DocumentShelf
+from app.drawing.draft import Draft, draft_of
+from app.drawing.drawing import Drawing
+from app.drawing.garment_drawing import drawing_of
 from app.garment_shelf import GarmentShelf
 from app.job_pool import JobPool
-from app.open_document import OpenDocument, UnknownDocumentError
+from app.open_document import OpenDocument
 from app.plan_store import PlanStore
 from app.settings import Settings
+from planner.errors import FoldingError
 
-FIRST_DOCUMENT = "main"
 FIRST_GARMENT = "t-shirt"
+UNUSED_S = 60.0
+"""So long a document stays open that nobody uses (s)."""
+
+_LOOK_EVERY_S = 10.0
+
+_log = logging.getLogger(__name__)
 
 
 class Workspace:
@@ -15,31 +29,102 @@ class Workspace:
 
     Attributes:
         garments: the garments that can be asked for by name.
+        documents: the documents on the disk.
         plans: the plans made so far.
-        pool: where searches run.
+        pool: where searches run that were asked for.
     """
 
     def __init__(self, settings: Settings) -> None:
         """Nothing is open yet."""
         self.garments = GarmentShelf(settings.data / "garments")
+        self.documents = DocumentShelf(settings.data / "documents")
         self.plans = PlanStore()
         self.pool = JobPool()
+        self._live = JobPool()
         self._open: dict[str, OpenDocument] = {}
+        self._lock = threading.RLock()
+        self._closing = threading.Event()
 
-    def open_first(self) -> None:
-        """Open the document that the page shows."""
-        garment = self.garments.garment(FIRST_GARMENT)
-        self._open[FIRST_DOCUMENT] = OpenDocument.open(garment, self.pool, self.plans)
+    def start(self) -> None:
+        """Open the document that the page shows first, and from now on close what nobody uses."""
+        try:
+            self.opened(self.first()).show()
+        except FoldingError as error:
+            _log.error("no document could be opened: %s", error)
+        threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
 
-    def opened(self, name: str) -> OpenDocument:
-        """An open document; raises `UnknownDocumentError`."""
-        if name not in self._open:
-            raise UnknownDocumentError(name)
-        return self._open[name]
+    def first(self) -> str:
+        """The document to begin with: the last one, or a new one when there is none that can be opened."""
+        with self._lock:
+            for document_id in self.documents.recent():
+                try:
+                    return self.opened(document_id).id
+                except FoldingError as error:
+                    _log.warning("%s", error)
+            return self.create(drawing_of(self.garments.garment(FIRST_GARMENT))).id
+
+    def create(self, drawing: Drawing) -> OpenDocument:
+        """A new document, open and on the disk."""
+        with self._lock:
+            document_id = self.documents.new_id()
+            draft = draft_of(drawing)
+            self.documents.keeper(document_id).keep(1, draft)
+            return self._open_as(document_id, 1, draft)
+
+    def opened(self, document_id: str) -> OpenDocument:
+        """A document, opened if it is not open.
+
+        Raises:
+            UnknownDocumentError: there is none of this id.
+            BrokenDocumentError: its file cannot be read.
+        """
+        with self._lock:
+            if document_id not in self._open:
+                self._open_as(document_id, *self.documents.kept(document_id))
+            opened = self._open[document_id]
+            opened.touch()
+            return opened
+
+    def remove(self, document_id: str) -> None:
+        """Remove a document for good; who uses it is told. Raises `UnknownDocumentError`."""
+        with self._lock:
+            opened = self._open.pop(document_id, None)
+            if opened is not None:
+                opened.document.end()
+            self.documents.remove(document_id)
+        if opened is not None:
+            opened.say_goodbye()
+            opened.close()
+
+    def close_unused(self, unused_s: float = UNUSED_S) -> None:
+        """Close the documents that nobody has used for so long (s)."""
+        with self._lock:
+            unused = [opened for opened in self._open.values() if opened.unused_s > unused_s]
+            for opened in unused:
+                del self._open[opened.id]
+        for opened in unused:
+            opened.close()
 
     def close(self) -> None:
         """Stop every search and close every document."""
+        self._closing.set()
         self.pool.close()
-        for opened in self._open.values():
+        self._live.close()
+        with self._lock:
+            open_documents = tuple(self._open.values())
+            self._open.clear()
+        for opened in open_documents:
             opened.close()
-        self._open.clear()
+
+    def _open_as(self, document_id: str, version: int, draft: Draft) -> OpenDocument:
+        keeper = self.documents.keeper(document_id)
+        document = Document(draft, version=version, keep=keeper.keep)
+        self._open[document_id] = OpenDocument(document_id, document, self._live, self.plans)
+        return self._open[document_id]
+
+    def _look_after(self) -> None:
+        while not self._closing.wait(_LOOK_EVERY_S):
+            try:
+                self.close_unused()
+            except Exception:
+                _log.exception("what nobody uses could not be closed")

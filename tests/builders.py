@@ -3,6 +3,7 @@
 import math
 import random
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -12,6 +13,7 @@ from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import DrawnFold, Garment, centred_placement
 from planner.cloth.layer import Layer
 from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, Pose2
 from planner.geometry.region import Region
 from planner.primitives.scene import Scene
@@ -69,9 +71,10 @@ def is_same_stack(one: ClothState, other: ClothState) -> bool:
 
 
 def is_same_layer(one: Layer, other: Layer) -> bool:
-    a, b = one.isometry, other.isometry
-    gaps = [abs(getattr(a, name) - getattr(b, name)) for name in ("a", "b", "c", "d", "x", "y")]
-    return max(gaps) < 1e-5 and is_same_region(one.pattern_piece, other.pattern_piece)
+    corners = one.pattern_piece.coordinates
+    gaps = one.isometry.apply(corners) - other.isometry.apply(corners)
+    is_same_place = one.face == other.face and float(np.abs(gaps).max()) < 1e-5
+    return is_same_place and is_same_region(one.pattern_piece, other.pattern_piece)
 
 
 def is_same_region(one: Region, other: Region, area_m2: float = 2e-5) -> bool:
@@ -106,11 +109,55 @@ class WideReach:
         row = connected(row, count, start)
         return np.array([row] * len(approaches), dtype=np.uint32).reshape(len(approaches), len(points))
 
+    def following(
+        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
+    ) -> "WideFollowing":
+        return WideFollowing(self._allowed, arms, paths)
+
     def from_anywhere(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
     ) -> BoolArray:
         seen = [any(self._allowed(arm, point, j) for j in range(count)) for point in points]
         return np.array([seen] * len(approaches), dtype=bool).reshape(len(approaches), len(points))
+
+
+@dataclass(frozen=True)
+class WideFollowing:
+    """Hands of such a robot on their paths: every approach is as good, so the first of each hand will do."""
+
+    allowed: Callable[[int, FloatArray, int], bool]
+    arms: tuple[int, ...]
+    paths: FloatArray
+
+    def least_driving(
+        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
+    ) -> Driving:
+        """All ways by relaxation over waypoints and back-offs; `most` is not made use of."""
+        count = len(begun)
+        first = np.arange(count)
+        steps = begun.copy()
+        for waypoint in range(self.paths.shape[1]):
+            hands = list(zip(self.arms, self.paths[:, waypoint], strict=True))
+            is_good = [all(self.allowed(arm, point, j) for arm, point in hands) for j in range(count)]
+            steps = np.where(is_good, steps, IMPOSSIBLE)
+            for _ in range(count):
+                for j, beside in [(j, j + side) for j in range(count) for side in (-1, 1) if 0 <= j + side < count]:
+                    if is_good[j] and steps[beside] + 1 < steps[j]:
+                        steps[j], first[j] = steps[beside] + 1, first[beside]
+        if wanted == "unbeaten":
+            driven = [
+                min(steps[o] + abs(o - e) for o in range(count) if o != e) if count > 1 else IMPOSSIBLE
+                for e in range(count)
+            ]
+            steps = np.where(steps < driven, steps, IMPOSSIBLE)
+        steps = np.minimum(steps, IMPOSSIBLE)
+        return Driving(steps, first, np.zeros((len(self.arms), count), dtype=np.int64), IMPOSSIBLE)
 
 
 def connected(row: list[int], count: int, start: int | None = None) -> list[int]:

@@ -1,18 +1,24 @@
-"""What all tests share: which need a browser, where it is, and how many random cases are tried."""
+"""What all tests share: which need a browser, where it is, how many random cases are tried and were."""
 
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.laws.law import LONG, TRIED
+
 BROWSER_TESTS = Path(__file__).parent / "browser"
+CASES = "cases"
 SYSTEM_CHROMIUM = Path("/usr/bin/chromium")
 
 # The same random cases on every machine and run; no deadline, because a shared machine has slow moments.
 settings.register_profile(
     "default", derandomize=True, deadline=None, max_examples=50, suppress_health_check=[HealthCheck.too_slow]
 )
-settings.register_profile("long", settings.get_profile("default"), derandomize=False, max_examples=1000)
+settings.register_profile(LONG, settings.get_profile("default"), max_examples=1000)
 settings.load_profile("default")
 
 
@@ -20,6 +26,34 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if BROWSER_TESTS in item.path.parents:
             item.add_marker("browser")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """Send the number of cases along with the test's report: it may be made in another process."""
+    before = Counter(TRIED)
+    try:
+        yield
+    finally:
+        if TRIED - before:
+            item.user_properties.append((CASES, dict(TRIED - before)))
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """How many random cases the laws were tried on, and how many laws failed."""
+    tried: Counter[str] = Counter()
+    outcomes: Counter[str] = Counter()
+    for outcome in ("passed", "failed"):
+        for report in terminalreporter.getreports(outcome):
+            for name, cases in report.user_properties:
+                if name == CASES and report.when == "call":
+                    tried.update(cases)
+                    outcomes[outcome] += 1
+    if tried:
+        cases = ", ".join(f"{count:,} {kind} cases" for kind, count in sorted(tried.items()))
+        held, failed = outcomes["passed"], outcomes["failed"]
+        terminalreporter.write_sep("-", "laws")
+        terminalreporter.write_line(f"{cases}: {held} laws held, {failed} failed")
 
 
 @pytest.fixture(scope="session")

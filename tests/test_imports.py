@@ -30,6 +30,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "shapely": ("planner.geometry",),
     "networkx": ("planner.folds", "planner.primitives"),
     "pinocchio": ("planner.robot",),
+    "coal": ("planner.robot",),
     "numba": ("planner.robot", "planner.primitives"),
     "yourdfpy": ("app.ui",),
     "trimesh": ("app.ui",),

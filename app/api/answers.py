@@ -137,6 +137,19 @@ class ReasonAnswer(BaseModel):
     fold: int | None
     code: str
     message: str
+    cause: str | None
+    joint: str | None
+    point: Point3 | None
+    short_by_m: float | None
+    towards: Point3 | None
+    arm: str | None
+    station: str | None
+    back_off_m: float | None
+    shift_m: float | None
+    shift_towards: Point3 | None
+    comfort_m: float | None
+    needed_friction: float | None
+    needed_grip_radius_m: float | None
 
 
 class PlanAnswer(BaseModel):

@@ -19,24 +19,30 @@ LARGEST_BODY = 1 << 20
 Model = TypeVar("Model", bound=StrictModel)
 
 
-async def read_model(request: Request, model: type[Model]) -> Model:
-    """The body as a model; raises what `read_object` does, and `RequestError` with the first wrong field."""
-    data = await read_object(request)
+async def read_model(request: Request, model: type[Model], *, may_be_empty: bool = False) -> Model:
+    """The body as a model; raises what `read_object` does, and `RequestError` with the first wrong field.
+
+    A body that may be empty and is counts as an object without fields.
+    """
+    data = await read_object(request, may_be_empty=may_be_empty)
     try:
         return model.model_validate(data)
     except ValidationError as error:
         raise first_error(error, RequestError) from None
 
 
-async def read_object(request: Request) -> dict[str, Any]:
+async def read_object(request: Request, *, may_be_empty: bool = False) -> dict[str, Any]:
     """The body as a JSON object.
 
     Raises:
         TooLargeError: it has more than `LARGEST_BODY` bytes.
         RequestError: it is not called JSON, is no JSON, or no object.
     """
+    body = await _bytes(request)
+    if may_be_empty and not body:
+        return {}
     _require_json_type(request.headers.get("content-type"))
-    data = parsed(await _bytes(request))
+    data = parsed(body)
     if not isinstance(data, dict):
         raise RequestError("body", "the body is not a JSON object")
     return data

@@ -7,7 +7,16 @@ from fastapi import FastAPI
 from fastapi.concurrency import run_in_threadpool
 from fastapi_offline import FastAPIOffline
 
-from app.api import garment_routes, live, page_routes, plan_routes, scene_routes, stage_routes, suggestion_routes
+from app.api import (
+    document_routes,
+    garment_routes,
+    live,
+    page_routes,
+    plan_routes,
+    scene_routes,
+    stage_routes,
+    suggestion_routes,
+)
 from app.api.described import describe_problem
 from app.api.guard import OwnNamesOnly
 from app.api.problems import install_problems
@@ -21,7 +30,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        await run_in_threadpool(workspace.open_first)
+        await run_in_threadpool(workspace.start)
         try:
             yield
         finally:
@@ -36,7 +45,16 @@ def create_app(settings: Settings) -> FastAPI:
         lifespan=lifespan,
     )
     app.state.workspace = workspace
-    for routes in (scene_routes, garment_routes, plan_routes, suggestion_routes, live, stage_routes, page_routes):
+    for routes in (
+        scene_routes,
+        garment_routes,
+        plan_routes,
+        suggestion_routes,
+        document_routes,
+        live,
+        stage_routes,
+        page_routes,
+    ):
         app.include_router(routes.router)
     page_routes.mount_files(app)
     install_problems(app)

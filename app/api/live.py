@@ -1,74 +1,69 @@
 """The page's websocket: the document's state goes out, commands come in.
 
-Out: a ``document`` message at the start and whenever garment or plan change, a ``playback`` message whenever
-the clock is touched and ten times a second while it runs. In: commands (`app.api.messages`); one that is not
-understood is answered with a ``problem`` and changes nothing.
+Out: a ``document`` message at the start and whenever the drawing or its history changes, a ``plan`` message whenever
+the answer to it does, a ``playback`` message whenever the clock is touched and ten times a second while it runs. In:
+commands (`app.api.messages`); one that is not understood is answered with a ``problem`` and changes nothing.
 """
 
 import asyncio
 import contextlib
+import json
+from collections.abc import Callable
 
 from fastapi import APIRouter, WebSocket
 from fastapi.concurrency import run_in_threadpool
-from pydantic import ValidationError
 from starlette.websockets import WebSocketDisconnect
 
 from app.api.body import parsed
-from app.api.live_messages import document_message, playback_message, problem_message
-from app.api.messages import COMMANDS, Choose, Pause, Play, Seek, SetSpeed, SetTheme
-from app.document import Document
-from app.open_document import UnknownDocumentError
+from app.api.commands import command_of, obey
+from app.api.live_messages import document_message, plan_message, playback_message, problem_message
+from app.document_state import DocumentState
+from app.open_document import OpenDocument
 from app.workspace import Workspace
-from planner.errors import FoldingError, RequestError
-from planner.strict_model import first_error
+from planner.errors import FoldingError
 
 router = APIRouter()
 
-_NOT_FOUND = 4404
+NOT_FOUND = 4404
 _TICK_S = 0.1
 
 
-@router.websocket("/api/documents/{name}/live")
-async def live(websocket: WebSocket, name: str) -> None:
+@router.websocket("/api/documents/{document_id}/live")
+async def live(websocket: WebSocket, document_id: str) -> None:
     """Keep a page up to date and do what it says, until it goes."""
     workspace: Workspace = websocket.app.state.workspace
     try:
-        document = workspace.opened(name).document
-    except UnknownDocumentError:
-        await websocket.close(_NOT_FOUND)
+        opened = await run_in_threadpool(workspace.opened, document_id)
+    except FoldingError:
+        await websocket.accept()
+        await websocket.close(NOT_FOUND)
         return
     await websocket.accept()
-    ways = [
-        asyncio.create_task(_tell(websocket, name, document)),
-        asyncio.create_task(_listen(websocket, workspace, document)),
-    ]
-    try:
-        await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        for way in ways:
-            way.cancel()
-        await asyncio.gather(*ways, return_exceptions=True)
+    is_removed = asyncio.Event()
+    with opened.in_use(_waking(is_removed)):
+        ways = [
+            asyncio.create_task(_tell(websocket, opened)),
+            asyncio.create_task(_listen(websocket, workspace, opened)),
+            asyncio.create_task(_close(websocket, is_removed)),
+        ]
+        try:
+            await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for way in ways:
+                way.cancel()
+            await asyncio.gather(*ways, return_exceptions=True)
 
 
-async def _tell(websocket: WebSocket, name: str, document: Document) -> None:
+async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
     changed = asyncio.Event()
-    loop = asyncio.get_running_loop()
-
-    def wake() -> None:
-        with contextlib.suppress(RuntimeError):  # the loop has ended
-            loop.call_soon_threadsafe(changed.set)
-
-    unsubscribe = document.subscribe(wake)
-    told: tuple[object, ...] = ()
+    unsubscribe = opened.document.subscribe(_waking(changed))
+    telling = _Telling(opened)
     try:
         while True:
             changed.clear()
-            state = document.state
-            current = (state.version, state.plan, state.problem)
-            if current != told:
-                told = current
-                await websocket.send_json(await run_in_threadpool(document_message, name, state))
-            await websocket.send_json(playback_message(state, document.t_s))
+            state = opened.document.state
+            for text in await run_in_threadpool(telling.news, state):
+                await websocket.send_text(text)
             timeout_s = _TICK_S if state.playback.is_playing else None
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(changed.wait(), timeout_s)
@@ -78,31 +73,57 @@ async def _tell(websocket: WebSocket, name: str, document: Document) -> None:
         unsubscribe()
 
 
-async def _listen(websocket: WebSocket, workspace: Workspace, document: Document) -> None:
+class _Telling:
+    """What one page knows."""
+
+    def __init__(self, opened: OpenDocument) -> None:
+        self._opened = opened
+        self._document: object = None
+        self._plan: object = None
+        self._playback: object = None
+
+    def news(self, state: DocumentState) -> list[str]:
+        """The messages that it needs, as JSON."""
+        told = []
+        document = (state.version, state.draft)
+        if document != self._document:
+            told.append(document_message(self._opened.id, state))
+        plan = (state.version, state.answer, state.checks, state.failure)
+        if plan != self._plan:
+            told.append(plan_message(state))
+        playback = (state.playback, state.film)
+        if playback != self._playback or state.playback.is_playing:
+            told.append(playback_message(state, self._opened.document.t_s))
+        self._document, self._plan, self._playback = document, plan, playback
+        return [json.dumps(message) for message in told]
+
+
+async def _listen(websocket: WebSocket, workspace: Workspace, opened: OpenDocument) -> None:
     with contextlib.suppress(WebSocketDisconnect, KeyError):
         while True:
             text = await websocket.receive_text()
             try:
-                await run_in_threadpool(_obey, text, workspace, document)
+                await run_in_threadpool(_obey, text, workspace, opened)
             except FoldingError as error:
                 await websocket.send_json(problem_message(error))
 
 
-def _obey(text: str, workspace: Workspace, document: Document) -> None:
-    try:
-        command = COMMANDS.validate_python(parsed(text))
-    except ValidationError as error:
-        raise first_error(error, RequestError) from None
-    match command:
-        case Play():
-            document.play()
-        case Pause():
-            document.pause()
-        case Seek(t_s=t_s):
-            document.seek(t_s)
-        case SetSpeed(speed=speed):
-            document.set_speed(speed)
-        case SetTheme(dark=is_dark):
-            document.set_theme(is_dark=is_dark)
-        case Choose(garment=name):
-            document.choose(workspace.garments.garment(name))
+def _obey(text: str, workspace: Workspace, opened: OpenDocument) -> None:
+    obey(command_of(parsed(text)), workspace, opened.document)
+
+
+async def _close(websocket: WebSocket, is_removed: asyncio.Event) -> None:
+    await is_removed.wait()
+    with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+        await websocket.close(NOT_FOUND)
+
+
+def _waking(event: asyncio.Event) -> Callable[[], None]:
+    """What sets an event of this loop from any thread."""
+    loop = asyncio.get_running_loop()
+
+    def wake() -> None:
+        with contextlib.suppress(RuntimeError):  # the loop has ended
+            loop.call_soon_threadsafe(event.set)
+
+    return wake

@@ -1,31 +1,50 @@
-"""What the page is told about a document."""
+"""What pages are told about a document: three messages, each when what it is about has changed."""
 
 from typing import Any
 
-from app.document import DocumentState
+from app.document_state import Answer, Checks, DocumentState
+from app.drawing.drawing_json import drawing_to_dict
+from app.drawing.garment_json import garment_to_dict
 from planner.errors import FoldingError
 
 
-def document_message(name: str, state: DocumentState) -> dict[str, Any]:
-    """Garment, plan and status."""
-    plan = None if state.plan is None else {"id": state.plan_id, **state.plan.to_dict()}
+def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
+    """What is drawn, what it comes to, what is wrong with it, what can be undone."""
+    solution, history, gesture = state.solution, state.draft.history, state.draft.gesture
     return {
         "kind": "document",
-        "name": name,
+        "id": document_id,
         "version": state.version,
-        "garment": state.garment.to_dict(),
+        "drawing": drawing_to_dict(state.drawing),
+        "garment": garment_to_dict(state.drawing),
+        "solved": solution.fold_states(),
+        "steps": solution.steps,
+        "problems": [problem.to_dict() for problem in solution.problems],
+        "history": {"can_undo": history.can_undo, "can_redo": history.can_redo},
+        "gesture": None if gesture is None else gesture.label,
+    }
+
+
+def plan_message(state: DocumentState) -> dict[str, Any]:
+    """The answer to the drawing; while that is being worked out, the one before."""
+    is_shown = state.answer is not None and not state.solution.problems
+    return {
+        "kind": "plan",
+        "version": state.version,
         "status": status_word(state),
         "text": status_text(state),
-        "plan": plan,
+        "plan": _answer(state, state.answer) if is_shown and state.answer is not None else None,
+        "before": None if state.before is None else _figures(state.before),
+        "checks": None if state.checks is None else _checks(state.checks),
     }
 
 
 def playback_message(state: DocumentState, t_s: float) -> dict[str, Any]:
-    """The clock."""
+    """The clock, and the version whose plan is played."""
     playback = state.playback
     return {
         "kind": "playback",
-        "version": state.version,
+        "version": None if state.film is None else state.film.version,
         "t_s": t_s,
         "duration_s": playback.duration_s,
         "playing": playback.is_playing,
@@ -39,19 +58,23 @@ def problem_message(error: FoldingError) -> dict[str, Any]:
 
 
 def status_word(state: DocumentState) -> str:
-    """``planning``, ``failed``, or the plan's own status."""
-    if state.problem is not None:
+    """``illegal``, ``failed``, ``planning``, or the plan's own status."""
+    if state.solution.problems:
+        return "illegal"
+    if state.failure is not None:
         return "failed"
-    return "planning" if state.plan is None else state.plan.status
+    return state.answer.plan.status if state.answer is not None and state.is_answered else "planning"
 
 
 def status_text(state: DocumentState) -> str:
     """The status as a person reads it."""
-    if state.problem is not None:
-        return f"No plan: {state.problem}"
-    plan = state.plan
-    if plan is None:
+    if state.solution.problems:
+        return f"No plan: {state.solution.problems[0].text}"
+    if state.failure is not None:
+        return f"No plan: {state.failure}"
+    if state.answer is None or not state.is_answered:
         return "Planning..."
+    plan = state.answer.plan
     if plan.status == "solved":
         count = len(plan.primitives)
         return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
@@ -59,3 +82,23 @@ def status_text(state: DocumentState) -> str:
         return "No plan: the time for searching ran out"
     first = next((reason.message for reason in plan.reasons if reason.message), None)
     return f"No plan: {first}" if first else "No plan"
+
+
+def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:
+    return {"version": answer.version, "is_stale": answer.version != state.version, "id": answer.plan_id, **answer.body}
+
+
+def _figures(answer: Answer) -> dict[str, Any]:
+    return {"version": answer.version, "status": answer.plan.status, "cost_s": answer.plan.cost_s}
+
+
+def _checks(checks: Checks) -> dict[str, Any]:
+    folds = [
+        {
+            "must_hold": [list(point) for point in fold.must_hold],
+            "grips": [list(point) for point in fold.grips],
+            "grips_needed": fold.grips_needed,
+        }
+        for fold in checks.folds
+    ]
+    return {"version": checks.version, "folds": folds}

@@ -1,6 +1,6 @@
 """What clients send: the bodies of requests, and the page's commands."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, PlainValidator, TypeAdapter, WithJsonSchema
 from pydantic_core import PydanticCustomError
@@ -99,5 +99,5 @@ class Choose(StrictModel):
     garment: str
 
 
-Command = Annotated[Play | Pause | Seek | SetSpeed | SetTheme | Choose, Field(discriminator="do")]
-COMMANDS: TypeAdapter[Play | Pause | Seek | SetSpeed | SetTheme | Choose] = TypeAdapter(Command)
+Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose
+COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])

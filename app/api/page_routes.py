@@ -1,10 +1,17 @@
-"""The page at `/` and its files."""
+"""The page at `/d/{document}` and its files; `/` leads to the document opened last."""
 
-from fastapi import APIRouter, FastAPI
-from starlette.responses import FileResponse, Response
+import contextlib
+from http import HTTPStatus
+
+from fastapi import APIRouter, FastAPI, Request
+from fastapi.concurrency import run_in_threadpool
+from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 
+from app.api.asked import workspace_of
 from app.resources import static_dir
+from app.workspace import Workspace
+from planner.errors import FoldingError
 
 router = APIRouter(include_in_schema=False)
 
@@ -12,9 +19,28 @@ _FRESH = {"cache-control": "no-cache"}
 
 
 @router.get("/")
-async def read_page() -> Response:
-    """The designer."""
-    return FileResponse(static_dir() / "index.html", headers=_FRESH)
+async def read_first_page(request: Request) -> Response:
+    """The document that was opened last, or a new one."""
+    document_id = await run_in_threadpool(workspace_of(request).first)
+    return RedirectResponse(f"/d/{document_id}", headers=_FRESH)
+
+
+@router.get("/d/{document_id}")
+async def read_page(request: Request, document_id: str) -> Response:
+    """The designer on a document; one that is not there is told of on the page."""
+    status = await run_in_threadpool(_remembered, workspace_of(request), document_id)
+    return FileResponse(static_dir() / "index.html", status_code=status, headers=_FRESH)
+
+
+def _remembered(workspace: Workspace, document_id: str) -> int:
+    """Remember the document as the one opened last; the page's status."""
+    try:
+        workspace.opened(document_id)
+    except FoldingError:
+        return HTTPStatus.NOT_FOUND
+    with contextlib.suppress(OSError):  # then `/` leads to another one
+        workspace.documents.remember_last(document_id)
+    return HTTPStatus.OK
 
 
 class FreshFiles(StaticFiles):

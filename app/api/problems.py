@@ -3,7 +3,7 @@
 import http
 import json
 import logging
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 
 from fastapi import FastAPI, Request
@@ -12,7 +12,9 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
-from app.open_document import UnknownDocumentError
+from app.document import EndedDocumentError
+from app.document_keeper import UnkeptDocumentError
+from app.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
 from app.plan_store import UnknownPlanError
 from planner.errors import (
     FieldError,
@@ -31,6 +33,10 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
     UnknownPlanError: 404,
     UnknownDocumentError: 404,
+    EndedDocumentError: 404,
+    BrokenDocumentError: 422,
+    UnreadableDocumentError: 422,
+    UnkeptDocumentError: 507,
     ReadOnlyGarmentError: 409,
     UnsolvedPlanError: 409,
     GarmentFileError: 422,
@@ -65,11 +71,13 @@ class ProblemResponse(Response):
         detail: str,
         errors: Sequence[dict[str, str]] = (),
         headers: dict[str, str] | None = None,
+        members: Mapping[str, Any] | None = None,
     ) -> None:
-        """The title is the status in words; `errors` only when there are some."""
+        """The title is the status in words; `errors` only when there are some; `members` are further ones."""
         problem: dict[str, Any] = {"title": _title(status), "status": status, "detail": detail}
         if errors:
             problem["errors"] = list(errors)
+        problem.update(members or {})
         super().__init__(json.dumps(problem).encode("ascii"), status, headers)
 
 

@@ -10,15 +10,18 @@ import contextlib
 import functools
 
 from fastapi import APIRouter, Request, WebSocket
+from fastapi.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.websockets import WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from app.open_document import UnknownDocumentError
+from app.api.asked import workspace_of
 from app.ui.private_viser import LOOPBACK, SECRET_HEADER, VISER_PAGE
 from app.ui.stage import Stage
+from app.workspace import Workspace
+from planner.errors import FoldingError
 
 router = APIRouter(prefix="/viser", include_in_schema=False)
 
@@ -33,14 +36,14 @@ _HIDE = (
 @router.get("/{name}/")
 async def read_stage_page(request: Request, name: str) -> Response:
     """The page that shows a stage."""
-    request.app.state.workspace.opened(name)
+    await run_in_threadpool(workspace_of(request).opened, name)
     return HTMLResponse(_bare_page(), headers={"cache-control": "no-cache"})
 
 
 @router.get("/{name}")
 async def redirect_to_stage_page(request: Request, name: str) -> Response:
     """The page's address has a slash at the end."""
-    request.app.state.workspace.opened(name)
+    await run_in_threadpool(workspace_of(request).opened, name)
     return RedirectResponse(request.url.path + "/")
 
 
@@ -48,12 +51,14 @@ async def redirect_to_stage_page(request: Request, name: str) -> Response:
 @router.websocket("/{name}/")
 async def connect_stage(websocket: WebSocket, name: str) -> None:
     """Pass messages on, both ways, until either side is done."""
+    workspace: Workspace = websocket.app.state.workspace
     try:
-        stage = websocket.app.state.workspace.opened(name).stage
-    except UnknownDocumentError:
+        opened = await run_in_threadpool(workspace.opened, name)
+    except FoldingError:
         await websocket.close(_NOT_FOUND)
         return
-    with contextlib.suppress(OSError, WebSocketException, WebSocketDisconnect):
+    with opened.in_use(), contextlib.suppress(OSError, WebSocketException, WebSocketDisconnect):
+        stage = await run_in_threadpool(opened.show)
         async with _dial(stage, websocket.scope["subprotocols"]) as inner:
             await websocket.accept(subprotocol=inner.subprotocol)
             await _pass_on(websocket, inner)

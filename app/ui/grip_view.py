@@ -36,6 +36,10 @@ class GripView:
         self._hands = {arm: _HandMarks(server, arm, node) for arm, node in hands.items()}
         self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX)
 
+    def stand_on(self, floor_z_m: float) -> None:
+        """Have the floor at another height (m); routes are there from the next one on."""
+        self._route_z_m = floor_z_m + _ABOVE_FLOOR_M
+
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
         self._route.colors = ink(palette.route)

@@ -44,6 +44,10 @@ class RobotView:
                 self._moved.setdefault(link.joint, []).append((link, handle))
         self.hands = {arm.name: nodes[arm.tool_frame] for arm in card.arms}
 
+    def stand_on(self, floor_z_m: float) -> None:
+        """Have the floor at another height (m); it is there from the next pose on."""
+        self._floor_z_m = floor_z_m
+
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
         for link_name, mesh in self._painted:

@@ -53,6 +53,7 @@ class Stage:
             self._folds = FoldView(self._server)
             self._robot = RobotView(self._server, card, floor_z_m)
             self._grips = GripView(self._server, self._robot.hands, floor_z_m)
+        self._palette = LIGHT
         self._stints: tuple[Stint, ...] = ()
         self._marked: Stint | None = None
         self.set_theme(is_dark=False)
@@ -64,12 +65,24 @@ class Stage:
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Show everything in the colours for a dark ground or for a light one."""
-        palette = DARK if is_dark else LIGHT
+        self._palette = palette = DARK if is_dark else LIGHT
         with self._server.atomic():
             self._server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
             for view in (self._table, self._cloth, self._folds, self._robot, self._grips):
                 view.recolour(palette)
         self._server.flush()
+
+    def show_scene(self, scene: Scene) -> None:
+        """Put up another table and other stations; robot and cloth go there with what is shown next."""
+        if scene == self.scene:
+            return
+        self.scene = scene
+        with self._server.atomic():
+            self._table.remove()
+            self._table = TableView(self._server, scene)
+            self._table.recolour(self._palette)
+            for view in (self._robot, self._grips):
+                view.stand_on(-scene.table.height_m)
 
     def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
         """Show a garment that lies there and has no plan, and the robot waiting at a station."""

@@ -7,9 +7,9 @@ from app.ui.colours import Palette
 from app.ui.lighting import paint
 from app.ui.rotation import yaw
 from planner.geometry.pose import Pose2
+from planner.geometry.table_parts import table_parts
 from planner.primitives.scene import Scene
 
-_TOP_THICKNESS_M = 0.03
 _ABOVE_FLOOR_M = 0.004
 _ARROW = np.array([[0.16, 0.0, 0.0], [-0.10, 0.11, 0.0], [-0.04, 0.0, 0.0], [-0.10, -0.11, 0.0]])
 
@@ -22,13 +22,20 @@ class TableView:
         self._server = server
         self._floor_z_m = -scene.table.height_m
         self._floor = self._add_floor()
-        self._top, self._foot = self._add_table(scene)
+        self._top, *self._legs = self._add_table(scene)
         self._stations = [self._add_station(name, pose) for name, pose in scene.stations]
+
+    def remove(self) -> None:
+        """Take all of it away."""
+        for part in (self._floor, self._top, *self._legs, *self._stations):
+            part.remove()
 
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
         self._floor.cell_color, self._floor.section_color = palette.floor_cell, palette.floor_section
-        self._top.color, self._foot.color = paint(palette.table), paint(palette.table_foot)
+        self._top.color = paint(palette.table)
+        for leg in self._legs:
+            leg.color = paint(palette.table_foot)
         for station in self._stations:
             station.color = paint(palette.station)
 
@@ -46,22 +53,16 @@ class TableView:
             shadow_opacity=0.25,
         )
 
-    def _add_table(self, scene: Scene) -> tuple[viser.BoxHandle, viser.BoxHandle]:
-        """A top, and one foot in its middle: a robot's base goes under the edges."""
-        table = scene.table
-        foot_m = table.height_m - _TOP_THICKNESS_M
-        add_box = self._server.scene.add_box
-        top = add_box(
-            "/table/top",
-            dimensions=(table.depth_m, table.width_m, _TOP_THICKNESS_M),
-            position=(0.0, 0.0, -_TOP_THICKNESS_M / 2),
-        )
-        foot = add_box(
-            "/table/foot",
-            dimensions=(table.depth_m * 0.35, table.width_m * 0.12, foot_m),
-            position=(0.0, 0.0, -_TOP_THICKNESS_M - foot_m / 2),
-        )
-        return top, foot
+    def _add_table(self, scene: Scene) -> list[viser.BoxHandle]:
+        """Its top and its legs, the boxes that the robot keeps clear of."""
+        return [
+            self._server.scene.add_box(
+                f"/table/{part.name.removeprefix('table ').replace(' ', '_')}",
+                dimensions=part.size,
+                position=part.center,
+            )
+            for part in table_parts(scene.table)
+        ]
 
     def _add_station(self, name: str, pose: Pose2) -> viser.MeshHandle:
         """A flat arrow on the floor where the base stands and looks, with the station's name behind it."""

@@ -18,13 +18,15 @@ class ClothState:
     Attributes:
         layers: from bottom to top.
         moved: how many of the top layers the last fold moved; 0 before the first fold.
+        slivers: the areas of what folding has dropped so far because it was too small to count as cloth (m^2).
     """
 
-    def __init__(self, layers: Sequence[Layer], moved: int = 0) -> None:
+    def __init__(self, layers: Sequence[Layer], moved: int = 0, slivers: Sequence[float] = ()) -> None:
         if len(layers) > LAYERS_MAX:
             raise FoldError("", f"leaves {len(layers)} layers, more than {LAYERS_MAX}")
         self.layers = tuple(layers)
         self.moved = moved
+        self.slivers = tuple(slivers)
 
     @staticmethod
     def spread_out(pattern: Region) -> "ClothState":
@@ -44,4 +46,4 @@ class ClothState:
     @cached_property
     def area(self) -> float:
         """The summed area of all layers (m^2)."""
-        return sum(layer.region.area for layer in self.layers)
+        return sum(layer.area for layer in self.layers)

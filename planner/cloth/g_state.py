@@ -5,17 +5,19 @@ stack of layers to the table is not.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.must_hold import must_hold
-from planner.geometry.pose import Point2, Pose2
+from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import AREA_M2, LENGTH_M
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,15 +27,20 @@ class Unrest:
     Attributes:
         code: "not_a_g_state" or "slips".
         message: what would move, with the numbers.
-        severity: how far from rest it is; only for comparing like with like.
+        severity: how far from rest it is: how far the cloth would have to be moved (m), 1 where that is not known;
+            of what slips, what the friction coefficient lacks.
+        point: where, article frame (m); None where it is no one place.
+        needed_friction: of what slips the friction coefficient that would hold it.
     """
 
     code: str
     message: str
     severity: float = 1.0
+    point: Point2 | None = None
+    needed_friction: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TableInArticle:
     """The table top seen from the article frame.
 
@@ -55,7 +62,19 @@ class TableInArticle:
 
     def contains(self, region: Region) -> bool:
         """Whether a region lies on the table altogether, to the tolerance."""
-        return all(np.all(e.left_distances(region.coordinates) >= -LENGTH_M) for e in self.edges)
+        return bool(np.all(self.inside(region.coordinates) >= -LENGTH_M))
+
+    def inside(self, points: FloatArray) -> FloatArray:
+        """How far inside each edge's line points are, shape (n, 2) -> (n, 4), m; negative beyond it."""
+        return np.asarray(points @ self._inwards - self._reach)
+
+    @cached_property
+    def _inwards(self) -> FloatArray:
+        return np.array([edge.left for edge in self.edges]).T
+
+    @cached_property
+    def _reach(self) -> FloatArray:
+        return np.array([np.dot(edge.left, edge.start) for edge in self.edges])
 
 
 EDGE_NAMES = ("right", "far", "left", "near")
@@ -77,22 +96,48 @@ def unrest(
     top = TableInArticle.seen_from(placement, table)
     if top.contains(cloth.silhouette):
         return None
-    if cloth.silhouette.intersection(top.region).is_sliver:
-        return Unrest("not_a_g_state", "nothing of the cloth lies on the table")
-    return (
-        _covered_corner(cloth, top, table) or _loose_part(cloth, top, support_angle_rad) or _slip(cloth, top, friction)
-    )
+    beyond = cloth.silhouette.difference(top.region)
+    if cloth.silhouette.area - beyond.area < AREA_M2:
+        off = min(cloth.silhouette.distance_to(edge) for edge in top.edges)
+        return Unrest("not_a_g_state", f"nothing of the cloth lies on the table: it is {off:.2f} m beside it", off)
+    covered = _covered_corner(cloth, beyond, top, table)
+    if covered is not None:
+        return covered
+    hanging = list(_hanging_parts(cloth, beyond, top))
+    return _loose_part(hanging, top, support_angle_rad) or _slip(cloth, hanging, top, friction)
 
 
-def _covered_corner(cloth: ClothState, top: TableInArticle, table: Table) -> Unrest | None:
+@dataclass(frozen=True, slots=True)
+class _Hanging:
+    """A part of a layer beyond the table: the layer's number, the part, the number of the edge it hangs from."""
+
+    layer: int
+    part: Region
+    edge: int
+
+
+def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInArticle) -> Iterator[_Hanging]:
+    """The hanging parts of each layer; `beyond` is what of the silhouette lies beyond the table."""
+    for number, layer in enumerate(cloth.layers):
+        if not top.contains(layer.region):
+            off = beyond if len(cloth.layers) == 1 else layer.region.difference(top.region)
+            for part in off.pieces:
+                yield _Hanging(number, part, int(top.inside(part.coordinates).max(axis=0).argmin()))
+
+
+def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle, table: Table) -> Unrest | None:
     for edge, (x, y) in zip(top.edges, table.corners, strict=True):
         if cloth.silhouette.contains(edge.start, margin_m=LENGTH_M):
-            return Unrest("not_a_g_state", f"the cloth covers the table's corner at ({x:.3f}, {y:.3f}) m")
-    for part in cloth.silhouette.difference(top.region).pieces:
-        hung = [name for name, e in zip(EDGE_NAMES, top.edges, strict=True) if _touches(part, e)]
+            depth = cloth.silhouette.boundary_distance(edge.start)
+            message = f"the cloth covers the table's corner at ({x:.3f}, {y:.3f}) m, which is {depth:.2f} m inside it"
+            return Unrest("not_a_g_state", message, depth, edge.start)
+    for part in beyond.pieces:
+        near = np.count_nonzero(np.abs(top.inside(part.coordinates)) <= LENGTH_M, axis=0)
+        edges = zip(EDGE_NAMES, top.edges, near, strict=True)
+        hung = [name for name, edge, points in edges if points >= 2 and _touches(part, edge)]
         if len(hung) != 1:
             where = " and ".join(hung) or "no edge"
-            return Unrest("not_a_g_state", f"a part of {part.area:.4f} m^2 hangs from {where} at once")
+            return Unrest("not_a_g_state", f"a part of {part.area:.3f} m^2 hangs from {where} at once")
     return None
 
 
@@ -114,43 +159,38 @@ def _contact(part: Region, edge: Segment) -> tuple[Segment, ...]:
     )
 
 
-def _loose_part(cloth: ClothState, top: TableInArticle, support_angle_rad: float) -> Unrest | None:
+def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad: float) -> Unrest | None:
     """The first hanging part of a layer that nothing immobilises (Theorem 1; Figure 4, right)."""
-    for number, layer in enumerate(cloth.layers):
-        if top.contains(layer.region):
-            continue
-        for part in layer.region.difference(top.region).pieces:
-            edge = min(range(4), key=lambda i: _inward_distance(part, top.edges[i]))
-            up = top.edges[edge].left
-            loose = must_hold(part, up, _contact(part, top.edges[edge]), support_angle_rad)
-            if len(loose):
-                return Unrest(
-                    "not_a_g_state",
-                    f"layer {number} hangs over the {EDGE_NAMES[edge]} edge and nothing holds its corner "
-                    f"at ({loose[0][0]:.3f}, {loose[0][1]:.3f}) m of the article",
-                )
+    for hung in hanging:
+        edge = top.edges[hung.edge]
+        loose = must_hold(hung.part, edge.left, _contact(hung.part, edge), support_angle_rad)
+        if len(loose):
+            depths = -edge.left_distances(loose)
+            lowest, (x, y) = float(depths.max()), loose[int(depths.argmax())]
+            message = (
+                f"layer {hung.layer} hangs over the {EDGE_NAMES[hung.edge]} edge and nothing holds its corner at "
+                f"({x:.2f}, {y:.2f}) m of the garment, {lowest:.2f} m beyond the edge"
+            )
+            return Unrest("not_a_g_state", message, lowest, (float(x), float(y)))
     return None
 
 
-def _inward_distance(part: Region, edge: Segment) -> float:
-    """How far inside an edge's line the innermost point of a part is (m): negative beyond it."""
-    return float(edge.left_distances(part.coordinates).max())
-
-
-def _slip(cloth: ClothState, top: TableInArticle, friction: float) -> Unrest | None:
+def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, friction: float) -> Unrest | None:
     """The friction law: the net pull of all hanging parts against what the weight on the table holds."""
-    pull, lying = np.zeros(2), 0.0
-    for layer in cloth.layers:
-        lying += layer.region.intersection(top.region).area
-        for part in layer.region.difference(top.region).pieces:
-            edge = min(top.edges, key=lambda e: _inward_distance(part, e))
-            pull -= part.area * np.array(edge.left)
-    held = friction * lying
-    if np.hypot(*pull) <= held * (1.0 + LENGTH_M):
+    hanging = [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
+    lying = max(sum(layer.region.area for layer in cloth.layers) - sum(hanging), 0.0)
+    pull = float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
+    if pull <= friction * lying * (1.0 + LENGTH_M):
         return None
-    share = math.inf if lying == 0.0 else float(np.hypot(*pull)) / lying
-    return Unrest(
-        "slips",
-        f"the hanging parts pull with {share:.2f} times the weight on the table; friction holds {friction:.2f} times",
-        share,
+    needed = pull / max(lying, AREA_M2)
+    whole = lying + sum(hanging)
+    shares = [
+        f"{area:.3f} m^2 of cloth ({area / whole:.1%}) hangs over the {name} edge"
+        for area, name in zip(hanging, EDGE_NAMES, strict=True)
+        if area > 0.0
+    ]
+    message = (
+        f"the cloth slips: {', '.join(shares)} and {lying:.3f} m^2 ({lying / whole:.1%}) lies on the table, layers "
+        f"counted; the friction is {friction:.2f}, {math.ceil(needed * 100.0 - LENGTH_M) / 100.0:.2f} would hold it"
     )
+    return Unrest("slips", message, needed - friction, needed_friction=needed)

@@ -4,19 +4,30 @@ One grip holds every such vertex within its radius. Candidates are the vertices 
 boundary nearest to the centre of the smallest circle round each two and each three of them. Of the smallest
 covers the best is the one whose largest distance from a vertex to its grip is smallest, then the second
 largest, and so on; covers that tie are all kept, or a mirrored garment would plan differently.
+
+To rank all pairs of candidates is hopeless for a round cloth, which has thousands. But the first rank decides nearly
+everything, and it can be had without the others: the smallest radius with which some pair covers all. It is found by
+bisection, and only the pairs that do with it are ranked.
 """
 
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
+from planner.cloth.grip_candidates import grip_candidates
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
-from planner.geometry.smallest_circle import pair_centres, triple_centres
+from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
 
+_RANKED_AT_ONCE = 64
+"""The pairs of so many candidates are ranked as they are."""
+
 Cover = tuple[Point2, ...]
+IntArray: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +53,9 @@ class GripCovers:
         return len(self.covers[0]) if self.covers else None
 
 
-def grip_covers(piece: Region, vertices: FloatArray, radius_m: float, at_most: int) -> GripCovers:
+def grip_covers(
+    piece: Region, vertices: FloatArray, radius_m: float, at_most: int, baseline: tuple[Segment, ...] = ()
+) -> GripCovers:
     """The best sets of at most so many grips that hold all vertices.
 
     Args:
@@ -50,24 +63,24 @@ def grip_covers(piece: Region, vertices: FloatArray, radius_m: float, at_most: i
         vertices: what must be held, shape (n, 2), m.
         radius_m: how far round itself one grip holds (m), inclusive.
         at_most: the number of grippers.
+        baseline: the part of the boundary that stays where it is.
     """
     points = tuple((float(x), float(y)) for x, y in vertices)
     if not points:
         return GripCovers(points, ((),))
     if _needs_more(vertices, radius_m, at_most):
         return GripCovers(points, ())
-    candidates = _candidates(piece, vertices)
+    candidates = grip_candidates(piece, vertices, baseline)
     return GripCovers(points, best_covers(candidates, vertices, radius_m, at_most))
 
 
 def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
     """Of the given candidates, shape (m, 2), the best covers of the vertices, ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
-    holds = distances <= radius_m + LENGTH_M
-    useful = holds.any(axis=1)
-    candidates, distances, holds = candidates[useful], distances[useful], holds[useful]
+    useful = (distances <= radius_m + LENGTH_M).any(axis=1)
+    candidates, distances = candidates[useful], distances[useful]
     for count in range(1, at_most + 1):
-        chosen = _covering_sets(holds, count)
+        chosen = _covering_sets(distances, radius_m + LENGTH_M, count)
         if len(chosen):
             ranks = -np.sort(-distances[chosen].min(axis=1), axis=1)
             return _distinct(candidates[chosen[_is_first(ranks)]])
@@ -83,39 +96,55 @@ def _needs_more(vertices: FloatArray, radius_m: float, at_most: int) -> bool:
     return len(apart) > at_most
 
 
-def _candidates(piece: Region, vertices: FloatArray) -> FloatArray:
-    centres = [vertices]
-    if len(vertices) >= 2:
-        centres.append(piece.nearest_boundary_points(_distinct_rows(pair_centres(vertices))))
-    if len(vertices) >= 3:
-        centres.append(piece.nearest_boundary_points(_distinct_rows(triple_centres(vertices))))
-    return _distinct_rows(np.vstack(centres))
+def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArray:
+    """The sets of `count` candidates that hold every vertex, shape (n, count); of pairs those that may be best.
 
-
-def _distinct_rows(points: FloatArray) -> FloatArray:
-    """Points with repetitions left out, in their order."""
-    keys = np.round(points / LENGTH_M).astype(np.int64)
-    _, first = np.unique(keys, axis=0, return_index=True)
-    return points[np.sort(first)]
-
-
-def _covering_sets(holds: BoolArray, count: int) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
-    """All sets of `count` candidates that together hold every vertex, shape (n, count)."""
-    everything = np.arange(len(holds))
+    Args:
+        distances: of candidates to vertices, shape (m, k), m.
+        radius_m: how far a grip holds (m), inclusive.
+        count: how many grips.
+    """
     if count == 1:
-        return everything[holds.all(axis=1)][:, None]
+        return np.flatnonzero((distances <= radius_m).all(axis=1))[:, None]
     if count == 2:
-        pairs = [_partners(holds, int(i)) for i in np.flatnonzero(holds[:, 0])]
-        return np.vstack(pairs) if pairs else np.empty((0, 2), dtype=np.int64)
+        is_few = len(distances) <= _RANKED_AT_ONCE
+        needed_m = radius_m if is_few else _least_radius(distances, radius_m) + LENGTH_M
+        return _covering_pairs(distances <= needed_m)
+    holds = distances <= radius_m
     sets = [s for s in combinations(range(len(holds)), count) if holds[list(s)].any(axis=0).all()]
     return np.array(sets, dtype=np.int64).reshape(-1, count)
 
 
-def _partners(holds: BoolArray, one: int) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
-    """The pairs in which another candidate holds all that this one leaves."""
-    left = ~holds[one]
-    others = np.flatnonzero(holds[:, left].all(axis=1))
-    return np.column_stack([np.full(len(others), one), others])
+def _least_radius(distances: FloatArray, radius_m: float) -> float:
+    """The smallest radius with which a pair of candidates holds every vertex; -1 if the given one does not suffice."""
+    levels = np.unique(distances[distances <= radius_m])
+    low, high = -1, len(levels) - 1
+    if high < 0 or not _is_covered(distances <= levels[high]):
+        return -1.0
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if _is_covered(distances <= levels[middle]) else (middle, high)
+    return float(levels[high])
+
+
+def _is_covered(holds: BoolArray) -> bool:
+    """Whether two candidates hold every vertex between them."""
+    kinds = np.unique(holds, axis=0)
+    return bool((_misses(kinds[kinds[:, 0]], kinds) == 0.0).any())
+
+
+def _covering_pairs(holds: BoolArray) -> IntArray:
+    """All pairs of candidates that between them hold every vertex, shape (n, 2); the first holds vertex 0."""
+    pairs = [np.empty((0, 2), dtype=np.int64)]
+    for one in np.flatnonzero(holds[:, 0]):
+        partners = np.flatnonzero(holds[:, ~holds[one]].all(axis=1))
+        pairs.append(np.column_stack([np.full(len(partners), one), partners]))
+    return np.vstack(pairs)
+
+
+def _misses(ones: BoolArray, others: BoolArray) -> FloatArray:
+    """How many vertices each of some candidates and each of others miss together, shape (n, m)."""
+    return np.asarray((~ones).astype(np.float64) @ (~others).astype(np.float64).T)
 
 
 def _is_first(ranks: FloatArray) -> BoolArray:

@@ -4,7 +4,7 @@ from functools import cached_property
 from typing import Any
 
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Point2
+from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import cut_like
@@ -35,12 +35,23 @@ class Layer:
         """Which face of the cloth looks up: "front" or "back"."""
         return "back" if self.isometry.is_mirrored else "front"
 
+    @property
+    def area(self) -> float:
+        """Its area (m^2), as in the pattern: where it lies it is rounded to the grid."""
+        return self.pattern_piece.area
+
+    @property
+    def ring(self) -> FloatArray:
+        """The boundary of where it lies, article frame, counter-clockwise, shape (n, 2), m; nothing is rounded."""
+        ring = self.isometry.apply(self.pattern_piece.whole_ring)
+        return ring[::-1] if self.isometry.is_mirrored else ring
+
     def reflected(self, line: Segment) -> "Layer":
         """The layer folded over a line of the article frame."""
         return Layer(self.pattern_piece, Isometry.reflection(line).after(self.isometry))
 
-    def cut(self, line: Segment, moving: Region) -> tuple[tuple["Layer", ...], tuple["Layer", ...]]:
-        """The layer's parts inside the moving part of the silhouette, and its other parts.
+    def cut(self, line: Segment, moving: Region) -> tuple[tuple["Layer", ...], tuple["Layer", ...], tuple[float, ...]]:
+        """The layer's parts inside the moving part of the silhouette, its other parts, the areas of slivers (m^2).
 
         Args:
             line: the fold line, article frame.
@@ -48,14 +59,13 @@ class Layer:
         """
         back = self.isometry.inverse
         line_in_pattern = Segment(back.apply_point(line.start), back.apply_point(line.end))
-        inside, outside = cut_like(
-            self.pattern_piece, line_in_pattern, lambda p: moving.contains(self.isometry.apply_point(p))
-        )
-        if not (inside and outside):
-            return ((self,), ()) if inside else ((), (self,))
+        found = cut_like(self.pattern_piece, line_in_pattern, lambda p: moving.contains(self.isometry.apply_point(p)))
+        if not (found.moving and found.staying):
+            return ((self,), (), ()) if found.moving else ((), (self,), ())
         return (
-            tuple(Layer(p, self.isometry) for p in inside),
-            tuple(Layer(p, self.isometry) for p in outside),
+            tuple(Layer(p, self.isometry) for p in found.moving),
+            tuple(Layer(p, self.isometry) for p in found.staying),
+            tuple(p.area for p in found.slivers),
         )
 
     def to_pattern(self, point: Point2) -> Point2:
@@ -64,5 +74,4 @@ class Layer:
 
     def to_dict(self) -> dict[str, Any]:
         """The layer as JSON: its polygon in the article frame and the face that looks up."""
-        ring = self.region.ring
-        return {"polygon": [[float(x), float(y)] for x, y in ring], "face": self.face}
+        return {"polygon": [[float(x), float(y)] for x, y in self.ring], "face": self.face}

@@ -1,13 +1,15 @@
 """Whether a ring of points can be the outline of a garment."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from planner.errors import GarmentError
-from planner.geometry.pose import Point2
+from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 
 POINTS_MAX = 400
 EDGE_MIN_M = 1e-3
@@ -44,15 +46,33 @@ def _require_long_edges(outline: Sequence[Point2]) -> None:
 
 
 def _require_no_crossing(outline: Sequence[Point2]) -> None:
+    for i, j, (x, y) in crossings(outline):
+        raise GarmentError(f"outline[{j}]", f"edges {i} and {j} cross at ({x:.3f}, {y:.3f}) m")
+
+
+def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:
+    """Every pair of edges that cross, touch, or (neighbours) run back over one another, ascending, and where (m).
+
+    Edge i runs from corner i to the next; none may be of no length.
+    """
     count = len(outline)
     edges = [Segment(outline[i], outline[(i + 1) % count]) for i in range(count)]
-    for i in range(count):
-        for j in range(i + 1, count):
-            are_neighbours = j == i + 1 or (i == 0 and j == count - 1)
-            meeting = _fold_back(edges, i, j) if are_neighbours else edges[i].meeting_point(edges[j])
-            if meeting is not None:
-                x, y = meeting
-                raise GarmentError(f"outline[{j}]", f"edges {i} and {j} cross at ({x:.3f}, {y:.3f}) m")
+    for i, j in _pairs_near_crossing(np.array(outline)):
+        are_neighbours = j == i + 1 or (i == 0 and j == count - 1)
+        meeting = _fold_back(edges, i, j) if are_neighbours else edges[i].meeting_point(edges[j])
+        if meeting is not None:
+            yield i, j, meeting
+
+
+def _pairs_near_crossing(starts: FloatArray) -> list[tuple[int, int]]:
+    """Pairs of edges, ascending, of which neither lies clearly to one side of the other's line: only these can meet."""
+    ends = np.roll(starts, -1, axis=0)
+    along = ends - starts
+    left = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
+    offsets = (left * starts).sum(axis=1)[:, None]
+    sides = left @ starts.T - offsets, left @ ends.T - offsets
+    straddles = (np.minimum(*sides) <= LENGTH_M) & (np.maximum(*sides) >= -LENGTH_M)
+    return [(int(i), int(j)) for i, j in np.argwhere(np.triu(straddles & straddles.T, 1))]
 
 
 def _fold_back(edges: list[Segment], i: int, j: int) -> Point2 | None:

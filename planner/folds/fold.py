@@ -9,7 +9,7 @@ from planner.errors import FoldError
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.geometry.tolerance import SNAP_M
+from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +39,9 @@ class Fold:
 def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
     """The drawn line with its ends put on the silhouette's boundary.
 
+    An end that is there already, to the tolerance, stays exactly where it was drawn, so a line that was snapped once is
+    not moved again.
+
     Raises:
         FoldError: an end is more than 5 mm from the boundary, both ends fall on one point, or the line
             does not run inside the silhouette.
@@ -53,6 +56,8 @@ def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
                 f"({end[0]:.4f}, {end[1]:.4f}) m is {gap * 1000:.1f} mm from the silhouette's boundary, "
                 f"at most {SNAP_M * 1000:g} mm are snapped",
             )
+        if gap <= LENGTH_M:
+            foot[:] = end
     start, end = (_point(p) for p in nearest)
     if np.hypot(*(nearest[1] - nearest[0])) <= SNAP_M:
         raise FoldError("end", "both ends of the line snap to nearly the same point of the boundary")

@@ -48,12 +48,15 @@ def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segmen
         _require_no_tear(moving, line, crease)
     stays: list[Layer] = []
     moves: list[Layer] = []
+    slivers = list(cloth.slivers)
     for layer in active:
-        inside, outside = layer.cut(line, moving)
+        inside, outside, dropped = layer.cut(line, moving)
         moves.extend(inside)
         stays.extend(outside)
+        slivers.extend(dropped)
+    _require_both(bool(moves), bool(stays))
     landed = [layer.reflected(line) for layer in reversed(moves)]
-    return Folded(ClothState([*below, *stays, *landed], moved=len(landed)), moving, tuple(moves))
+    return Folded(ClothState([*below, *stays, *landed], len(landed), slivers), moving, tuple(moves))
 
 
 def flap_silhouette(cloth: ClothState, *, is_red: bool) -> Region:
@@ -67,11 +70,15 @@ def _moving_part(active: tuple[Layer, ...], whole: Region, line: Segment, *, is_
     if parts is None:
         raise FoldError("end", "the line does not part the cloth: it hangs together round one of the line's ends")
     moving, staying = parts
-    if moving.is_sliver:
-        raise FoldError("start", "no cloth lies to the left of the line, so nothing would move")
-    if staying.is_sliver:
-        raise FoldError("start", "all the cloth lies to the left of the line, so nothing would stay")
+    _require_both(not moving.is_sliver, not staying.is_sliver)
     return moving
+
+
+def _require_both(is_any_moving: bool, is_any_staying: bool) -> None:
+    if not is_any_moving:
+        raise FoldError("start", "no cloth lies to the left of the line, so nothing would move")
+    if not is_any_staying:
+        raise FoldError("start", "all the cloth lies to the left of the line, so nothing would stay")
 
 
 def _require_no_tear(moving: Region, line: Segment, crease: Segment) -> None:

@@ -38,10 +38,9 @@ class FoldDag:
         Args:
             done: the folds finished, as a bit mask.
         """
-        for chain in self.chains:
-            rest = [i for i in chain if not done >> i & 1]
-            if 0 < len(rest) < len(chain):
-                return (rest[0],)
+        last = self.last_of_begun_chain(done)
+        if last is not None:
+            return (last + 1,)
         open_chains = (c for c in self.chains if not done >> c[0] & 1)
         return tuple(c[0] for c in open_chains if self._is_free(c, done))
 
@@ -64,6 +63,14 @@ class FoldDag:
             if len(seen) > at_most:
                 return None
         return tuple(sorted(found))
+
+    def last_of_begun_chain(self, done: int) -> int | None:
+        """The last fold done of a chain that is not finished; None if there is no such chain."""
+        for chain in self.chains:
+            finished = [i for i in chain if done >> i & 1]
+            if 0 < len(finished) < len(chain):
+                return finished[-1]
+        return None
 
     def follows_at_once(self, fold: int) -> bool:
         """Whether a red fold comes directly after this one."""

@@ -67,8 +67,7 @@ class FoldPath:
         What is held out beyond an edge rises in the plane; it can come down over the table only if the fold line
         is on the table there.
         """
-        apexes = self.swept(grips, 1.0)
-        return self.rising_top == self.top or not np.any(self.top.beyond(apexes) > LENGTH_M)
+        return self.rising_top == self.top or not np.any(self.top.beyond(self.swept(grips, 1.0)) > LENGTH_M)
 
     def tool_points(self, grips: FloatArray, sweep: float) -> FloatArray:
         """Where the tools are that hold the given points of the cloth, shape (n, 2) -> (n, 3), table frame."""
@@ -93,6 +92,6 @@ class FoldPath:
 
         A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge.
         """
-        ends = np.vstack([self.swept(grips, 0.0), self.swept(grips, 1.0), self.swept(grips, 2.0)])
+        ends = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
         is_over_table = bool(np.all(self.top.beyond(ends) == 0.0))
         return SPACING_M / (math.sqrt(2.0) if is_over_table else 2.0)

@@ -2,7 +2,8 @@
 
 The folds are replayed once in the user's order: that snaps each line, finds what moves and where it lands, and
 yields the Fold-DAG. By the DAG's law every order it allows leaves the same stack, so the cloth after a set of
-folds is found by doing that set in the user's order; it is kept for the next time it is asked for.
+folds is found by doing that set in the user's order, but a chain that is under way last; it is kept for the next time
+it is asked for.
 """
 
 from dataclasses import dataclass
@@ -69,9 +70,13 @@ class FoldSequence:
         return {**self.dag.to_dict(), "layers": [layer.to_dict() for layer in self.final.layers]}
 
     def cloth(self, done: int) -> ClothState:
-        """The stack after a set of folds, given as a bit mask."""
+        """The stack after a set of folds, given as a bit mask.
+
+        Of a chain that is under way the last fold comes last: a red fold takes the layers that it moved.
+        """
         if done not in self._cloths:
-            last = done.bit_length() - 1
+            begun = self.dag.last_of_begun_chain(done)
+            last = done.bit_length() - 1 if begun is None else begun
             self._cloths[done] = self.folded(done & ~(1 << last), last).cloth
         return self._cloths[done]
 
@@ -90,7 +95,7 @@ class FoldSequence:
         if key not in self._covers:
             fold, moving = self.folds[index], self.folded(done, index).moving
             vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
-            self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms)
+            self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms, (fold.line,))
         return self._covers[key]
 
 

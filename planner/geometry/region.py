@@ -1,11 +1,11 @@
 """Regions of the plane: the one place where shapely is spoken.
 
-A `Region` is a polygon or several, possibly none. It is a value: every operation gives a new one. Results
-of a cut or a reflection are put back onto the micrometre grid, because reflecting leaves coordinates that
-differ in their last digits and such differences breed slivers; slivers are dropped where they arise.
+A `Region` is a polygon or several, possibly none. It is a value: every operation gives a new one. What was
+reflected is put back onto the micrometre grid, because reflecting leaves coordinates that differ in their last digits
+and such differences breed slivers. What is cut stays where it was, so cuts are made on a finer grid: the two sides of a
+cut add up to the whole and share their border to the last digit.
 """
 
-import math
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 
@@ -15,10 +15,12 @@ from shapely.geometry.base import BaseGeometry
 
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.ring import corners, counter_clockwise, feet, inward_bisector
 from planner.geometry.segment import Segment
-from planner.geometry.tolerance import AREA_M2, GRID_M, LENGTH_M
+from planner.geometry.shape import half_plane, polygonal, without_cracks
+from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 
-_FAR_M = 100.0
+_AT_ONCE = 256
 
 
 class Region:
@@ -29,7 +31,8 @@ class Region:
     """
 
     def __init__(self, shape: BaseGeometry) -> None:
-        self.shape = shape
+        """Of a shape that is not of polygons alone, the polygons: where two regions only touch there is no cloth."""
+        self.shape = polygonal(shape)
 
     @staticmethod
     def polygon(points: Iterable[Sequence[float]]) -> "Region":
@@ -49,8 +52,13 @@ class Region:
             return Region(shapes[0])
         whole = shapely.union_all(shapes, grid_size=GRID_M)
         if len(shapely.get_parts(whole)) != 1 or shapely.get_num_interior_rings(whole):
-            whole = shapely.union_all(shapes, grid_size=LENGTH_M)
+            whole = without_cracks(whole)
         return Region(whole)
+
+    @staticmethod
+    def rejoined(pieces: Iterable["Region"]) -> "Region":
+        """The union of pieces that were cut from one region: they fit to the last digit, so no gap is closed."""
+        return Region(shapely.union_all([p.shape for p in pieces], grid_size=CUT_GRID_M))
 
     # numbers
 
@@ -102,6 +110,12 @@ class Region:
         line = shapely.LineString([segment.start, segment.end])
         return bool(line.difference(self.shape.buffer(LENGTH_M)).length <= LENGTH_M)
 
+    def runs_inside(self, segment: Segment) -> bool:
+        """Whether a stretch of a segment lies inside, further from the boundary than what counts as one place."""
+        line = shapely.LineString([segment.start, segment.end])
+        inner = shapely.difference(line, shapely.buffer(self.shape.boundary, 2 * LENGTH_M))
+        return bool(shapely.intersection(inner, self.shape).length > LENGTH_M)
+
     # points
 
     @cached_property
@@ -113,22 +127,25 @@ class Region:
     @cached_property
     def ring(self) -> FloatArray:
         """The outer ring of the largest part, as in `rings`."""
-        largest = int(np.argmax(shapely.area(shapely.get_parts(self.shape))))
-        return self.rings[largest]
+        return self.rings[self._largest]
+
+    @cached_property
+    def whole_ring(self) -> FloatArray:
+        """The same with all its points, those on straight runs too."""
+        outer = shapely.get_exterior_ring(shapely.get_parts(self.shape)[self._largest])
+        return counter_clockwise(np.asarray(shapely.get_coordinates(outer))[:-1])
+
+    @cached_property
+    def _largest(self) -> int:
+        return int(np.argmax(shapely.area(shapely.get_parts(self.shape))))
 
     def inward_bisector(self, point: Point2) -> Point2 | None:
         """The unit vector that halves the directions leading from a boundary point into the region.
 
         None for a point off the outer boundary.
         """
-        for ring in self.rings:
-            for before, corner, after in zip(np.roll(ring, 1, axis=0), ring, np.roll(ring, -1, axis=0), strict=True):
-                side = Segment(_point(corner), _point(after))
-                if np.hypot(*(corner - point)) <= LENGTH_M:
-                    return _halving(Segment(_point(before), _point(corner)), side)
-                if np.hypot(*(after - point)) > LENGTH_M and side.distances(np.array([point]))[0] <= LENGTH_M:
-                    return side.left
-        return None
+        found = (inward_bisector(ring, point) for ring in self.rings)
+        return next((bisector for bisector in found if bisector is not None), None)
 
     @cached_property
     def hull(self) -> FloatArray:
@@ -147,6 +164,25 @@ class Region:
         lines = shapely.shortest_line(shapely.points(points), boundary)
         return np.asarray(shapely.get_coordinates(lines)).reshape(-1, 2, 2)[:, 1]
 
+    def all_nearest_boundary_points(self, points: FloatArray) -> FloatArray:
+        """The points of the boundary nearest to some points, shape (n, 2), m: all that are equally near, to each.
+
+        Returns:
+            Shape (m, 2), m >= n: for each point in turn what is nearest to it; a corner once for each of its edges.
+        """
+        found = [np.empty((0, 2))]
+        for start in range(0, len(points), _AT_ONCE):
+            places = feet(points[start : start + _AT_ONCE], *self._edges)
+            gaps = np.hypot(*(places - points[start : start + _AT_ONCE, None]).transpose(2, 0, 1))
+            found.append(places[gaps <= gaps.min(axis=1, keepdims=True) + LENGTH_M])
+        return np.vstack(found)
+
+    @cached_property
+    def _edges(self) -> tuple[FloatArray, FloatArray]:
+        """Where each edge of the boundary begins and where it ends, shapes (n, 2), m."""
+        rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(self.shape))]
+        return np.vstack([ring[:-1] for ring in rings]), np.vstack([ring[1:] for ring in rings])
+
     def overlaps_with(self, segment: Segment) -> tuple[tuple[Point2, Point2], ...]:
         """The stretches of a segment within the region, boundary included to the tolerance, by their ends."""
         line = shapely.LineString([segment.start, segment.end])
@@ -164,10 +200,19 @@ class Region:
     # new regions
 
     @cached_property
+    def parts(self) -> tuple["Region", ...]:
+        """Its connected parts."""
+        return tuple(Region(p) for p in shapely.get_parts(self.shape))
+
+    @cached_property
     def pieces(self) -> tuple["Region", ...]:
         """Its connected parts, slivers left out."""
-        parts = [Region(p) for p in shapely.get_parts(self.shape) if shapely.get_dimensions(p) == 2]
-        return tuple(p for p in parts if not p.is_sliver)
+        return tuple(p for p in self.parts if not p.is_sliver)
+
+    @cached_property
+    def slivers(self) -> tuple["Region", ...]:
+        """Its connected parts that are too small to count as cloth."""
+        return tuple(p for p in self.parts if p.is_sliver)
 
     def moved(self, isometry: Isometry) -> "Region":
         """The region carried by an isometry and put back onto the grid."""
@@ -176,7 +221,13 @@ class Region:
 
     def left_of(self, line: Segment) -> "Region":
         """The part to the left of the whole line through a segment."""
-        return Region(shapely.intersection(self.shape, _half_plane(line), grid_size=GRID_M))
+        return Region(shapely.intersection(self.shape, half_plane(line), grid_size=GRID_M))
+
+    def parted_by(self, line: Segment) -> tuple["Region", "Region"]:
+        """The parts to the left and to the right of the whole line through a segment; no area is lost."""
+        half = half_plane(line)
+        left = shapely.intersection(self.shape, half, grid_size=CUT_GRID_M)
+        return Region(left), Region(shapely.difference(self.shape, half, grid_size=CUT_GRID_M))
 
     def intersection(self, other: "Region") -> "Region":
         """What both cover."""
@@ -189,46 +240,3 @@ class Region:
 
 def _point(row: FloatArray) -> Point2:
     return (float(row[0]), float(row[1]))
-
-
-def _halving(arriving: Segment, leaving: Segment) -> Point2:
-    """The inward bisector at the corner between two edges of a counter-clockwise ring."""
-    (ax, ay), (bx, by) = arriving.direction, leaving.direction
-    turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
-    heading = math.atan2(by, bx) + (math.pi - turn) / 2
-    return (math.cos(heading), math.sin(heading))
-
-
-def _half_plane(line: Segment) -> BaseGeometry:
-    nx, ny = line.left
-    (ax, ay), (bx, by) = line.at(-_FAR_M), line.at(line.length + _FAR_M)
-    return shapely.Polygon(
-        [(ax, ay), (bx, by), (bx + _FAR_M * nx, by + _FAR_M * ny), (ax + _FAR_M * nx, ay + _FAR_M * ny)]
-    )
-
-
-def corners(ring: FloatArray) -> FloatArray:
-    """The true corners of a closed ring, shape (n, 2), counter-clockwise: straight runs lose their points.
-
-    A point is on a straight run when leaving it out moves the boundary by less than the tolerance.
-    """
-    if len(ring) < 4:
-        return _counter_clockwise(ring)
-    closed = np.vstack([ring, ring[:1]])
-    slim = np.asarray(shapely.get_coordinates(shapely.simplify(shapely.LineString(closed), LENGTH_M)))
-    slim = slim[:-1]
-    if len(slim) > 3 and _is_on_line(slim[0], slim[-1], slim[1]):
-        slim = slim[1:]
-    return _counter_clockwise(slim if len(slim) >= 3 else ring)
-
-
-def _is_on_line(point: FloatArray, a: FloatArray, b: FloatArray) -> bool:
-    if np.allclose(a, b, atol=LENGTH_M):
-        return False
-    return bool(abs(Segment(tuple(a), tuple(b)).left_distances(point[None])[0]) <= LENGTH_M)
-
-
-def _counter_clockwise(ring: FloatArray) -> FloatArray:
-    x, y = ring.T
-    doubled = np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))
-    return ring if doubled >= 0.0 else ring[::-1]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point2
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class Segment:
         return np.asarray(np.hypot(*(points - feet).T))
 
     def meeting_point(self, other: "Segment") -> Point2 | None:
-        """A point that two segments share, ends included; None if they are apart."""
+        """A point that two segments share, ends included to the tolerance; None if they are apart."""
         (px, py), (qx, qy) = self.start, other.start
         rx, ry = self.end[0] - px, self.end[1] - py
         sx, sy = other.end[0] - qx, other.end[1] - qy
@@ -72,12 +72,12 @@ class Segment:
             return self._shared_end(other)
         t = ((qx - px) * sy - (qy - py) * sx) / cross
         u = ((qx - px) * ry - (qy - py) * rx) / cross
-        return (px + t * rx, py + t * ry) if 0.0 <= t <= 1.0 and 0.0 <= u <= 1.0 else None
+        return (px + t * rx, py + t * ry) if 0.0 <= t <= 1.0 and 0.0 <= u <= 1.0 else self._shared_end(other)
 
     def _shared_end(self, other: "Segment") -> Point2 | None:
-        """Of parallel segments: an end of one that lies on the other."""
+        """An end of one that lies on the other."""
         for one, point in ((self, other.start), (self, other.end), (other, self.start), (other, self.end)):
-            if one.distances(np.array([point]))[0] <= ANGLE_RAD:
+            if one.distances(np.array([point]))[0] <= LENGTH_M:
                 return point
         return None
 

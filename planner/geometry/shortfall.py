@@ -7,30 +7,35 @@ from typing import Literal, TypeAlias, get_args
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import LENGTH_M
 
-Cause: TypeAlias = Literal["too_far", "too_near", "joint_limit", "comfort_only"]
+Cause: TypeAlias = Literal["too_far", "too_near", "joint_limit", "comfort_only", "own_body"]
 """What is wrong with a place: it should be nearer to the shoulder, further from it, elsewhere at the same
-distance; or the tool can be there, but not everywhere on the comfort circle round it."""
+distance; or the tool can be there, but not everywhere on the comfort circle round it; or the joints would allow it, but
+the robot's own body is in the way."""
 
 
 @dataclass(frozen=True, slots=True)
 class Shortfall:
-    """Why a tool cannot be at a point in comfort, in the approach that comes closest to it.
+    """Why a tool cannot be at a point in comfort, where and in the approach in which it comes closest to it.
 
     Attributes:
         cause: what is wrong.
         joint: the joint that limits, in plain words; None where the point is beyond the arm's length.
-        short_by_m: how far the point would have to be displaced (m); where no displacement that was tried
-            helps, a number that it is at least. With "comfort_only" it is instead what the largest circle that
-            the tool reaches lacks of the comfort radius.
+        short_by_m: how far the point would have to be displaced to be in comfort (m).
+        is_at_least: whether no displacement that was tried helps, so that `short_by_m` is a number that it is at least.
         towards: the unit direction of the displacement, base frame.
         approach: index of the approach.
+        seen_from: which of the places it was seen from.
+        comfort_m: with "comfort_only" the radius of the largest circle round it that the tool reaches; else None (m).
     """
 
     cause: Cause
     joint: str | None
     short_by_m: float
+    is_at_least: bool
     towards: Point3
     approach: int
+    seen_from: int
+    comfort_m: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse an unknown cause, a distance that is none and a direction without length one (`ValueError`)."""
@@ -40,3 +45,5 @@ class Shortfall:
             raise ValueError(f"a place cannot be short by {self.short_by_m} m")
         if not abs(math.hypot(*self.towards) - 1.0) <= LENGTH_M:
             raise ValueError(f"{self.towards} is no unit direction")
+        if (self.comfort_m is None) == (self.cause == "comfort_only"):
+            raise ValueError(f"a place with cause {self.cause} has no comfort of {self.comfort_m} m")

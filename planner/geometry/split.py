@@ -18,6 +18,21 @@ from planner.geometry.tolerance import LENGTH_M
 Interval = tuple[float, float]
 
 
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """What a cut makes of a connected region.
+
+    Attributes:
+        moving: the pieces in the part that moves.
+        staying: the other pieces.
+        slivers: what is too small to be a piece of cloth.
+    """
+
+    moving: tuple[Region, ...]
+    staying: tuple[Region, ...]
+    slivers: tuple[Region, ...] = ()
+
+
 @dataclass(slots=True)
 class _Piece:
     """A connected piece on one side of the line, and where it touches the line."""
@@ -42,8 +57,10 @@ def split_along(region: Region, segment: Segment) -> tuple[Region, Region] | Non
         The part joined to the segment's left side, and everything else; or None if the segment does
         not part them: they still hang together round one of its ends. Either may be empty.
     """
-    pieces = _pieces(region, segment, is_left=True) + _pieces(region, segment, is_left=False)
-    _join_across_extension(pieces, segment.length)
+    segment = _through_corners(region, segment)
+    left_side, right_side = region.parted_by(segment)
+    pieces = _pieces(left_side, segment, is_left=True) + _pieces(right_side, segment, is_left=False)
+    _join_across_extension(pieces, region, segment)
     moving = {p.group for p in pieces if p.is_left and p.touches(0.0, segment.length)}
     if any(not p.is_left and p.group in moving and p.touches(0.0, segment.length) for p in pieces):
         return None
@@ -52,37 +69,45 @@ def split_along(region: Region, segment: Segment) -> tuple[Region, Region] | Non
     return _union(left), _union(right)
 
 
-def cut_like(
-    region: Region, segment: Segment, is_moving: Callable[[Point2], bool]
-) -> tuple[tuple[Region, ...], tuple[Region, ...]]:
+def cut_like(region: Region, segment: Segment, is_moving: Callable[[Point2], bool]) -> Cut:
     """The same cut through a region that lies within the one that was split.
 
     Args:
         region: what is cut.
         segment: the cut, in the frame of `region`.
         is_moving: whether a point of `region` is in the part that moves.
-
-    Returns:
-        The pieces that move and those that stay.
     """
     distances = segment.left_distances(region.coordinates)
     if np.all(distances >= -LENGTH_M) or np.all(distances <= LENGTH_M):
-        return ((region,), ()) if is_moving(region.inner_point) else ((), (region,))
-    pieces = region.left_of(segment).pieces + region.left_of(segment.reversed).pieces
-    moving = [p for p in pieces if is_moving(p.inner_point)]
-    staying = [p for p in pieces if not is_moving(p.inner_point)]
-    if not (moving and staying):
-        return ((region,), ()) if moving else ((), (region,))
-    return _union(moving).pieces, _union(staying).pieces
+        return Cut((region,), ()) if is_moving(region.inner_point) else Cut((), (region,))
+    left, right = region.parted_by(_through_corners(region, segment))
+    parts = [(part, is_moving(part.inner_point)) for part in left.parts + right.parts]
+    moving = Region.rejoined(part for part, moves in parts if moves)
+    staying = Region.rejoined(part for part, moves in parts if not moves)
+    if not (moving.pieces and staying.pieces):
+        return Cut((region,), ()) if moving.pieces else Cut((), (region,))
+    return Cut(moving.pieces, staying.pieces, moving.slivers + staying.slivers)
+
+
+def _through_corners(region: Region, segment: Segment) -> Segment:
+    """The segment, an end that is at a corner of the region put exactly there: cut beside it, a neck would be left."""
+    return Segment(_corner_at(region, segment.start), _corner_at(region, segment.end))
+
+
+def _corner_at(region: Region, point: Point2) -> Point2:
+    """The region's corner at a point, or the point."""
+    gaps = np.hypot(*(region.coordinates - point).T)
+    nearest = int(np.argmin(gaps))
+    x, y = region.coordinates[nearest]
+    return (float(x), float(y)) if gaps[nearest] <= LENGTH_M else point
 
 
 def _union(regions: list[Region]) -> Region:
     return Region.union(regions) if regions else Region.empty()
 
 
-def _pieces(region: Region, segment: Segment, *, is_left: bool) -> list[_Piece]:
-    half = region.left_of(segment if is_left else segment.reversed)
-    return [_Piece(p, is_left, _contacts(p, segment)) for p in half.pieces]
+def _pieces(side: Region, segment: Segment, *, is_left: bool) -> list[_Piece]:
+    return [_Piece(p, is_left, _contacts(p, segment)) for p in side.pieces]
 
 
 def _contacts(piece: Region, segment: Segment) -> list[Interval]:
@@ -98,23 +123,28 @@ def _overlap(a: Interval, b: Interval) -> float:
     return min(a[1], b[1]) - max(a[0], b[0])
 
 
-def _join_across_extension(pieces: list[_Piece], length: float) -> None:
+def _join_across_extension(pieces: list[_Piece], region: Region, segment: Segment) -> None:
     """Give pieces that touch across the line, outside the segment, the same group."""
     for number, piece in enumerate(pieces):
         piece.group = number
     for one in (p for p in pieces if p.is_left):
         for other in (p for p in pieces if not p.is_left):
-            if one.group != other.group and _share_extension(one, other, length):
+            if one.group != other.group and _share_extension(one, other, region, segment):
                 old, new = other.group, one.group
                 for piece in pieces:
                     piece.group = new if piece.group == old else piece.group
 
 
-def _share_extension(one: _Piece, other: _Piece, length: float) -> bool:
-    """Whether two pieces touch along the line before the segment's start or beyond its end."""
+def _share_extension(one: _Piece, other: _Piece, region: Region, segment: Segment) -> bool:
+    """Whether two pieces touch along the line before the segment's start or beyond its end.
+
+    A segment that meets the boundary at a sharp angle may end a hair before it. Where the pieces touch only within a
+    hair of the boundary they are parted.
+    """
     for a in one.contacts:
         for b in other.contacts:
             low, high = max(a[0], b[0]), min(a[1], b[1])
-            if min(high, 0.0) - low > LENGTH_M or high - max(low, length) > LENGTH_M:
-                return True
+            for start, end in ((low, min(high, 0.0)), (max(low, segment.length), high)):
+                if end - start > LENGTH_M and region.runs_inside(Segment(segment.at(start), segment.at(end))):
+                    return True
     return False

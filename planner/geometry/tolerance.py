@@ -10,6 +10,9 @@ from typing import Final
 GRID_M: Final = 1e-6
 """The precision grid on which polygons live after every cut and reflection (m)."""
 
+CUT_GRID_M: Final = 1e-9
+"""The finer grid on which cuts are made: pieces of cloth are cut again and again, and no area may be lost by it (m)."""
+
 LENGTH_M: Final = 1e-5
 """Two points nearer than this are one point (m): ten steps of the grid."""
 
@@ -21,6 +24,9 @@ TIME_S: Final = 1e-9
 
 ANGLE_RAD: Final = 1e-9
 """Two angles nearer than this are the same (rad), where no length gives a better measure."""
+
+EDGE_RAD: Final = 1e-4
+"""Two edges whose directions differ by less have the same: a few centimetres long, with ends on the grid (rad)."""
 
 SNAP_M: Final = 5e-3
 """A fold's end point may lie this far from the silhouette's boundary and is put onto it (m)."""

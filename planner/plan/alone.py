@@ -22,9 +22,15 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
-from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, grips_obstacle, held_covers
-from planner.primitives.fold_way import away_from_shoulders, follow
-from planner.primitives.obstacle import Attempt, Code, Obstacle
+from planner.primitives.fold_trial import (
+    FoldTrial,
+    fold_trials,
+    geometric_obstacle,
+    geometric_obstacles,
+    grips_obstacle,
+    held_covers,
+)
+from planner.primitives.fold_way import attempt_of, can_follow
 from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
@@ -36,8 +42,8 @@ _OFFSETS_MAX = 2000
 
 _BITS = 32
 
-_GUESSES, _GUESSED_DRAGS, _ENOUGH = 3, 10, 2
-"""How many cases, and drags in each, are tried before all is gone through; and how many approaches first."""
+_GUESSES, _GUESSED_DRAGS = 3, 10
+"""How many cases, and drags in each, are tried before all is gone through."""
 
 _EXTREMES = (1.0, 2.0, 0.0)
 """The moments of a fold that fail first: the apex, the end, the start."""
@@ -80,13 +86,13 @@ class Alone:
         work.obstacles.taken_away(fold)
         self._places = self._with_line_on_table(fold)
         if not len(self._places):
-            label = work.sequence.folds[fold].label
-            message = f"{label}: wherever drags can bring the article, the fold's line lies beyond the table's edge"
-            work.obstacles.note(Obstacle(fold, Code.LINE_OFF_TABLE, message, 1.0))
+            self._note_lines_off(fold, sets)
+            work.obstacles.put_back(before)
             return True
         if any(self._is_possible_after(done, fold) for done in sets):
             work.obstacles.put_back(before)
             return False
+        work.obstacles.put_back(before)
         return True
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
@@ -108,9 +114,19 @@ class Alone:
         is_on = [bool(self._work.table_in_article(offset).region.overlaps_with(line)) for offset in offsets]
         return np.asarray(self._offsets[np.array(is_on, dtype=bool)])
 
+    def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
+        """Remember the place at which a line that is never on the table is nearest to it."""
+        work = self._work
+        line = work.sequence.folds[fold].line
+        offsets = [(float(x), float(y)) for x, y in self._offsets]
+        nearest = min(offsets, key=lambda offset: work.table_in_article(offset).region.distance_to(line))
+        for done in sets:
+            for obstacle in geometric_obstacles(work, State(done, nearest, self._station, 0), fold):
+                work.obstacles.note(obstacle)
+
     def _cases(self, done: int, fold: int) -> Iterator[_Case]:
         """Free hands, then whatever a drag that starts anywhere may leave held."""
-        obstacle = grips_obstacle(self._work, done, fold)
+        obstacle = grips_obstacle(self._work, State(done, (0.0, 0.0), self._station, 0), fold)
         if obstacle is None:
             yield _Case(done, ())
         else:
@@ -162,14 +178,15 @@ class Alone:
     def _is_possible(self, case: _Case, fold: int, station: int) -> bool:
         if self._should_stop():
             return True
-        for trial in fold_trials(self._work, case.state(station, np.zeros(2)), fold):
+        anywhere = case.state(station, np.zeros(2))
+        for trial in fold_trials(self._work, anywhere, fold):
             stages = self._stages(case, trial, station)
             for index in np.flatnonzero(stages == len(_EXTREMES)):
                 state = case.state(station, self._places[index])
                 here = (t for t in fold_trials(self._work, state, fold) if t.is_like(trial))
                 if any(self._can_follow(state, fold, same) for same in here):
                     return True
-            self._note(case, fold, trial, station)
+            self._work.obstacles.note_attempt(attempt_of(anywhere, trial, self._places))
         return False
 
     def _stages(self, case: _Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
@@ -218,31 +235,7 @@ class Alone:
         if obstacle is not None:
             work.obstacles.note(obstacle)
             return False
-        return follow(work, state.station, trial, (0, work.back_offs - 1), enough=_ENOUGH) is not None or (
-            follow(work, state.station, trial, (0, work.back_offs - 1)) is not None
-        )
-
-    def _note(self, case: _Case, fold: int, trial: FoldTrial, station: int) -> None:
-        """Remember the place at which a trial that failed everywhere was least out of the arms' way."""
-        work = self._work
-        extremes = self._everywhere(case, trial, np.array(_EXTREMES), self._places)
-        away = away_from_shoulders(work, station, trial.arms, extremes)
-        best = int(away.argmin())
-        if work.obstacles.is_mildest(fold, Code.OUT_OF_REACH, float(away[best])):
-            place = self._places[best : best + 1]
-            tools = self._everywhere(case, trial, trial.sweeps, place)[:, :, 0]
-            offset = (float(place[0, 0]), float(place[0, 1]))
-            attempt = Attempt(station, offset, trial.arms, tools, trial.approaches)
-            work.obstacles.note(Obstacle(fold, Code.OUT_OF_REACH, "", float(away[best]), attempt))
-
-    def _everywhere(self, case: _Case, trial: FoldTrial, sweeps: FloatArray, places: FloatArray) -> FloatArray:
-        """The tools of a trial at some moments and places, shape (grips, sweeps, places, 3), table frame (m)."""
-        unrolled = trial.path.swept(trial.points, sweeps[:, None])
-        rows = [
-            [self._tools(case, trial, sweep, point, places) for sweep, point in zip(sweeps, points, strict=True)]
-            for points in unrolled.transpose(1, 0, 2)
-        ]
-        return np.array(rows)
+        return can_follow(work, state.station, trial)
 
 
 def drag_offsets(work: Work) -> FloatArray:

@@ -1,11 +1,20 @@
-"""Whether a garment's folds are legal, and by how many grippers each can be held."""
+"""Whether a garment's folds are legal, by how many grippers each can be held, and why at which corners."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from planner.cloth.garment import Garment
 from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
+from planner.plan.reason_obstacle import of_obstacle
+from planner.plan.vertex_check import VertexCheck, vertex_checks
+from planner.primitives.fold_trial import grips_obstacle, held_covers
+from planner.primitives.obstacle import Code, Obstacle
 from planner.primitives.scene import Scene
+from planner.primitives.state import Held, State
+from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 
 
@@ -15,31 +24,67 @@ class FoldCheck:
 
     Attributes:
         name: the fold's name.
-        must_hold: the vertices that must be held, article frame (m).
-        grips: the grips that hold them, article frame (m); empty when the arms do not suffice.
-        grips_needed: how many; None when more than there are arms.
+        is_red: whether it is folded with what the fold before it left held.
+        vertices: every corner of the part that moves, and why it must be held or need not be.
+        grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
+        grips_needed: how many; None when more than there are hands.
+        problem: why the hands cannot hold it, with what would do; None if they can.
     """
 
     name: str
-    must_hold: tuple[Point2, ...]
+    is_red: bool
+    vertices: tuple[VertexCheck, ...]
     grips: tuple[Point2, ...]
     grips_needed: int | None
+    problem: str | None
+
+    @property
+    def must_hold(self) -> tuple[Point2, ...]:
+        """The corners that must be held, article frame (m)."""
+        return tuple(vertex.point for vertex in self.vertices if vertex.must_be_held)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The check as JSON."""
+        return {
+            "name": self.name,
+            "kind": "red" if self.is_red else "blue",
+            "grips_needed": self.grips_needed,
+            "grips": [list(grip) for grip in self.grips],
+            "problem": self.problem,
+            "vertices": [
+                {"point": list(v.point), "must_be_held": v.must_be_held, "why": v.support.value} for v in self.vertices
+            ],
+        }
 
 
 @dataclass(frozen=True, slots=True)
 class GarmentCheck:
-    """What all folds need.
+    """What a garment is, and what all its folds need.
 
     Attributes:
+        points: how many points its outline has.
+        size_m: the extents of its drawing along x and y (m).
+        area_m2: its area (m^2).
         folds: one entry for each fold in the user's order.
     """
 
+    points: int
+    size_m: Point2
+    area_m2: float
     folds: tuple[FoldCheck, ...]
 
     @property
     def is_holdable(self) -> bool:
-        """Whether the arms suffice for every fold."""
-        return all(fold.grips_needed is not None for fold in self.folds)
+        """Whether the hands suffice for every fold."""
+        return all(fold.problem is None for fold in self.folds)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The check as JSON."""
+        return {
+            "outline": {"points": self.points, "size_m": list(self.size_m), "area_m2": self.area_m2},
+            "is_holdable": self.is_holdable,
+            "folds": [fold.to_dict() for fold in self.folds],
+        }
 
 
 def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = "pr2") -> GarmentCheck:
@@ -53,12 +98,44 @@ def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = 
     Raises:
         FoldError: a fold is not legal.
     """
-    sequence = FoldSequence.of(garment)
-    support_angle_rad = (scene or Scene()).support_angle_rad
-    arms = len(load_robot(robot).card.arms)
-    checks = []
-    for fold in sequence.folds:
-        found = sequence.covers((1 << fold.index) - 1, fold.index, support_angle_rad, arms)
-        grips = found.covers[0] if found.covers else ()
-        checks.append(FoldCheck(fold.name, found.vertices, grips, found.count))
-    return GarmentCheck(tuple(checks))
+    scene, machine = scene or Scene(), load_robot(robot)
+    reach = machine.reach(scene.torso_m, 0.0)
+    work = Work(FoldSequence.of(garment), scene, reach, garment.placement, machine.card.base_radius_m)
+    x0, y0, x1, y1 = garment.pattern.bounds
+    folds = tuple(_checks(work))
+    return GarmentCheck(len(garment.outline), (x1 - x0, y1 - y0), garment.pattern.area, folds)
+
+
+def _checks(work: Work) -> Iterator[FoldCheck]:
+    """Every fold, each with what the one before may leave held."""
+    angle, arms = work.scene.support_angle_rad, len(work.reach.arm_names)
+    left_held: list[tuple[Point2, ...]] = []
+    for fold in work.sequence.folds:
+        done = (1 << fold.index) - 1
+        found = work.sequence.covers(done, fold.index, angle, arms)
+        if fold.is_red:
+            covers = [c for held in left_held for c in held_covers(work, done, fold.index, _as_held(held))]
+            obstacle = None if covers else _not_held(work, done, fold.index, left_held)
+        else:
+            covers = list(found.covers)
+            obstacle = grips_obstacle(work, State(done, (0.0, 0.0), 0, 0), fold.index)
+        over = Isometry.reflection(fold.line)
+        left_held = [tuple(over.apply_point(grip) for grip in cover) for cover in covers]
+        yield FoldCheck(
+            fold.name,
+            fold.is_red,
+            vertex_checks(work.sequence.folded(done, fold.index).moving, fold.line, angle),
+            covers[0] if covers else (),
+            len(covers[0]) if covers else found.count,
+            None if obstacle is None else of_obstacle(work, obstacle).message,
+        )
+
+
+def _not_held(work: Work, done: int, fold: int, left_held: list[tuple[Point2, ...]]) -> Obstacle:
+    """That of what the fold before may leave held nothing suffices: the first of it is told of."""
+    held = _as_held(left_held[0]) if left_held else ()
+    return Obstacle(fold, Code.RED_NEEDS_HOLD, "", 1.0, State(done, (0.0, 0.0), 0, 0, held))
+
+
+def _as_held(grips: tuple[Point2, ...]) -> tuple[Held, ...]:
+    return tuple(Held(arm, grip) for arm, grip in enumerate(grips))

@@ -1,10 +1,37 @@
 """What planning asks of a robot besides its reach; `planner.robot` answers it."""
 
+from collections.abc import Callable
 from typing import Protocol
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.table import Table
 from planner.primitives.reach import Reach
+from planner.robot.arm_path import IsFree, ToolPath
 from planner.robot.card import RobotCard
+from planner.robot.collision.contact import Contact
+
+
+class Collisions(Protocol):
+    """What of a robot is in whose way. Joints are in rad, bases are poses of the table frame."""
+
+    def free(self, base_in_table: Pose2, joints: FloatArray) -> BoolArray:
+        """Which configurations of all arms, shape (n, arms, 7), touch nothing; shape (n,)."""
+        ...
+
+    def arm_free(self, arm: int, base_in_table: Pose2, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        """At which joints of one arm, shape (n, 7), it touches neither body nor table; shape (n,).
+
+        Only what is certainly so counts if that is asked for, which is quicker.
+        """
+        ...
+
+    def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        """In which configurations, shape (n, arms, 7), no arm touches another; shape (n,); see `arm_free`."""
+        ...
+
+    def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
+        """Of all that touches in one configuration, shape (arms, 7), what does so deepest; None if nothing does."""
+        ...
 
 
 class Machine(Protocol):
@@ -29,8 +56,35 @@ class Machine(Protocol):
         """The joints nearest to `near` that bring the tool to a pose of the base frame, or None."""
         ...
 
-    def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
-        """How high an arm's elbow is above the floor (m)."""
+    def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
+        """Which tool poses of the base frame, shapes (n, 3) and (n, 3, 3), an arm can take; shape (n,)."""
+        ...
+
+    def arm_path(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> FloatArray | None:
+        """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; None without any.
+
+        Args:
+            arm: which arm.
+            path: where its tool must be.
+            torso_m: how far the lift is raised (m).
+            floor_m: the height over which elbows had better stay, base frame (m).
+            is_free: which joints do not collide.
+        """
+        ...
+
+    def free_postures(
+        self,
+        arm: int,
+        position: FloatArray,
+        rotation: FloatArray,
+        torso_m: float,
+        is_free: Callable[[FloatArray], BoolArray],
+    ) -> FloatArray:
+        """Samples of joints, shape (k, 7), that bring a tool to a pose of the base frame and are free."""
+        ...
+
+    def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
+        """What is in whose way at a table, with the lift raised so far; what is nearer than a margin (m) is too."""
         ...
 
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:

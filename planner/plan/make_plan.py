@@ -5,32 +5,39 @@ The algorithm of the paper (section 5), from top to bottom:
 1. Replay the folds once in the user's order; that makes them legal and yields the Fold-DAG.
 2. Search with A* over states (folds done, placement, base, what is held). Its edges are primitives: any fold that
    the DAG makes available, drags towards the robot, moves between stations.
-3. The path found is the plan. If the states run out first, no plan exists, and the obstacles met say why. To know
+3. The path found is made real: joint paths for both arms, free of collision. Where that fails, or takes longer, the
+   search goes on with what is known now.
+4. What is real is the plan. If the states run out first, no plan exists, and the obstacles met say why. To know
    that sooner, a search that takes longer looks at each fold alone, everything else relaxed: mostly one is to blame.
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
+from planner.plan.act import Act
 from planner.plan.alone import Alone
 from planner.plan.heuristic import HEURISTICS
 from planner.plan.machine import Machine
 from planner.plan.plan import Plan, PlannedPrimitive, Statistics
-from planner.plan.reasons import Reason, reasons
+from planner.plan.real_run import RunMaker
+from planner.plan.realizer import Realizer
+from planner.plan.reason import Reason
+from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.plan.warm_up import warm_up
-from planner.primitives.obstacle import Code
-from planner.primitives.primitive import Step
+from planner.primitives.obstacle import Situation, situation
+from planner.primitives.primitive import Later, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
-from planner.search.a_star import Edge, Outcome, SearchResult, a_star
+from planner.search.a_star import Edge, Outcome, Promise, SearchResult, Successors, a_star
 
 COMFORT_MAX_M = 0.1
 TIME_LIMIT_S = (0.01, 60.0)
@@ -120,43 +127,78 @@ class _Planner:
         self._deadline = self._started + time_limit_s
         self._should_stop = should_stop or (lambda: False)
         self._primitives = [kind(work) for kind in PRIMITIVES]
-        self._achieved = self._furthest = 0
+        self._achieved = 0
+        self._reached: set[Situation] = set()
         self._expanded = 0
         self._station = 0
         self._blocking: list[int] = []
+        self._maker = RunMaker(work, robot)
+        self._realizer = Realizer(self._maker)
+        self._steps: dict[State, tuple[Step | Later[Step], ...]] = {}
+        self._worked_out: dict[Later[Step], tuple[Step | Later[Step], ...]] = {}
+        self._explored = 0
+        self._joint_time_s = 0.0
+        self._is_looked_at_alone = False
 
     def plan(self, station: int) -> Plan:
         self._station = station
         start = State(0, (0.0, 0.0), station, 0)
         unrest = self._work.unrest(0, start.offset)
         if unrest is not None:
-            message = f"as the cloth lies at the start, {unrest.message}"
             nothing: SearchResult[State, Step] = SearchResult(Outcome.INFEASIBLE, (), 0.0, 0.0, 0, 0)
-            return self._answer(start, nothing, (Reason(None, Code(unrest.code), message),))
-        result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+            return self._answer(start, nothing, (), (reason_at_start(self._work, unrest),))
+        result, acts = self._real_path(start)
         if self._blocking:
             result = replace(result, outcome=Outcome.INFEASIBLE)
         is_proof = result.outcome is Outcome.INFEASIBLE
-        return self._answer(start, result, self._reasons() if is_proof else ())
+        return self._answer(start, result, acts, self._reasons() if is_proof else ())
+
+    def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
+        """The quickest path that is real, and what it is then."""
+        while True:
+            result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+            self._explored += result.explored
+            if result.outcome is not Outcome.SOLVED:
+                return result, ()
+            begun = time.perf_counter()
+            found = self._realizer.acts([edge.action for edge in result.path])
+            self._joint_time_s += time.perf_counter() - begun
+            if isinstance(found, tuple):
+                return result, found
+            if found is not None:
+                note_collision(self._work, found)
+            self._achieved = 0
+            self._reached.clear()
 
     def _reasons(self) -> tuple[Reason, ...]:
-        achieved = self._achieved & ~sum(1 << fold for fold in self._blocking)
-        return reasons(self._work, achieved, self._furthest)
+        return reasons(self._work, self._reached, self._blocking)
 
-    def _successors(self, state: State) -> Iterator[Edge[State, Step]]:
-        self._expanded += 1
-        for primitive in self._primitives:
-            for step in primitive.successors(state):
-                done = step.after.done
-                self._achieved |= done
-                self._furthest = max(self._furthest, done, key=int.bit_count)
-                yield Edge(step, step.duration_s, step.after)
+    def _successors(self, state: State) -> Successors[State, Step]:
+        if state not in self._steps:
+            self._expanded += 1
+            self._steps[state] = tuple(one for kind in self._primitives for one in in_time(kind.successors(state)))
+        return self._edges(state, self._steps[state])
+
+    def _edges(self, state: State, found: Iterable[Step | Later[Step]]) -> Successors[State, Step]:
+        """The edges of steps that may be real, and promises of those that have time."""
+        for later in (one for one in found if isinstance(one, Later)):
+            yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
+        for step, cost_s in self._realizer.possible(state, (one for one in found if not isinstance(one, Later))):
+            self._achieved |= step.after.done
+            self._reached.add(situation(step.after))
+            yield Edge(step, cost_s, step.after)
+
+    def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
+        if later not in self._worked_out:
+            self._worked_out[later] = tuple(later.steps())
+        return self._edges(state, self._worked_out[later])
 
     def _is_goal(self, state: State) -> bool:
         return state.done == (1 << len(self._work.sequence.folds)) - 1
 
     def _is_over(self) -> bool:
-        if self._expanded == LOOK_ALONE_AFTER and not self._blocking:
+        if self._expanded >= LOOK_ALONE_AFTER and not self._is_looked_at_alone:
+            self._is_looked_at_alone = True
             alone = Alone(self._work, self._station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
         return bool(self._blocking) or self._is_out_of_budget()
@@ -169,14 +211,22 @@ class _Planner:
         available = self._work.sequence.dag.available(self._achieved)
         return [fold for fold in available if not self._achieved >> fold & 1]
 
-    def _answer(self, start: State, result: SearchResult[State, Step], why: tuple[Reason, ...]) -> Plan:
+    def _answer(
+        self,
+        start: State,
+        result: SearchResult[State, Step],
+        acts: tuple[Act, ...],
+        why: tuple[Reason, ...],
+    ) -> Plan:
         is_solved = result.outcome is Outcome.SOLVED
-        primitives, end_s = self._schedule([edge.action for edge in result.path])
+        primitives, end_s = self._schedule(acts)
         last = result.path[-1].after.offset if result.path else (0.0, 0.0)
         bound = {Outcome.SOLVED: end_s, Outcome.INFEASIBLE: None}.get(result.outcome, result.bound)
         reach = self._work.reach
-        elapsed = time.perf_counter() - self._started
-        statistics = Statistics(result.expanded, result.explored, reach.queries, reach.query_time_s, elapsed, bound)
+        elapsed = time.perf_counter() - self._started - self._joint_time_s
+        statistics = Statistics(
+            self._expanded, self._explored, reach.queries, reach.query_time_s, elapsed, self._joint_time_s, bound
+        )
         return Plan(
             result.outcome.value,
             primitives,
@@ -187,13 +237,16 @@ class _Planner:
             self._work,
             self._robot,
             start,
+            acts,
+            self._maker,
         )
 
-    def _schedule(self, steps: list[Step]) -> tuple[tuple[PlannedPrimitive, ...], float]:
+    def _schedule(self, acts: tuple[Act, ...]) -> tuple[tuple[PlannedPrimitive, ...], float]:
         planned, now = [], 0.0
-        for step in steps:
-            planned.append(PlannedPrimitive(step, now, self._work.base_stop(step.after)))
-            now += step.duration_s
+        for act in acts:
+            for step, duration_s in zip(act.steps, act.durations_s(), strict=True):
+                planned.append(PlannedPrimitive(step, now, duration_s, self._work.base_stop(step.after)))
+                now += duration_s
         return tuple(planned), now
 
 

@@ -9,8 +9,11 @@ from planner.cloth.layer import Layer
 from planner.errors import UnsolvedPlanError
 from planner.folds.fold_dag import FoldDag
 from planner.geometry.pose import Pose2
+from planner.plan.act import Act
+from planner.plan.film import FilmMaker
 from planner.plan.machine import Machine
-from planner.plan.reasons import Reason
+from planner.plan.real_run import RunMaker
+from planner.plan.reason import Reason
 from planner.plan.timeline import Timeline, standing
 from planner.primitives.grip import BaseStop, Grip
 from planner.primitives.primitive import Step
@@ -26,22 +29,19 @@ class PlannedPrimitive:
     Attributes:
         step: the primitive as it is performed.
         start_s: when it starts (s).
+        duration_s: how long it takes (s): what the cost model says, or longer where the joints are slower.
         base: where it leaves the base.
     """
 
     step: Step
     start_s: float
+    duration_s: float
     base: BaseStop
 
     @property
     def kind(self) -> str:
         """The primitive's name: "fold", "drag" or "move"."""
         return self.step.kind
-
-    @property
-    def duration_s(self) -> float:
-        """How long it takes (s)."""
-        return self.step.duration_s
 
     @property
     def grips(self) -> tuple[Grip, ...]:
@@ -74,7 +74,8 @@ class Statistics:
         explored: successors pushed.
         ik_queries: queries put to the exact inverse kinematics, comfort points counted.
         ik_time_s: time spent in them (s).
-        search_time_s: time of the whole search (s).
+        search_time_s: time of the whole search (s), joint paths aside.
+        joint_time_s: time spent on joint paths (s).
         bound_s: no plan costs less (s); None when there is no plan at all.
     """
 
@@ -83,6 +84,7 @@ class Statistics:
     ik_queries: int
     ik_time_s: float
     search_time_s: float
+    joint_time_s: float
     bound_s: float | None
 
     def to_dict(self) -> dict[str, Any]:
@@ -104,6 +106,8 @@ class Plan:
         work: the problem.
         robot: the robot.
         start: the state before the first primitive.
+        acts: the primitives again, with the joint paths of those that belong together.
+        maker: what made them real.
     """
 
     status: str
@@ -115,6 +119,8 @@ class Plan:
     work: Work
     robot: Machine
     start: State
+    acts: tuple[Act, ...]
+    maker: RunMaker
 
     @property
     def garment(self) -> Garment:
@@ -143,9 +149,8 @@ class Plan:
 
     @cached_property
     def _timeline(self) -> Timeline:
-        phases = [(i, phase) for i, p in enumerate(self.primitives) for phase in p.step.phases()]
-        still = [(0, standing(self.work, self.start))]
-        return Timeline.of(phases or still, self.cost_s or 0.0, self.work, self.robot)
+        film = FilmMaker(self.maker.transits, self.maker.collisions).film(self.acts, standing(self.work, self.start))
+        return Timeline.of(film, self.cost_s or 0.0, self.work, self.robot.card)
 
     def timeline(self) -> Timeline:
         """What robot and cloth do at every moment.

@@ -31,3 +31,5 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
     for point in (_FAR, _EDGE):
         reach.shortfall(0, point, np.array([0]))
         reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
+        reach.shortfall_together(0, point[None, None], np.array([0]))
+        reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)

@@ -9,8 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-IMPOSSIBLE = 1 << 20
-"""A number of steps that stands for "no way"."""
+from planner.geometry.driving import IMPOSSIBLE
 
 
 @njit(cache=True)
@@ -59,6 +58,16 @@ def travel(strips: NDArray[np.uint32], count: int) -> tuple[NDArray[np.int64], N
     """
     best, choice = _travel(strips, count)
     return best, choice
+
+
+def unbeaten(steps: NDArray[np.int64]) -> list[int]:
+    """The end back-offs that cannot be had in as few steps by driving on from another end; steps of shape (count,)."""
+    by_cost = sorted(np.flatnonzero(steps < IMPOSSIBLE), key=lambda end: (steps[end], end))
+    kept: list[int] = []
+    for end in by_cost:
+        if all(steps[end] < steps[other] + abs(end - other) for other in kept):
+            kept.append(int(end))
+    return sorted(kept)
 
 
 def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[int, ...]:

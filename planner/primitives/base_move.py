@@ -9,7 +9,7 @@ import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import networkx as nx
@@ -20,6 +20,7 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.primitive import InTime, Later
 from planner.primitives.state import State
 from planner.primitives.work import Work
 
@@ -97,6 +98,23 @@ class MoveStep:
         legs = zip(self.route.waypoints[:-1], self.route.waypoints[1:], strict=True)
         return tuple(Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True))
 
+    def variants(self) -> Iterable["MoveStep"]:
+        """There is but one way."""
+        return (self,)
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """A move is always made real by itself."""
+        return (self.kind, self.before.key, self.after.key)
+
+    def begun_in(self, _state: State) -> "MoveStep":
+        """A move begins where it begins."""
+        return self
+
+    def elsewhere(self, _count: int) -> Iterable["MoveStep"]:
+        """There is but one way."""
+        return ()
+
 
 class BaseMove:
     """Drives from station to station with free hands."""
@@ -107,12 +125,20 @@ class BaseMove:
 
     def successors(self, state: State) -> Iterable[MoveStep]:
         """One step for each other station."""
-        if state.held:
-            return
-        for station in range(len(self._work.scene.stations)):
-            if station != state.station:
-                after = State(state.done, state.offset, station, 0)
-                yield MoveStep(self._work, self._route(state, station), state, after)
+        stations = () if state.held else range(len(self._work.scene.stations))
+        return InTime(tuple(self._later(state, station) for station in stations if station != state.station))
+
+    def _later(self, state: State, station: int) -> Later[MoveStep]:
+        """A move, in its time: it takes at least what it takes to go and to turn with nothing in the way."""
+        scene, start = self._work.scene, self._work.base_pose(state.station, state.back_off)
+        goal = self._work.station_pose(station)
+        drive_s = math.dist(_place(start), _place(goal)) / scene.base_speed_m_s
+        turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
+        return Later(drive_s + turn_s, state, partial(self._steps, state, station))
+
+    def _steps(self, state: State, station: int) -> tuple[MoveStep, ...]:
+        after = State(state.done, state.offset, station, 0)
+        return (MoveStep(self._work, self._route(state, station), state, after),)
 
     def _route(self, state: State, station: int) -> Route:
         key = (state.station, state.back_off, station)

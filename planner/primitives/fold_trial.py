@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from planner.cloth.grips import Cover, best_covers
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
@@ -20,8 +21,9 @@ from planner.primitives.grasping import (
     nearest_pair_m,
 )
 from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.reach import Following
 from planner.primitives.state import Held, State
-from planner.primitives.work import Work
+from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,20 +54,57 @@ class FoldTrial:
         """Whether the same arms take the same grips, maybe elsewhere on the table."""
         return (self.cover, self.arms) == (other.cover, other.arms)
 
+    def in_base(self, work: Work, station: int) -> FloatArray:
+        """The tool paths as the robot sees them from a station at back-off 0, shape (grips, waypoints, 3), m."""
+        return work.in_base(station, self.tools)
+
+    def following(self, work: Work, station: int) -> Following:
+        """The hands as they are to follow their paths from a station."""
+        return work.reach.following(self.arms, self.in_base(work, station), self.approaches, BACK_OFF_STEP_M)
+
+
+class Depths:
+    """How far the part that a fold moves reaches from the fold line."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._known: dict[tuple[int, int], tuple[float, float]] = {}
+
+    def of(self, done: int, fold: int) -> tuple[float, float]:
+        """The smallest and the largest distance from the line, to the left (m)."""
+        if (done, fold) not in self._known:
+            moving = self._work.sequence.folded(done, fold).moving
+            distances = self._work.sequence.folds[fold].line.left_distances(moving.coordinates)
+            self._known[done, fold] = (float(distances.min()), float(distances.max()))
+        return self._known[done, fold]
+
 
 def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     """What speaks against a fold in a state whatever the arms can do; None if nothing does."""
+    return next(geometric_obstacles(work, state, fold), None)
+
+
+def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacle]:
+    """All that speaks against a fold in a state whatever the arms can do."""
     line, label = work.sequence.folds[fold].line, work.sequence.folds[fold].label
-    if not work.table_in_article(state.offset).region.overlaps_with(line):
-        return Obstacle(fold, Code.LINE_OFF_TABLE, f"{label}: its line lies beyond the table's edge", 1.0)
-    behind = -float(line.left_distances(work.sequence.folded(state.done, fold).moving.coordinates).min())
+    top = work.table_in_article(state.offset)
+    is_on_table = work.is_on_table(line.start, state.offset) or work.is_on_table(line.end, state.offset)
+    if not is_on_table and not top.region.overlaps_with(line):
+        off = top.region.distance_to(line)
+        message = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
+        yield Obstacle(fold, Code.LINE_OFF_TABLE, message, off, state)
+    behind = -work.kept(Depths).of(state.done, fold)[0]
     if behind > LENGTH_M:
-        message = f"{label}: the part that moves reaches {behind:.3f} m behind the line's extension"
-        return Obstacle(fold, Code.NOT_A_G_STATE, message, behind)
+        message = (
+            f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
+            "carry it; turn or lengthen the line, or fold that part by itself first"
+        )
+        yield Obstacle(fold, Code.NOT_A_G_STATE, message, behind, state)
     unrest = work.unrest(state.done | 1 << fold, state.offset)
     if unrest is not None:
-        return Obstacle(fold, Code(unrest.code), f"{label}: afterwards {unrest.message}", unrest.severity)
-    return None
+        yield Obstacle(
+            fold, Code(unrest.code), f"{label}: afterwards {unrest.message}", unrest.severity, state, unrest.point
+        )
 
 
 def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
@@ -82,36 +121,50 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
 
 
 def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
-    """The smallest sets of grips already held that hold all that a fold needs; empty if none does."""
+    """The smallest sets of grips already held that hold all that a fold needs; empty if none does.
+
+    Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
+    """
     arms = len(work.reach.arm_names)
     vertices = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices
-    points: list[Point2] = [h.point for h in held]
+    points = lifted_points(work, done, fold, held)
     radius = work.sequence.folds[fold].grip_radius_m
-    return best_covers(np.array(points), np.array(vertices), radius, len(held))
+    return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
 
 
-def grips_obstacle(work: Work, done: int, fold: int) -> Obstacle | None:
+def lifted_points(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> list[Point2]:
+    """Those of the grips held that are on the part that a fold moves, article frame (m)."""
+    line, moving = work.sequence.folds[fold].line, work.sequence.folded(done, fold).moving
+    return [h.point for h in held if _is_lifted(h.point, moving, line)]
+
+
+def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
+    """Whether a point of the cloth lies on the part that moves, off the fold line."""
+    is_on_part = moving.contains(point) or moving.boundary_distance(point) <= LENGTH_M
+    return is_on_part and float(line.distances(np.array([point]))[0]) > LENGTH_M
+
+
+def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
     arms = len(work.reach.arm_names)
     drawn = work.sequence.folds[fold]
-    covers = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms)
+    covers = work.sequence.covers(state.done, fold, work.scene.support_angle_rad, arms)
     if not covers.is_holdable:
         message = (
             f"{drawn.label}: {len(covers.vertices)} vertices must be held, and {arms} grips that hold "
             f"{drawn.grip_radius_m:g} m round themselves do not suffice"
         )
-        return Obstacle(fold, Code.TOO_MANY_GRIPS, message, float(len(covers.vertices)))
+        return Obstacle(fold, Code.TOO_MANY_GRIPS, message, float(len(covers.vertices)), state)
     apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
     if apart < GRIPS_APART_M - LENGTH_M:
         message = f"{drawn.label}: its two grips are {apart:.3f} m apart, two hands need {GRIPS_APART_M:g} m"
-        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, message, GRIPS_APART_M - apart)
+        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, message, GRIPS_APART_M - apart, state)
     return None
 
 
 def _path(work: Work, state: State, fold: int) -> FoldPath:
     line = work.sequence.folds[fold].line
-    moving = work.sequence.folded(state.done, fold).moving
-    depth = float(line.left_distances(moving.coordinates).max())
+    _, depth = work.kept(Depths).of(state.done, fold)
     ends = work.placed(state.offset).to_outer(np.array([line.start, line.end]))
     in_table = Segment(_plain(ends[0]), _plain(ends[1]))
     top = TableTop.of(work.scene.table)
@@ -126,7 +179,7 @@ def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[i
     if state.held:
         yield from _held_grips(work, state, fold)
         return
-    obstacle = grips_obstacle(work, state.done, fold)
+    obstacle = grips_obstacle(work, state, fold)
     if obstacle is not None:
         work.obstacles.note(obstacle)
         return
@@ -144,15 +197,15 @@ def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tu
     if not covers and not state.is_dragged:
         label = work.sequence.folds[fold].label
         message = f"{label}: the grips still held from the fold before do not hold all that must be held"
-        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, message, 1.0))
+        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, message, 1.0, state))
     for cover in covers:
         yield cover, tuple(next(h.arm for h in state.held if h.point == point) for point in cover)
 
 
 def _approaches(work: Work, state: State, grip: Point2) -> NDArray[np.int64]:
     if state.held:
-        return all_approaches(work)
-    turn = work.placed(state.offset).yaw_rad - work.station_pose(state.station).yaw_rad
+        return work.kept(all_approaches)
+    turn = work.placement.yaw_rad - work.station_pose(state.station).yaw_rad
     return approaches_from_outside(work, state.done, turn, grip)
 
 

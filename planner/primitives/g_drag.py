@@ -1,16 +1,20 @@
 """The g-drag: the base backs off with the arms still and the cloth comes along (paper, section 6)."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.base_legs import unbeaten
 from planner.primitives.drag_grips import (
     DRAGS_PER_M,
     drag_covers,
@@ -20,18 +24,17 @@ from planner.primitives.drag_grips import (
     towards_robot,
 )
 from planner.primitives.fold_trial import held_covers
-from planner.primitives.g_fold import unbeaten
 from planner.primitives.grasping import (
     GRIPS_APART_M,
     approaches_from_outside,
-    arm_options,
     assignments,
     nearest_pair_m,
 )
 from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.primitive import InTime, Later
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFFS_PER_M, Work
+from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
 
 _STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
 
@@ -68,6 +71,7 @@ class DragStep:
         before: the state it starts in.
         after: the state it leads to.
         first_stand: back-off at which the grips are reached.
+        approaches: each grip's approach, where that is not the one preferred.
     """
 
     work: Work
@@ -75,6 +79,7 @@ class DragStep:
     before: State
     after: State
     first_stand: int
+    approaches: tuple[int, ...] | None = None
     kind: str = "drag"
 
     @property
@@ -129,6 +134,47 @@ class DragStep:
             Phase(drag, (stand, end), self._hands(is_reaching=False), carried),
         )
 
+    def variants(self) -> Iterator["DragStep"]:
+        """The same in every other choice of approaches; the best ones first."""
+        yield self
+        work, way = self.work, self.way
+        turn = work.placed(self.before.offset).yaw_rad - work.station_pose(self.before.station).yaw_rad
+        chosen = tuple(int(approach) for approach in way.approaches[self.first_stand])
+        able = []
+        for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
+            allowed = approaches_from_outside(work, self.before.done, turn, grip)
+            point = work.in_base(self.before.station, pick[None])
+            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
+        for choice in sorted(product(*(enumerate(a) for a in able)), key=lambda c: sum(rank for rank, _ in c)):
+            approaches = tuple(approach for _, approach in choice)
+            if approaches != chosen:
+                yield replace(self, approaches=approaches)
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """What it has in common with the same motions of the hands while the base stands elsewhere."""
+        length = self.after.back_off - self.first_stand
+        hands = (self.way.arms, np.round(self.way.picks / LENGTH_M).tobytes(), self.way.approaches.tobytes())
+        return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, hands)
+
+    def begun_in(self, state: State) -> "DragStep":
+        """The same from another state of the same situation."""
+        return replace(self, before=state, after=replace(self.after, done=state.done))
+
+    def elsewhere(self, count: int) -> Iterator["DragStep"]:
+        """So many other ways to drag the same grips as far from the same state, the base starting elsewhere."""
+        stands = [stand for stand in self.way.stands if stand != self.first_stand]
+        length = self.after.back_off - self.first_stand
+        for stand in stands[:: max(1, len(stands) // count)]:
+            if stand + length < self.work.back_offs:
+                yield replace(
+                    self,
+                    after=replace(self.after, back_off=stand + length),
+                    first_stand=stand,
+                    approaches=None,
+                )
+
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
         ends = self._ends()
@@ -139,7 +185,8 @@ class DragStep:
         return tuple(hands)
 
     def _approach(self, grip: int) -> Approach:
-        return self.work.reach.approaches[int(self.way.approaches[self.first_stand, grip])]
+        chosen = self.way.approaches[self.first_stand] if self.approaches is None else self.approaches
+        return self.work.reach.approaches[int(chosen[grip])]
 
     def _ends(self) -> FloatArray:
         dx = self.after.offset[0] - self.before.offset[0]
@@ -154,18 +201,43 @@ class GDrag:
         self._work = work
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
         self._useful: dict[tuple[object, ...], bool] = {}
+        self._longest = longest_drag(work)
 
     def successors(self, state: State) -> Iterable[DragStep]:
         """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
         if state.held:
-            return
+            return InTime(())
+        held = State(state.done, state.offset, state.station, 0, is_dragged=True)
+        return InTime((*self._later(state, 1, state), *self._later(state, 1, held)))
+
+    def by(self, state: State, count: int) -> Iterator[DragStep]:
+        """Drags of one distance, so many steps of the grid."""
+        ways = () if state.held else self._ways(state)
+        offset = dragged(self._work, state.offset, state.station, count)
+        if ways and self._work.unrest(state.done, offset) is None:
+            yield from self._letting_go(state, ways, count, offset)
+            for way in ways:
+                yield from self._holding(state, way, count, offset)
+
+    def _later(self, state: State, count: int, towards: State) -> Iterator[Later[DragStep]]:
+        """Drags of at least so many steps of the grid, in their time; the hands hold on if they do `towards`."""
+        if count <= self._longest:
+            duration = self._work.scene.arm_motion_s + self._work.drive_s(count * _STEPS_PER_DRAG)
+            yield Later(duration, towards, partial(self._steps, state, count, towards))
+
+    def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Later[DragStep]]:
+        """Drags by so many steps of the grid, and in their time by more."""
         ways = self._ways(state)
-        for count in range(1, longest_drag(self._work) + 1) if ways else ():
-            offset = dragged(self._work, state.offset, state.station, count)
-            if self._work.unrest(state.done, offset) is None:
-                yield from self._letting_go(state, ways, count, offset)
+        if not ways:
+            return
+        offset = dragged(self._work, state.offset, state.station, count)
+        if self._work.unrest(state.done, offset) is None:
+            if towards.is_dragged:
                 for way in ways:
                     yield from self._holding(state, way, count, offset)
+            else:
+                yield from self._letting_go(state, ways, count, offset)
+        yield from self._later(state, count + 1, towards)
 
     def _serves(self, done: int, fold: int, held: tuple[Held, ...]) -> bool:
         """Whether a fold can be done with grips held from a drag."""
@@ -202,8 +274,9 @@ class GDrag:
         chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
             allowed = approaches_from_outside(work, state.done, turn, grip)
-            option = arm_options(work, state.station, arm, picks[i : i + 1], allowed, (0, work.back_offs - 1))
-            for index, mask in reversed(list(zip(option.approaches, option.masks[:, 0], strict=True))):
+            point = work.in_base(state.station, picks[i : i + 1])
+            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            for index, mask in reversed(list(zip(allowed, masks[:, 0], strict=True))):
                 stands = [b for b in range(work.back_offs) if int(mask) >> b & 1]
                 chosen[stands, i] = index
         return DragWay(arms, cover, picks, chosen)
@@ -214,7 +287,7 @@ class GDrag:
         for way in ways:
             for stand in way.stands:
                 best.setdefault(stand, way)
-        steps = np.full(self._work.back_offs, np.inf)
+        steps = np.full(self._work.back_offs, IMPOSSIBLE)
         for stand in best:
             end = stand + count * _STEPS_PER_DRAG
             if end < len(steps):

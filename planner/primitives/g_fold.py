@@ -1,20 +1,25 @@
 """The g-fold: reach the grips, lift them over the fold line, lay them down (paper, sections 6 and 7)."""
 
+import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD
-from planner.primitives.base_legs import IMPOSSIBLE, legs
-from planner.primitives.fold_way import FoldWay, FoldWays
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.primitives.base_legs import legs
+from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_variants import fold_spread, fold_variants
+from planner.primitives.fold_way import FoldWay
 from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.primitive import InTime, Later
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
 
@@ -31,6 +36,7 @@ class FoldStep:
         before: the state it starts in.
         after: the state it leads to.
         first_stand: back-off from which the path is begun.
+        driven: how many steps of the back-off grid the base drives from there on.
     """
 
     work: Work
@@ -38,13 +44,13 @@ class FoldStep:
     before: State
     after: State
     first_stand: int
+    driven: int
     kind: str = "fold"
 
     @property
     def duration_s(self) -> float:
         """The arm motions and all the base's legs (s)."""
-        steps = int(self.way.steps[self.first_stand, self.after.back_off])
-        steps += abs(self.before.back_off - self.first_stand)
+        steps = self.driven + abs(self.before.back_off - self.first_stand)
         motions = 2 if self.before.held else 3
         return motions * self.work.scene.arm_motion_s + self.work.drive_s(steps)
 
@@ -85,11 +91,43 @@ class FoldStep:
             Phase(self.work.scene.arm_motion_s, (stand, stand), reach, still),
         )
 
+    def variants(self) -> Iterator["FoldStep"]:
+        """This, then every other way between the same states, the quickest first."""
+        yield self
+        fold, end = self.way.trial.fold, self.after.back_off
+        for variant in fold_variants(self.work, self.before, fold, end):
+            driven = variant.steps - abs(variant.first - self.before.back_off)
+            yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """What it has in common with the same motions of the hands while the base stands elsewhere.
+
+        Which other folds are done does not matter, as long as the hands do the same.
+        """
+        trial = self.way.trial
+        hands = (trial.arms, np.round(trial.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in trial.approaches))
+        return (self.kind, trial.fold, self.before.hold, self.before.station, self.before.place, hands)
+
+    def begun_in(self, state: State) -> "FoldStep":
+        """The same from another state of the same situation."""
+        steps = self.driven + abs(self.first_stand - state.back_off)
+        return fold_step(self.work, self.way, state, self.first_stand, self.after.back_off, steps)
+
+    def elsewhere(self, count: int) -> Iterator["FoldStep"]:
+        """So many other ways to do the same fold in the same state, the base starting and ending anywhere."""
+        for variant in fold_spread(self.work, self.before, self.way.trial.fold, count):
+            yield fold_step(self.work, variant.way, self.before, variant.first, variant.end, variant.steps)
+
+    @cached_property
+    def _stands(self) -> tuple[int, ...]:
+        """Where the base stands when the hands leave each waypoint."""
+        return legs(self._strip, self.first_stand, self.after.back_off, self.work.back_offs)
+
     def _follow(self) -> Iterator[Phase]:
         """Stretches of even motion, broken where the base drives and at the apex."""
-        stands = legs(self._strip, self.first_stand, self.after.back_off, self.work.back_offs)
         at, sweep = self.first_stand, 0.0
-        for waypoint, stand in zip(self.way.trial.sweeps, stands, strict=True):
+        for waypoint, stand in zip(self.way.trial.sweeps, self._stands, strict=True):
             is_apex = abs(waypoint - 1.0) <= ANGLE_RAD
             if stand != at or is_apex:
                 yield from self._stretch(sweep, float(waypoint), at)
@@ -106,31 +144,40 @@ class FoldStep:
         hands = self._hands(list(np.linspace(start, end, count)), is_closed=True)
         base = self._base(stand)
         duration = (end - start) * self.work.scene.arm_motion_s
-        yield Phase(duration, (base, base), hands, self._cloth(start, end))
+        yield Phase(duration, (base, base), hands, self._cloth(start, end), motion=0 if start < 1.0 else 1)
 
     def _leg(self, sweep: float, start: int, end: int) -> Phase:
         hands = self._hands([sweep], is_closed=True)
         base = (self._base(start), self._base(end))
         return Phase(self.work.drive_s(abs(end - start)), base, hands, self._cloth(sweep, sweep))
 
-    @cached_property
-    def _combination(self) -> int:
-        return int(self.way.choice[self.first_stand, self.after.back_off])
-
     @property
     def _strip(self) -> NDArray[np.uint32]:
-        return np.asarray(self.way.strips.masks[self._combination])
+        return self.way.strip(self.work, self.before.station)
 
     def _approach(self, grip: int) -> Approach:
-        return self.work.reach.approaches[int(self.way.strips.approaches[self._combination, grip])]
+        return self.work.reach.approaches[self.way.approaches[grip]]
 
     def _hands(self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
         paths = self.way.trial.path.tool_paths(self.way.trial.points, np.array(sweeps))
         for number, arm in enumerate(self.way.trial.arms):
             points = tuple(_point(p) for p in paths[number])
-            hands[arm] = Hand(self._approach(number), points, is_closed, is_reaching)
+            rolls = self._rolls(number, np.array(sweeps))
+            hands[arm] = Hand(self._approach(number), points, is_closed, is_reaching, rolls)
         return tuple(hands)
+
+    def _rolls(self, number: int, sweeps: FloatArray) -> tuple[float, ...]:
+        """How far a hand has rolled (rad): with the cloth by half a turn if it points along the fold line, else not.
+
+        In between would be nearer to how the cloth turns, but fingers come down flat on the table.
+        """
+        path, approach = self.way.trial.path, self._approach(number)
+        begin = 1.0 - float(path.line.left_distances(self.way.trial.points[number : number + 1])[0]) / path.depth_m
+        turned = math.pi * np.clip((sweeps - begin) / (2.0 - 2.0 * begin), 0.0, 1.0)
+        heading = approach.heading_rad + self._base(self.first_stand).yaw_rad
+        along = float(np.dot(path.line.direction, (math.cos(heading), math.sin(heading))))
+        return tuple(float(roll) for roll in turned * round(along * math.cos(approach.pitch_rad)))
 
     def _tools(self, sweep: float) -> FloatArray:
         return self.way.trial.path.tool_points(self.way.trial.points, sweep)
@@ -149,53 +196,52 @@ class GFold:
 
     def __init__(self, work: Work) -> None:
         self._work = work
-        self._ways = FoldWays(work)
+        self._questions = work.kept(FoldQuestions)
+        self._available = cache(work.sequence.dag.available)
+        self._follows_at_once = [work.sequence.dag.follows_at_once(fold.index) for fold in work.sequence.folds]
+        self._towards = cache(lambda done: State(done, (0.0, 0.0), 0, 0))
 
     def successors(self, state: State) -> Iterable[FoldStep]:
         """One step for each available fold and each end back-off that no other beats."""
-        for fold in self._work.sequence.dag.available(state.done):
-            if state.is_dragged and self._work.sequence.folds[fold].is_red:
-                continue
-            if self._work.sequence.dag.follows_at_once(fold):
-                for way in self._ways.to_every_end(state, fold):
-                    yield from self._holding(state, way)
-                continue
-            ways = self._ways.to_unbeaten_ends(state, fold)
-            if ways:
-                yield from self._letting_go(state, ways)
+        folds = self._available(state.done)
+        if state.is_dragged:
+            folds = tuple(fold for fold in folds if not self._work.sequence.folds[fold].is_red)
+        return InTime(tuple([self._later(state, fold, 0) for fold in folds]))
 
-    def _letting_go(self, state: State, ways: tuple[FoldWay, ...]) -> Iterator[FoldStep]:
-        found = [(way, *way.ends(state)) for way in ways]
-        totals = np.array([steps for _, steps, _ in found])
-        best, which = totals.min(axis=0), totals.argmin(axis=0)
-        for end in unbeaten(best):
-            way, _, firsts = found[which[end]]
-            yield self._step(state, way, int(firsts[end]), end, ())
+    def _later(self, state: State, fold: int, driven: int) -> Later[FoldStep]:
+        """What needs at least so many steps of driving, in its time."""
+        motions = 2 if state.held else 3
+        duration = motions * self._work.scene.arm_motion_s + self._work.drive_s(driven)
+        towards = self._towards(state.done | 1 << fold)
+        return Later(duration, towards, partial(self._steps, state, fold, driven))
 
-    def _holding(self, state: State, way: FoldWay) -> Iterator[FoldStep]:
-        steps, firsts = way.ends(state)
-        line = self._work.sequence.folds[way.trial.fold].line
-        over = Isometry.reflection(line)
+    def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
+        """The steps with so much driving or some more, and in their time those with still more."""
+        question = self._questions.of(state, fold)
+        if self._follows_at_once[fold]:
+            ends, more = question.every_end(state.back_off), IMPOSSIBLE
+        else:
+            ends, more = question.ends(state.back_off, driven, 4 * driven + 4 if driven or state.held else 0)
+        for end in ends:
+            yield fold_step(self._work, end.way, state, end.first, end.back_off, end.steps)
+        if more < IMPOSSIBLE:
+            yield self._later(state, fold, more)
+
+
+def fold_step(work: Work, way: FoldWay, state: State, first: int, end: int, steps: int) -> FoldStep:
+    """A fold done in a state, its path begun at one back-off and ended at another in so many steps of driving in all.
+
+    Before a red fold the hands hold on.
+    """
+    fold = way.trial.fold
+    held: tuple[Held, ...] = ()
+    if work.sequence.dag.follows_at_once(fold):
+        over = Isometry.reflection(work.sequence.folds[fold].line)
         held = tuple(
             Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.trial.arms, way.trial.cover, strict=True))
         )
-        for end in np.flatnonzero(steps < IMPOSSIBLE):
-            yield self._step(state, way, int(firsts[end]), int(end), held)
-
-    def _step(self, state: State, way: FoldWay, first: int, end: int, held: tuple[Held, ...]) -> FoldStep:
-        after = State(state.done | 1 << way.trial.fold, state.offset, state.station, end, held)
-        return FoldStep(self._work, way, state, after, first)
-
-
-def unbeaten(steps: FloatArray) -> list[int]:
-    """The end back-offs that cannot be had as cheaply by driving on from another end."""
-    ends = np.flatnonzero(steps < IMPOSSIBLE)
-    by_cost = sorted(ends, key=lambda e: (steps[e], e))
-    kept: list[int] = []
-    for end in by_cost:
-        if all(steps[end] < steps[other] + abs(end - other) for other in kept):
-            kept.append(int(end))
-    return sorted(kept)
+    after = State(state.done | 1 << fold, state.offset, state.station, end, held)
+    return FoldStep(work, way, state, after, first, steps - abs(first - state.back_off))
 
 
 def _point(row: FloatArray) -> Point3:

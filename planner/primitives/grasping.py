@@ -2,16 +2,14 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations, permutations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, wrapped_angle
-from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.primitives.work import BACK_OFF_STEP_M, Work
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
+from planner.primitives.work import Work
 
 GRIPS_APART_M = 0.10
 """Two grips nearer to each other than this cannot be taken by two hands (m)."""
@@ -57,122 +55,57 @@ def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip:
         heading_in_base: direction of the article's x axis in the base frame (rad).
         grip: a point of the stack, article frame (m).
     """
-    inward = work.sequence.cloth(done).silhouette.inward_bisector(grip)
-    cone = work.scene.approach_cone_rad
-    heading = None if inward is None else heading_in_base + math.atan2(inward[1], inward[0])
-    allowed = [
-        (_discomfort(approach, heading), index)
-        for index, approach in enumerate(work.reach.approaches)
-        if approach.is_vertical
-        or cone >= math.pi - ANGLE_RAD
-        or (heading is not None and _off(approach, heading) <= cone + ANGLE_RAD)
-    ]
-    return np.array([index for _, index in sorted(allowed)], dtype=np.int64)
+    return work.kept(_Pinches).of(done, heading_in_base, grip)
 
 
-def all_approaches(work: Work, heading_in_base: float | None = None) -> NDArray[np.int64]:
+class _Pinches:
+    """From which directions cloth may be pinched: asked again and again for the same grips, so answers are kept."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._headings: dict[tuple[int, Point2], float | None] = {}
+        self._known: dict[tuple[int, float, Point2], NDArray[np.int64]] = {}
+
+    def of(self, done: int, heading_in_base: float, grip: Point2) -> NDArray[np.int64]:
+        key = (done, heading_in_base, grip)
+        if key not in self._known:
+            inward = self._inward_heading(done, grip)
+            heading = None if inward is None else heading_in_base + inward
+            self._known[key] = _from_outside(self._work, heading)
+        return self._known[key]
+
+    def _inward_heading(self, done: int, grip: Point2) -> float | None:
+        """The direction into the cloth in the article frame (rad); None for a grip that is not at its edge."""
+        if (done, grip) not in self._headings:
+            inward = self._work.sequence.cloth(done).silhouette.inward_bisector(grip)
+            self._headings[done, grip] = None if inward is None else math.atan2(inward[1], inward[0])
+        return self._headings[done, grip]
+
+
+def _from_outside(work: Work, heading: float | None) -> NDArray[np.int64]:
+    """The approaches within the cone about a heading, base frame, best first; without one only straight down."""
+    discomfort, off = _discomfort(work, heading)
+    cone, is_vertical = work.scene.approach_cone_rad, [approach.is_vertical for approach in work.reach.approaches]
+    is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
+    if heading is not None:
+        is_within |= off <= cone + EDGE_RAD
+    return _by_comfort(discomfort, np.flatnonzero(is_within | is_vertical))
+
+
+def all_approaches(work: Work) -> NDArray[np.int64]:
     """Every approach, best first: what is held already may be held from anywhere."""
-    scored = ((_discomfort(a, heading_in_base), i) for i, a in enumerate(work.reach.approaches))
-    return np.array([i for _, i in sorted(scored)], dtype=np.int64)
+    discomfort, _ = _discomfort(work, None)
+    return _by_comfort(discomfort, np.arange(len(discomfort)))
 
 
-def _off(approach: Approach, heading: float) -> float:
-    return abs(wrapped_angle(approach.heading_rad - heading))
+def _by_comfort(discomfort: FloatArray, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.asarray(approaches[np.argsort(discomfort[approaches], kind="stable")])
 
 
-def _discomfort(approach: Approach, heading: float | None) -> float:
-    """How far an approach is from the natural one: straight into the cloth, 30 degrees down."""
-    turn = 0.0 if heading is None or approach.is_vertical else _off(approach, heading)
-    return round(turn + abs(approach.pitch_rad - _PREFERRED_PITCH_RAD), 6)
-
-
-@dataclass(frozen=True, slots=True)
-class ArmOptions:
-    """How one arm may follow its path: undominated approaches and, for each, the back-offs at each waypoint.
-
-    Attributes:
-        arm: the arm's number.
-        approaches: indices of approaches, shape (k,), best first.
-        masks: bit masks of back-offs, shape (k, n).
-    """
-
-    arm: int
-    approaches: NDArray[np.int64]
-    masks: NDArray[np.uint32]
-
-
-def arm_options(
-    work: Work,
-    station: int,
-    arm: int,
-    tool_points: FloatArray,
-    approaches: NDArray[np.int64],
-    window: tuple[int, int],
-    enough: int | None = None,
-    start: int | None = None,
-) -> ArmOptions:
-    """Ask the robot along a path of one arm and keep what can matter.
-
-    Args:
-        work: the problem.
-        station: where the robot stands.
-        arm: the arm's number.
-        tool_points: the path in the table frame, shape (n, 3), m.
-        approaches: what may be tried, best first.
-        window: the first and last back-off asked for.
-        enough: how many approaches are enough; None: all are wanted.
-        start: the back-off at which the hand is at the path's start already; None: the hand is free.
-    """
-    low, high = window
-    points = work.in_base(station, tool_points) + np.array([low * BACK_OFF_STEP_M, 0.0, 0.0])
-    first = None if start is None else start - low
-    masks = work.reach.back_offs(arm, points, approaches, high - low + 1, BACK_OFF_STEP_M, enough, first)
-    masks <<= np.uint32(low)
-    kept = _undominated(masks)
-    return ArmOptions(arm, approaches[kept], masks[kept])
-
-
-def _undominated(masks: NDArray[np.uint32]) -> NDArray[np.int64]:
-    """Rows that can be followed and that no other row allows at least as much as (the first of equals)."""
-    alive = np.flatnonzero(masks.all(axis=1))
-    rows = masks[alive]
-    freedom = np.bitwise_count(rows).sum(axis=1, dtype=np.int64)
-    order = np.argsort(-freedom, kind="stable")
-    return np.sort(alive[order[_first_of_kind(rows[order])]])
-
-
-@njit(cache=True)
-def _first_of_kind(rows: NDArray[np.uint32]) -> BoolArray:
-    """Which rows, sorted by falling freedom, are not contained in one before them."""
-    is_kept = np.ones(len(rows), dtype=np.bool_)
-    for i in range(len(rows)):
-        for j in range(i):
-            if is_kept[j] and not np.any(rows[i] & ~rows[j]):
-                is_kept[i] = False
-                break
-    return is_kept
-
-
-@dataclass(frozen=True, slots=True)
-class Strips:
-    """All combinations of the arms' approaches, and the back-offs that suit every arm.
-
-    Attributes:
-        masks: shape (combinations, n).
-        approaches: for each combination each arm's approach index, shape (combinations, arms).
-    """
-
-    masks: NDArray[np.uint32]
-    approaches: NDArray[np.int64]
-
-
-def combined(options: list[ArmOptions]) -> Strips:
-    """The combinations in which some back-off suits every arm at every waypoint."""
-    masks = options[0].masks
-    chosen = options[0].approaches[:, None]
-    for option in options[1:]:
-        both = masks[:, None, :] & option.masks[None, :, :]
-        i, j = np.nonzero(both.all(axis=2))
-        masks = both[i, j]
-        chosen = np.column_stack([chosen[i], option.approaches[j]])
-    return Strips(masks, chosen)
+def _discomfort(work: Work, heading: float | None) -> tuple[FloatArray, FloatArray]:
+    """How far each approach is from the natural one, straight into the cloth, 30 degrees down; and from the heading."""
+    found = [(a.heading_rad, a.pitch_rad, 0.0 if a.is_vertical else 1.0) for a in work.reach.approaches]
+    headings, pitches, counts = np.array(found).T
+    off = np.abs(np.remainder(headings - (heading or 0.0) + math.pi, math.tau) - math.pi)
+    turn = np.zeros(len(off)) if heading is None else counts * off
+    return np.round(turn + np.abs(pitches - _PREFERRED_PITCH_RAD), 6), off

@@ -22,12 +22,15 @@ class Hand:
         is_closed: whether the fingers hold cloth.
         is_reaching: the hand travels to the (only) point from wherever it is, by way of points
             above where it was and above where it goes.
+        rolls_rad: how far the tool has rolled about its approach axis at each point, since the primitive began;
+            empty: not at all.
     """
 
     approach: Approach
     points: tuple[Point3, ...]
     is_closed: bool
     is_reaching: bool = False
+    rolls_rad: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +64,12 @@ class Phase:
         base: the base's pose at the start and the end, table frame.
         hands: one entry for each arm from left to right; None: the hand is free and goes home.
         cloth: what the cloth does.
+        motion: which of its primitive's arm motions it is a part of: such phases share their time as the joints
+            need it; None: the base drives or nothing moves, and no part may be quicker than that.
     """
 
     duration_s: float
     base: tuple[Pose2, Pose2]
     hands: tuple[Hand | None, ...]
     cloth: ClothMotion
+    motion: int | None = None

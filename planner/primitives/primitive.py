@@ -1,7 +1,8 @@
 """What a primitive and a step of it are. To add one, write its file and name its class in `PRIMITIVES`."""
 
-from collections.abc import Iterable
-from typing import Any, Protocol
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
 
 from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
@@ -14,6 +15,11 @@ class Step(Protocol):
     @property
     def kind(self) -> str:
         """The primitive's name in a plan."""
+        ...
+
+    @property
+    def before(self) -> State:
+        """The state it starts in."""
         ...
 
     @property
@@ -45,10 +51,74 @@ class Step(Protocol):
         """What it looks like while it happens; their durations add up to `duration_s`."""
         ...
 
+    def variants(self) -> "Iterable[Step]":
+        """This step, and every other way between the same two states, the quickest first."""
+        ...
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """What it has in common with the same done while the base stands elsewhere; see `begun_in`."""
+        ...
+
+    def begun_in(self, state: State) -> "Step":
+        """The same from another state of the same situation."""
+        ...
+
+    def elsewhere(self, count: int) -> "Iterable[Step]":
+        """So many other ways to do the same from the same state, the base starting and ending elsewhere."""
+        ...
+
+
+S = TypeVar("S", bound=Step, covariant=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Later(Generic[S]):
+    """Steps that are worked out only when nothing quicker is left to try.
+
+    Attributes:
+        duration_s: none of them takes less (s).
+        towards: none of them leads to a state nearer to the end of all folds. Where it says that a drag's grips are
+            held but not which, any may be.
+        steps: works them out; of some it may say once more that there is time.
+    """
+
+    duration_s: float
+    towards: State
+    steps: "Callable[[], Iterable[S | Later[S]]]"
+
+
+@dataclass(frozen=True, eq=False)
+class InTime(Generic[S]):
+    """The steps that leave a state, most of them not worked out yet; to go through them works them all out.
+
+    Attributes:
+        found: steps, and what there is time for.
+    """
+
+    found: "tuple[S | Later[S], ...]"
+
+    def __iter__(self) -> Iterator[S]:
+        """All steps."""
+        return _worked_out(self.found)
+
 
 class Primitive(Protocol):
     """A kind of motion, for one planning problem."""
 
     def successors(self, state: State) -> Iterable[Step]:
-        """The steps of this kind that are possible in a state."""
+        """The steps of this kind that are possible in a state; `InTime` where working them out takes long."""
         ...
+
+
+def in_time(found: Iterable[Step]) -> "Iterable[Step | Later[Step]]":
+    """Steps that leave a state, those that have time as such."""
+    return found.found if isinstance(found, InTime) else found
+
+
+def _worked_out(found: "Iterable[S | Later[S]]") -> Iterator[S]:
+    for one in found:
+        if isinstance(one, Later):
+            yield from _worked_out(one.steps())
+        else:
+            yield one

@@ -1,12 +1,31 @@
 """What the primitives ask of a robot. They own the question; `planner.robot` answers it."""
 
+import math
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.shortfall import Shortfall
+
+
+class Following(Protocol):
+    """Hands that are to follow paths."""
+
+    def least_driving(
+        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
+    ) -> Driving:
+        """How the base may drive meanwhile, in as few steps as can be.
+
+        Args:
+            begun: for each back-off the steps in which the base can be there when the hands begin; `IMPOSSIBLE`
+                where it cannot. Shape (count,), count at most 32.
+            most: ways of more steps than this are not looked for.
+            wanted: which ends are wanted.
+        """
+        ...
 
 
 class Reach(Protocol):
@@ -23,6 +42,11 @@ class Reach(Protocol):
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which this robot's grippers may pinch cloth, base frame."""
+        ...
+
+    @property
+    def comfort_m(self) -> float:
+        """A point counts as reachable only if a circle of this radius round it is (m)."""
         ...
 
     @property
@@ -74,8 +98,31 @@ class Reach(Protocol):
         """Time spent in them (s)."""
         ...
 
+    def following(
+        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
+    ) -> Following:
+        """Hands that are to follow paths, each in one approach.
+
+        At every waypoint the base may drive while the hands rest there, if every hand is in comfort at every back-off
+        on the way.
+
+        Args:
+            arms: for each hand its index into `arm_names`.
+            paths: for each hand its tool points in the base frame as it stands at back-off 0, z above the floor (m),
+                shape (hands, n, 3).
+            approaches: for each hand the indices into `approaches` that it may use, best first.
+            step_m: from one back-off to the next (m).
+        """
+        ...
+
     def from_anywhere(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
     ) -> BoolArray:
         """For each approach, at which points the arm's tool is in comfort from at least one back-off.
 
@@ -88,21 +135,61 @@ class Reach(Protocol):
             approaches: indices into `approaches`, shape (k,).
             count: how many back-offs there are.
             step_m: from one back-off to the next (m).
+            enough: so many approaches that have every point in comfort, the first in the order given, are enough, and
+                the rows of others may be left false; None: all are wanted.
 
         Returns:
             Truths, shape (k, n).
         """
         ...
 
-    def shortfall(self, arm: int, point: FloatArray, approaches: NDArray[np.int64]) -> Shortfall | None:
-        """Why, and by how much, a point is not in comfortable reach, in the best of some approaches.
+    def at_least_short(
+        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> FloatArray:
+        """A lower bound on what `shortfall_together` finds for the points of each way (m), shape (n,).
+
+        0 where nothing can be said. Much cheaper.
 
         Args:
             arm: index into `arm_names`.
-            point: the tool's place in the base frame, z above the floor (m), shape (3,).
+            ways: tool points in the base frame as it stands at back-off 0, z above the floor (m), shape (n, p, 3).
+            approaches: indices into `approaches`, shape (k,); the best of them counts.
+            count: how many back-offs there are; the best of them counts.
+            step_m: from one back-off to the next (m).
+        """
+        ...
+
+    def shortfall(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> Shortfall | None:
+        """Why, and by how much, a place is not in comfortable reach, in the best of some approaches.
+
+        Args:
+            arm: index into `arm_names`.
+            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where
+                the base may stand, shape (n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: displacements longer than this need not be looked for (m).
 
         Returns:
-            The smallest shortfall; None where the point is in comfort in one of the approaches.
+            The smallest shortfall; None where the place is in comfort from somewhere in one of the approaches.
+        """
+        ...
+
+    def shortfall_together(
+        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> tuple[int, Shortfall] | None:
+        """Of places that are all to be had in one approach the worst, in the approach in which it is least so.
+
+        Args:
+            arm: index into `arm_names`.
+            places: places of the tool, each as seen from each of the places where the base may stand, base frame,
+                z above the floor (m), shape (p, n, 3).
+            approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: displacements longer than this need not be looked for (m).
+
+        Returns:
+            Which place, and its shortfall in that approach; None where some approach brings all into comfort. Where
+            `at_most_m` is lacking or more, nothing counts of the answer but that.
         """
         ...

@@ -13,15 +13,16 @@ class Held:
     Attributes:
         arm: the arm's number, from left to right.
         point: what it holds, article frame (m).
+        key: the grip to the grid.
     """
 
     arm: int
     point: Point2
+    key: tuple[int, int, int] = field(init=False, repr=False)
 
-    @property
-    def key(self) -> tuple[int, int, int]:
-        """The grip to the grid."""
-        return (self.arm, grid_key(self.point[0]), grid_key(self.point[1]))
+    def __post_init__(self) -> None:
+        """Work out the key."""
+        object.__setattr__(self, "key", (self.arm, grid_key(self.point[0]), grid_key(self.point[1])))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,13 +46,25 @@ class State:
     held: tuple[Held, ...] = ()
     is_dragged: bool = False
     key: tuple[object, ...] = field(init=False, repr=False)
+    _hash: int = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Work out the key: the state to the grid."""
-        x, y = (grid_key(c) for c in self.offset)
-        held = tuple(h.key for h in self.held)
-        key = (self.done, x, y, self.station, self.back_off, held, self.is_dragged)
+        x, y = self.offset
+        held = tuple([h.key for h in self.held])
+        key = (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.is_dragged)
         object.__setattr__(self, "key", key)
+        object.__setattr__(self, "_hash", hash(key))
+
+    @property
+    def hold(self) -> tuple[object, ...]:
+        """What is held, and how far the base has backed off from it; while hands are free that does not matter."""
+        return (*(h.key for h in self.held), self.is_dragged, self.back_off) if self.held else ()
+
+    @property
+    def place(self) -> tuple[int, int]:
+        """Where the article lies, in steps of the grid."""
+        return grid_key(self.offset[0]), grid_key(self.offset[1])
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same to the grid."""
@@ -59,4 +72,4 @@ class State:
 
     def __hash__(self) -> int:
         """The key's hash."""
-        return hash(self.key)
+        return self._hash

@@ -1,7 +1,10 @@
 """One planning problem: the garment's folds, the scene, the robot's reach, where the article lies."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -14,6 +17,8 @@ from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
+
+T = TypeVar("T")
 
 BACK_OFFS_PER_M = 20
 """The grid of back-offs: one every 5 cm."""
@@ -42,8 +47,17 @@ class Work:
     circle_m: float
     obstacles: Obstacles = field(default_factory=Obstacles)
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
+    _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
+    _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
+    _kept: dict[Callable[["Work"], object], object] = field(default_factory=dict)
 
-    @property
+    def kept(self, kind: "Callable[[Work], T]") -> T:
+        """What is worked out once for a problem and shared by all who ask for the same kind."""
+        if kind not in self._kept:
+            self._kept[kind] = kind(self)
+        return cast("T", self._kept[kind])
+
+    @cached_property
     def back_offs(self) -> int:
         """The number of places on the back-off grid."""
         return math.floor(self.scene.back_off_max_m * BACK_OFFS_PER_M + LENGTH_M) + 1
@@ -77,11 +91,33 @@ class Work:
 
     def table_in_article(self, offset: Point2) -> TableInArticle:
         """The table top in the article frame after drags by `offset`."""
-        return TableInArticle.seen_from(self.placed(offset), self.scene.table)
+        key = (grid_key(offset[0]), grid_key(offset[1]))
+        if key not in self._tables:
+            self._tables[key] = TableInArticle.seen_from(self.placed(offset), self.scene.table)
+        return self._tables[key]
+
+    def is_on_table(self, point: Point2, offset: Point2) -> bool:
+        """Whether a point of the article, article frame, is over the table top after drags by `offset`."""
+        return self._is_over_top(self.placement.to_outer(np.array(point)), offset)
+
+    def is_all_on_table(self, done: int, offset: Point2) -> bool:
+        """Whether the cloth after some folds lies on the table altogether after drags by `offset`."""
+        if done not in self._extents:
+            points = self.placement.to_outer(self.sequence.cloth(done).silhouette.coordinates)
+            self._extents[done] = (points.min(axis=0), points.max(axis=0))
+        return all(self._is_over_top(corner, offset) for corner in self._extents[done])
+
+    def _is_over_top(self, point: FloatArray, offset: Point2) -> bool:
+        """Whether a point, table frame as long as nothing has been dragged, is over the top after drags."""
+        x, y = float(point[0]) + offset[0], float(point[1]) + offset[1]
+        table = self.scene.table
+        return abs(x) <= table.depth_m / 2 + LENGTH_M and abs(y) <= table.width_m / 2 + LENGTH_M
 
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
         """Why the cloth after some folds would not stay at a placement; None if it is in a g-state."""
         key = (done, grid_key(offset[0]), grid_key(offset[1]))
+        if key not in self._unrest and self.is_all_on_table(done, offset):
+            self._unrest[key] = None
         if key not in self._unrest:
             scene = self.scene
             self._unrest[key] = unrest(

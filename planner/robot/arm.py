@@ -75,7 +75,7 @@ class ArmShape(NamedTuple):
 def read_arm(model: pin.Model) -> ArmShape:
     """The left arm of a model; raises `FoldingError` where the closed form would not hold."""
     left, right = _read_side(model, "l"), _read_side(model, "r")
-    if not np.allclose(_numbers(left), _numbers(_mirrored(right)), rtol=0.0, atol=ANGLE_RAD):
+    if not np.allclose(numbers_of(left), numbers_of(_mirrored(right)), rtol=0.0, atol=ANGLE_RAD):
         raise FoldingError("the robot's arms are not mirror images of each other")
     return left
 
@@ -126,5 +126,6 @@ def _mirrored(shape: ArmShape) -> ArmShape:
     )
 
 
-def _numbers(shape: ArmShape) -> FloatArray:
+def numbers_of(shape: ArmShape) -> FloatArray:
+    """All lengths and limits of an arm, one after the other, shape (37,)."""
     return np.hstack(tuple(shape))

@@ -25,6 +25,9 @@ SAMPLES = 16
 FINEST = 1e-7
 """Settling ends when its step along the curve is smaller than this (rad)."""
 
+NEARBY, SETTLED = 0.2, 1e-4
+"""How far along the curve neighbouring poses of a path may be apart, and how finely they are settled (rad)."""
+
 X, Y, Z = 0, 1, 2
 
 
@@ -69,7 +72,7 @@ def _unwound(angle: float, near: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: FloatArray) -> None:
+def place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: FloatArray) -> None:
     """Set pan, lift, roll and elbow so that the wrist's centre is where it must be; nan where it cannot."""
     pan = _within(shape.pan, pan)
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
@@ -94,7 +97,7 @@ def _along(frame: FloatArray, aim: Aim, axis: int) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _turn_hand(
+def turn_hand(
     shape: ArmShape, aim: Aim, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
 ) -> None:
     """Set the last three joints so that the tool has a rotation; `frame` is scratch space, shape (3, 3)."""
@@ -129,8 +132,8 @@ def _solve_on(
     frame: FloatArray,
 ) -> float:
     """Set the joints at a place of an arc's curve; the squared distance from `near`, or infinity."""
-    _place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
-    _turn_hand(shape, aim, rotation, near, joints, frame)
+    place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
+    turn_hand(shape, aim, rotation, near, joints, frame)
     distance = 0.0
     for i in range(7):
         distance += (joints[i] - near[i]) * (joints[i] - near[i])
@@ -165,6 +168,36 @@ def nearest_joints(
     if best == math.inf:
         return False, joints
     while step > FINEST:
+        step *= 0.5
+        for theta in (best_theta - step, best_theta + step):
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)
+            if distance < best:
+                best, best_theta = distance, theta
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    return True, joints
+
+
+@njit(cache=True, nogil=True)
+def nearby_joints(
+    shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
+) -> tuple[bool, FloatArray]:
+    """Joints that bring the tool to a pose, settled from where the pan is now; and whether there are any there.
+
+    As `nearest_joints`, but blind to what is far away, and in a third of the time: for neighbouring poses of a path.
+    """
+    aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
+    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    best, best_arc, best_theta = math.inf, -1, 0.0
+    for arc in range(pan_arcs(shape, aim, arcs)):
+        present = _theta_of(arcs[arc], near[0])
+        for theta in (present, -present):
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            if distance < best:
+                best, best_arc, best_theta = distance, arc, theta
+    if best_arc < 0:
+        return False, joints
+    step = NEARBY
+    while step > SETTLED:
         step *= 0.5
         for theta in (best_theta - step, best_theta + step):
             distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)

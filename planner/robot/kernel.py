@@ -60,6 +60,29 @@ NEARBY = 0.15
 MOST_ARCS = 8
 
 
+@njit(cache=True, nogil=True)
+def shape_of(numbers: FloatArray) -> ArmShape:
+    """The arm whose lengths and limits are these, one after the other (see `planner.robot.arm.numbers_of`).
+
+    To hand a kernel a tuple of so many numbers costs more than what some kernels do.
+    """
+    n = numbers
+    return ArmShape(
+        n[0],
+        n[1],
+        n[2],
+        n[3],
+        n[4],
+        n[5],
+        n[6],
+        Sector(n[7], n[8], n[9], n[10], n[11], n[12]),
+        Sector(n[13], n[14], n[15], n[16], n[17], n[18]),
+        Sector(n[19], n[20], n[21], n[22], n[23], n[24]),
+        Sector(n[25], n[26], n[27], n[28], n[29], n[30]),
+        Sector(n[31], n[32], n[33], n[34], n[35], n[36]),
+    )
+
+
 class Aim(NamedTuple):
     """Where the wrist's centre must be (m) and the unit vector along which the tool points."""
 
@@ -247,6 +270,44 @@ def is_reachable(shape: ArmShape, aim: Aim, arcs: FloatArray) -> bool:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def ring_slack(shape: ArmShape, aim: Aim, radius: float, pan: float, branch: float) -> tuple[float, int]:
+    """The least slack at one pan and branch (cos(roll) of its sign) of an aim and four on a circle round it.
+
+    And of which: 0 is the aim itself, the others as by `beside`.
+    """
+    cos_pan, sin_pan = math.cos(pan), math.sin(pan)
+    bones_2 = shape.upper * shape.upper + shape.fore * shape.fore
+    bones = 2.0 * shape.upper * shape.fore
+    u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
+    axis = (cos_pan * aim.ax + sin_pan * aim.ay, cos_pan * aim.ay - sin_pan * aim.ax, aim.az)
+    along, across = radius * cos_pan, radius * sin_pan
+    least, worst = 1.0, 0
+    moves = ((0.0, 0.0), (along, -across), (-along, across), (across, along), (-across, -along))
+    for number, (du, dv) in enumerate(moves):
+        x, y = u + du, v + dv
+        cos_elbow = (x * x + y * y + w * w - bones_2) / bones
+        bent = 1.0 - cos_elbow * cos_elbow
+        sin_elbow = -math.sqrt(max(bent, 1e-12))
+        sin_roll = y / (shape.fore * sin_elbow)
+        rest = 1.0 - sin_roll * sin_roll
+        cos_roll = branch * math.sqrt(max(rest, 0.0))
+        a, b = shape.upper + shape.fore * cos_elbow, -shape.fore * cos_roll * sin_elbow
+        joints = min(slack_within(shape.elbow, cos_elbow, sin_elbow), slack_within(shape.roll, cos_roll, sin_roll))
+        hand = _lift_and_wrist_slack(shape, (x, y, w), axis, a, b)
+        slack = min(min(joints, hand), min(bent, rest))
+        least, worst = (slack, number) if slack < least else (least, worst)
+    return least, worst
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def beside(aim: Aim, radius: float, number: int) -> Aim:
+    """The aim itself (0), or one beside it on a circle: ahead, back, left or right (1 to 4)."""
+    dx = radius if number == 1 else -radius if number == 2 else 0.0
+    dy = radius if number == 3 else -radius if number == 4 else 0.0
+    return Aim(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def is_reachable_near(shape: ArmShape, aim: Aim, arcs: FloatArray, hint: FloatArray) -> bool:
     """The same, trying first the pan that served last, `hint`, shape (1,), which is kept up to date.
 
@@ -257,12 +318,12 @@ def is_reachable_near(shape: ArmShape, aim: Aim, arcs: FloatArray, hint: FloatAr
         pan = min(max(hint[0] + shift, shape.pan.low), shape.pan.high)
         inside, outside = slacks(shape, aim, pan)
         if max(inside, outside) >= 0.0:
-            hint[0] = pan
+            hint[0], hint[1] = pan, 1.0 if inside >= outside else -1.0
             return True
     arc, theta = witness(shape, aim, arcs)
     if arc < 0:
         return False
-    hint[0] = pan_on(arcs[arc], theta)
+    hint[0], hint[1] = pan_on(arcs[arc], theta), 1.0 if theta >= 0.0 else -1.0
     return True
 
 

@@ -1,11 +1,11 @@
 """How far is a point from comfort? A question for people, asked once a plan has failed, compiled.
 
 The comfortable places of an approach are no simple region: limits cut slivers and notches into them. Doubling
-steps leap over those and would then call a far place the nearest. So the search goes outwards in shells of
-`SHELL_M`, along all directions and approaches at once, and ends in the first shell that has a comfortable
-place. Only there is each find settled by halving, and a line that is not comfortable where it would beat the
-best so far is left at that. Where the wrist is beyond the arm's length, all shells that it cannot get back from
-within are skipped: that makes far points, the most frequent ones, cheap.
+steps leap over those and would then call a far place the nearest. So the search goes outwards in thin shells, along all
+directions and approaches and from all places of the base at once, and ends in the first shell that has a comfortable
+place. Only there is each find settled by halving, and a line that is not comfortable where it would
+beat the best so far is left at that. What makes it cheap is a lower bound (`planner.robot.arm_gap`): shells within it
+are skipped, line by line.
 
 Points are seen from the left arm's shoulder (m), parallel to the base.
 """
@@ -15,133 +15,235 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robot.arm import ArmShape
-from planner.robot.back_offs import is_comfortable
+from planner.robot.arm_gap import comfort_gap
+from planner.robot.comfort import is_comfortable
 from planner.robot.kernel import MOST_ARCS, Aim, aim_at
+from planner.robot.posture_room import Room, has_room_about
 
-SHELL_M = 0.005
-"""From one shell to the next."""
+SHELL_M, WIDENING = 0.002, 0.03
+"""A shell is so thick (m), or so large a part of its distance where that is more."""
 
 FINEST_M = 0.001
 """Halving ends here."""
 
 
-class Line(NamedTuple):
-    """A line along which a point is displaced in one approach.
+class Wanted(NamedTuple):
+    """What is asked of a place.
 
     Attributes:
-        start: the point itself, shape (3,).
-        direction: a unit vector, shape (3,).
-        axis: the approach axis, shape (3,).
+        axes: the approach axes that will do, shape (k, 3).
+        labels: what the room's memory calls each, shape (k,).
+        comfort: radius of the comfort circle (m).
+        room: what the arm may be hindered by.
     """
 
-    start: FloatArray
-    direction: FloatArray
-    axis: FloatArray
+    axes: FloatArray
+    labels: NDArray[np.int64]
+    comfort: float
+    room: Room
+
+
+class Scratch(NamedTuple):
+    """Room to work in.
+
+    Attributes:
+        arcs: shape (MOST_ARCS, 2).
+        hint: the pan that served last (rad), and its branch, shape (2,).
+    """
+
+    arcs: FloatArray
+    hint: FloatArray
 
 
 @njit(cache=True, nogil=True)
-def beyond_length(shape: ArmShape, aim: Aim) -> float:
-    """How far the wrist is beyond the arm's length (m), negative within it.
-
-    To displace it by less than that is no use.
-    """
-    outward = math.hypot(aim.x, aim.y) - shape.offset
-    return math.hypot(outward, aim.z) - (shape.upper + shape.fore)
+def _scratch(shape: ArmShape) -> Scratch:
+    return Scratch(np.empty((MOST_ARCS, 2)), np.array([0.5 * (shape.pan.low + shape.pan.high), 1.0]))
 
 
 @njit(cache=True, nogil=True)
-def _aim_along(shape: ArmShape, line: Line, distance: float) -> Aim:
-    """The aim at a distance along a line."""
-    start, direction, axis = line.start, line.direction, line.axis
-    x, y = start[0] + distance * direction[0], start[1] + distance * direction[1]
-    return aim_at(shape, x, y, start[2] + distance * direction[2], axis[0], axis[1], axis[2])
+def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> Aim:
+    """The aim that brings the tool to a point."""
+    axis = wanted.axes[approach]
+    return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
+
+
+@njit(cache=True, nogil=True)
+def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
+    """At least how far a tool point is out of comfort in an approach (m), see `comfort_gap`."""
+    return comfort_gap(shape, _aim(shape, wanted, point, approach), wanted.comfort)
+
+
+@njit(cache=True, nogil=True)
+def _is_wanted(
+    shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int, comfort: float, scratch: Scratch
+) -> tuple[bool, int]:
+    """Whether a tool point is had in an approach, with room, to a comfort radius; queries made."""
+    aim = _aim(shape, wanted, point, approach)
+    found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
+    return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
 
 
 @njit(cache=True, nogil=True)
 def nearest_comfort(
-    shape: ArmShape, point: FloatArray, axes: FloatArray, directions: FloatArray, comfort: float, furthest: float
-) -> tuple[float, int, int, int]:
+    shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray, furthest: float
+) -> tuple[float, int, int, int, int]:
     """The smallest displacement along one of the directions that brings the tool into comfort.
 
     Args:
         shape: the arm.
-        point: the tool's place, shape (3,), itself not in comfort.
-        axes: approach axes, shape (k, 3).
+        wanted: what is asked of a place.
+        points: one place of the tool as seen from several places of the base, shape (n, 3); in comfort from none.
         directions: unit vectors, shape (m, 3).
-        comfort: radius of the comfort circle (m).
-        furthest: how far to look (m).
+        furthest: how far to look (m); the last shell is looked at whole.
 
     Returns:
-        The displacement (m), to `FINEST_M` and rather too long; the approach; the direction; queries made.
-        Infinity, -1, -1 where there is none. Places narrower than `SHELL_M` may be overlooked.
+        The displacement (m), to `FINEST_M` and rather too long; the point; the approach; the direction; queries made.
+        Infinity, -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
     """
-    arcs = np.empty((MOST_ARCS, 2))
-    hint = np.array([0.5 * (shape.pan.low + shape.pan.high)])
-    hopeless = np.zeros((len(axes), len(directions)))
-    best, best_approach, best_direction, queries = math.inf, -1, -1, 0
-    for shell in range(round(furthest / SHELL_M)):
-        limit = (shell + 1) * SHELL_M
+    scratch, comfort, axes = _scratch(shape), wanted.comfort, wanted.axes
+    hopeless = np.empty((len(points), len(axes), len(directions)))
+    for place in range(len(points)):
         for approach in range(len(axes)):
-            for direction in range(len(directions)):
-                near, far = shell * SHELL_M, limit
-                if far <= max(near, hopeless[approach, direction]):
+            hopeless[place, approach] = aims_gap(shape, wanted, points[place], approach)
+    nearest = hopeless[:, :, 0].copy()
+    best, best_place, best_approach, best_direction, queries = math.inf, -1, -1, -1, 0
+    inner = 0.0
+    while inner < furthest and best_place < 0:
+        limit = outer = inner + max(SHELL_M, WIDENING * inner)
+        for place in range(len(points)):
+            for approach in range(len(axes)):
+                if nearest[place, approach] >= limit:
                     continue
-                line = Line(point, directions[direction], axes[approach])
-                aim = _aim_along(shape, line, far)
-                beyond = beyond_length(shape, aim)
-                if beyond > 0.0:
-                    hopeless[approach, direction] = far + beyond
-                    continue
-                found, asked = is_comfortable(shape, aim, comfort, arcs, hint)
-                queries += asked
-                if not found:
-                    continue
-                while far - near > FINEST_M:
-                    middle = 0.5 * (near + far)
-                    found, asked = is_comfortable(shape, _aim_along(shape, line, middle), comfort, arcs, hint)
+                for direction in range(len(directions)):
+                    near, far = inner, limit
+                    if far <= max(near, hopeless[place, approach, direction]):
+                        continue
+                    start, towards = points[place], directions[direction]
+                    short = aims_gap(shape, wanted, start + far * towards, approach)
+                    if short > 0.0:
+                        hopeless[place, approach, direction] = far + short
+                        continue
+                    found, asked = _is_wanted(shape, wanted, start + far * towards, approach, comfort, scratch)
                     queries += asked
-                    near, far = (near, middle) if found else (middle, far)
-                best, best_approach, best_direction = far, approach, direction
-                limit = far - FINEST_M
-        if best_approach >= 0:
-            break
-    return best, best_approach, best_direction, queries
+                    if not found:
+                        continue
+                    while far - near > FINEST_M:
+                        middle = 0.5 * (near + far)
+                        found, asked = _is_wanted(shape, wanted, start + middle * towards, approach, comfort, scratch)
+                        queries += asked
+                        near, far = (near, middle) if found else (middle, far)
+                    best, best_place, best_approach, best_direction = far, place, approach, direction
+                    limit = far - FINEST_M
+        inner = outer
+    return best, best_place, best_approach, best_direction, queries
 
 
 @njit(cache=True, nogil=True)
-def widest_comfort(shape: ArmShape, point: FloatArray, axes: FloatArray, comfort: float) -> tuple[float, int, int]:
+def least_worst(
+    shape: ArmShape, wanted: Wanted, places: FloatArray, directions: FloatArray, furthest: float
+) -> tuple[float, int, int]:
+    """Of several places that are all to be had in one approach: the worst, in the approach in which it is least so.
+
+    Args:
+        shape: the arm.
+        wanted: what is asked of each place.
+        places: places of the tool, each as seen from several places of the base, shape (p, n, 3).
+        directions: unit vectors, shape (m, 3).
+        furthest: displacements as long as this are no longer of interest (m).
+
+    Returns:
+        How far the worst place must be displaced (m), which it is, and the approach; 0, -1 and the approach where all
+        are in comfort; infinity, -1 and the approach that is nearest by length where none is better than `furthest`.
+    """
+    scratch = _scratch(shape)
+    gaps = np.full((len(wanted.axes), len(places)), math.inf)
+    for approach in range(len(wanted.axes)):
+        for place in range(len(places)):
+            for point in places[place]:
+                short = aims_gap(shape, wanted, point, approach)
+                gaps[approach, place] = min(gaps[approach, place], max(short, 0.0))
+    bounds = np.array([row.max() for row in gaps])
+    order = np.argsort(bounds)
+    best, best_place, best_approach = math.inf, -1, int(order[0])
+    for approach in order:
+        limit = min(best, furthest)
+        if bounds[approach] >= limit:
+            break
+        only = slice(approach, approach + 1)
+        alone = Wanted(wanted.axes[only], wanted.labels[only], wanted.comfort, wanted.room)
+        worst, worst_place = 0.0, -1
+        for place in np.argsort(-gaps[approach]):
+            if not _is_had(shape, alone, places[place], scratch):
+                short = nearest_comfort(shape, alone, places[place], directions, limit)[0]
+                if short > worst:
+                    worst, worst_place = short, place
+                if worst >= limit:
+                    break
+        if worst < limit:
+            best, best_place, best_approach = worst, worst_place, approach
+        if best <= 0.0:
+            break
+    return best, best_place, best_approach
+
+
+@njit(cache=True, nogil=True)
+def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratch) -> bool:
+    """Whether a place is in comfort in the first approach from at least one of several places of the base."""
+    for point in points:
+        if aims_gap(shape, wanted, point, 0) <= 0.0 and _is_wanted(shape, wanted, point, 0, wanted.comfort, scratch)[0]:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple[float, int, int, int]:
     """The largest circle round a point on which the tool still is in comfort, the point itself not being so.
 
     Args:
         shape: the arm.
-        point: the tool's place, shape (3,).
-        axes: approach axes, shape (k, 3).
-        comfort: the radius that is too large (m).
+        wanted: what is asked of the place, its comfort radius being too large.
+        points: one place of the tool as seen from several places of the base, shape (n, 3).
 
     Returns:
-        The radius (m), to `FINEST_M` and rather too small; the approach; queries made. 0, -1 where the
-        point itself is out of reach.
+        The radius (m), to `FINEST_M` and rather too small; the point; the approach; queries made. 0, -1, -1 where the
+        place itself is out of reach.
     """
-    arcs = np.empty((MOST_ARCS, 2))
-    hint = np.array([0.5 * (shape.pan.low + shape.pan.high)])
-    best, best_approach, queries = 0.0, -1, 0
-    for approach in range(len(axes)):
-        near, far = best + (FINEST_M if best_approach >= 0 else 0.0), comfort
-        if near >= far:
-            break
-        axis = axes[approach]
-        aim = aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
-        found, asked = is_comfortable(shape, aim, near, arcs, hint)
-        queries += asked
-        if not found:
-            continue
-        while far - near > FINEST_M:
-            middle = 0.5 * (near + far)
-            found, asked = is_comfortable(shape, aim, middle, arcs, hint)
+    scratch = _scratch(shape)
+    bare = Wanted(wanted.axes, wanted.labels, 0.0, wanted.room)
+    best, best_place, best_approach, queries = 0.0, -1, -1, 0
+    for place in range(len(points)):
+        for approach in range(len(wanted.axes)):
+            near, far = best + (FINEST_M if best_place >= 0 else 0.0), wanted.comfort
+            if near >= far:
+                break
+            point = points[place]
+            if aims_gap(shape, bare, point, approach) > 0.0:
+                continue
+            found, asked = _is_wanted(shape, wanted, point, approach, near, scratch)
             queries += asked
-            near, far = (middle, far) if found else (near, middle)
-        best, best_approach = near, approach
-    return best, best_approach, queries
+            if not found:
+                continue
+            while far - near > FINEST_M:
+                middle = 0.5 * (near + far)
+                found, asked = _is_wanted(shape, wanted, point, approach, middle, scratch)
+                queries += asked
+                near, far = (middle, far) if found else (near, middle)
+            best, best_place, best_approach = near, place, approach
+    return best, best_place, best_approach, queries
+
+
+@njit(cache=True, nogil=True)
+def is_hindered(shape: ArmShape, wanted: Wanted, points: FloatArray) -> bool:
+    """Whether the joints allow a place in comfort, from some point in some approach, and only room is lacking."""
+    scratch = _scratch(shape)
+    for point in points:
+        for approach in range(len(wanted.axes)):
+            if aims_gap(shape, wanted, point, approach) <= 0.0:
+                aim = _aim(shape, wanted, point, approach)
+                if is_comfortable(shape, aim, wanted.comfort, scratch.arcs, scratch.hint)[0]:
+                    return True
+    return False

@@ -1,15 +1,21 @@
 """The PR2: a robot by name, its card, its reach and its joints."""
 
 import math
-from functools import cache
+from collections.abc import Callable
+from functools import cache, cached_property
 
 import numpy as np
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.table import Table
 from planner.robot.arm import read_arm
+from planner.robot.arm_path import IsFree, ToolPath, arm_path, free_postures
 from planner.robot.card import RobotCard
+from planner.robot.collision.collisions import OPENING_M, Collisions
+from planner.robot.collision.robot_parts import RobotParts, robot_parts
 from planner.robot.description import read_model
+from planner.robot.posture_room import Room, room_beside
 from planner.robot.pr2_card import pr2_card
 from planner.robot.reach import Pr2Reach
 from planner.robot.sided_arm import SidedArm
@@ -28,7 +34,9 @@ class Pr2:
         """Read the robot's description (10 ms); raises `FoldingError` where it is missing."""
         model = read_model()
         shape = read_arm(model)
+        self._model = model
         self._card = pr2_card(model)
+        self._rooms: dict[float, Room] = {}
         self._arms = (SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True))
 
     @property
@@ -53,7 +61,31 @@ class Pr2:
         if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
             raise RequestError("comfort_m", f"{comfort_m} m is no radius")
         names = tuple(arm.name for arm in self._card.arms)
-        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m))
+        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)))
+
+    def _room(self, torso_m: float) -> Room:
+        """What room the body leaves an arm; remembered, for it is asked in every plan anew."""
+        if torso_m not in self._rooms:
+            self._rooms = {torso_m: room_beside(self._parts, torso_m, self.home(1))}
+        return self._rooms[torso_m]
+
+    def collisions(
+        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
+    ) -> Collisions:
+        """What collides at a table, with the torso raised so far (1 ms).
+
+        Args:
+            table: the table.
+            torso_m: how far the torso is raised (m).
+            opening_m: the fingers are anywhere from closed to this far apart (m).
+            margin_m: what comes nearer to each other than this collides (m).
+        """
+        return Collisions(self._parts, table, torso_m, opening_m, margin_m)
+
+    @cached_property
+    def _parts(self) -> RobotParts:
+        """What may collide; 15 ms the first time, a second where the cache of shapes is empty."""
+        return robot_parts(self._model, self._card)
 
     def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
         """Which tool poses an arm can take with every joint within its limits, shape (n,).
@@ -86,6 +118,33 @@ class Pr2:
             `near`; or None where the pose is out of reach.
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
+
+    def arm_path(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> FloatArray | None:
+        """The calmest joints that keep an arm's tool on a path; None if there are none (see `arm_path`).
+
+        Args:
+            arm: which arm.
+            path: where its tool must be.
+            torso_m: how far the torso is raised (m).
+            floor_m: the height over which elbows had better stay, base frame (m).
+            is_free: which joints do not collide.
+
+        Returns:
+            Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
+        """
+        speeds = np.array(self._card.arms[arm].speeds_rad_s)
+        return arm_path(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
+
+    def free_postures(
+        self,
+        arm: int,
+        position: FloatArray,
+        rotation: FloatArray,
+        torso_m: float,
+        is_free: Callable[[FloatArray], BoolArray],
+    ) -> FloatArray:
+        """Samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
+        return free_postures(self._arms[arm], position, rotation, float(torso_m), is_free)
 
     def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
         """How high an arm's elbow is above the floor (m) at seven joint angles."""

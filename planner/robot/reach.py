@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from time import perf_counter
+from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +10,15 @@ from numpy.typing import NDArray
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.shortfall import Shortfall
 from planner.geometry.tolerance import LENGTH_M
-from planner.robot.back_offs import anywhere, back_off_masks, empty_memory
-from planner.robot.shortfall import left_shortfall
+from planner.robot.arm import numbers_of
+from planner.robot.arm_gap import least_gaps
+from planner.robot.back_offs import anywhere, back_off_masks
+from planner.robot.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
+from planner.robot.driving import UNSEEN, Task
+from planner.robot.following import Following
+from planner.robot.nearest_comfort import Wanted, least_worst
+from planner.robot.posture_room import Room, no_walls
+from planner.robot.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
 from planner.robot.sided_arm import SidedArm
 
 _PITCHES_DEG = (15, 30, 45, 60)
@@ -40,17 +47,29 @@ class Pr2Reach:
     """
 
     def __init__(
-        self, arm_names: tuple[str, ...], arms: tuple[SidedArm, ...], torso_m: float, comfort_m: float
+        self,
+        arm_names: tuple[str, ...],
+        arms: tuple[SidedArm, ...],
+        torso_m: float,
+        comfort_m: float,
+        room: Room | None = None,
     ) -> None:
-        """Start with nothing remembered: names and arms from left to right, torso and comfort in m."""
+        """Start with nothing remembered: names and arms from left to right, torso and comfort in m.
+
+        `room` is what the left arm has of it; None: the body is in nobody's way.
+        """
         self._arm_names = arm_names
         self._arms = arms
         self._torso_m = torso_m
         self._comfort_m = comfort_m
         self._memory = empty_memory()
+        self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
         self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
-        self._mirror_images = _mirror_images()
-        self._queries = 0
+        self._numbers = numbers_of(arms[0].shape)
+        self._shoulder = arms[0].shoulder(torso_m)
+        images = _mirror_images()
+        self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
+        self._shortfall_queries = 0
         self._query_time_s = 0.0
 
     @property
@@ -85,7 +104,7 @@ class Pr2Reach:
 
         What is remembered, or further away than the arm is long, is answered without one.
         """
-        return self._queries
+        return int(self._memory.counts[QUERIES]) + self._shortfall_queries
 
     @property
     def query_time_s(self) -> float:
@@ -119,27 +138,70 @@ class Pr2Reach:
         """
         if count > _MOST_BACK_OFFS:
             raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
-        started = perf_counter()
-        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
-        masks, queries = back_off_masks(
-            sided.shape,
+        started = thread_time()
+        masks = back_off_masks(
+            self._numbers,
+            self._shoulder,
             self._memory,
-            sided.shoulder(self._torso_m),
-            sided.mirrored_places(np.reshape(points, (-1, 3))),
-            self._axes[seen],
-            seen + 1,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
             count,
-            float(step_m),
+            round(step_m / LENGTH_M),
             self._comfort_m,
-            len(seen) if enough is None else enough,
+            len(approaches) if enough is None else enough,
             (1 << count) - 1 if start is None else 1 << start,
+            self._room,
         )
-        self._queries += queries
-        self._query_time_s += perf_counter() - started
+        self._query_time_s += thread_time() - started
         return masks
 
+    def following(
+        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
+    ) -> Following:
+        """Hands that are to follow paths, each in one approach.
+
+        Args:
+            arms: for each hand its index into `arm_names`; one or two.
+            paths: for each hand its tool points in the base frame at back-off 0 (m), shape (hands, n, 3).
+            approaches: for each hand indices into `approaches`, best first.
+            step_m: from one back-off to the next (m).
+        """
+        labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
+        places = np.empty(paths.shape, dtype=np.int64)
+        for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
+            labels[hand, : len(allowed)] = self._labels[arm][allowed]
+            places[hand] = np.round(self._arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
+        places -= np.round(self._shoulder / LENGTH_M).astype(np.int64)
+        slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
+        step = round(step_m / LENGTH_M)
+        cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
+        task = Task(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._axes,
+            labels,
+            places,
+            cells,
+            slots,
+            self._comfort_m,
+            step,
+            self._room,
+        )
+        return Following(task, self._add_time)
+
+    def _add_time(self, time_s: float) -> None:
+        self._query_time_s += time_s
+
     def from_anywhere(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
     ) -> BoolArray:
         """Which points, each on its own, are within comfortable reach from at least one back-off, shape (k, n).
 
@@ -149,53 +211,115 @@ class Pr2Reach:
             approaches: indices into `approaches`, shape (k,).
             count: how many back-offs there are.
             step_m: from one back-off to the next (m).
+            enough: so many approaches that have every point within reach are enough; None: all are wanted.
         """
-        started = perf_counter()
-        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
-        answers, queries = anywhere(
-            sided.shape,
+        started = thread_time()
+        answers = anywhere(
+            self._numbers,
+            self._shoulder,
             self._memory,
-            sided.shoulder(self._torso_m),
-            sided.mirrored_places(np.reshape(points, (-1, 3))),
-            self._axes[seen],
-            seen + 1,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
             count,
-            float(step_m),
+            round(step_m / LENGTH_M),
             self._comfort_m,
+            len(approaches) if enough is None else enough,
+            self._room,
         )
-        self._queries += queries
-        self._query_time_s += perf_counter() - started
+        self._query_time_s += thread_time() - started
         return answers
 
-    def shortfall(self, arm: int, point: FloatArray, approaches: NDArray[np.int64]) -> Shortfall | None:
-        """Why, and by how much, a point is not within comfortable reach, in the best of some approaches.
+    def at_least_short(
+        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> FloatArray:
+        """A lower bound on what `shortfall_together` finds for the points of each way (m), shape (n,).
+
+        In closed form, and so without a query.
+
+        Args:
+            arm: index into `arm_names`.
+            ways: tool points in the base frame at back-off 0 (m), shape (n, p, 3).
+            approaches: indices into `approaches`, shape (k,); the best of them counts.
+            count: how many back-offs there are; the best of them counts.
+            step_m: from one back-off to the next (m).
+        """
+        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        places = sided.mirrored_places(ways) - sided.shoulder(self._torso_m)
+        return np.asarray(least_gaps(sided.shape, places, self._axes[seen], count, float(step_m), self._comfort_m))
+
+    def shortfall(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> Shortfall | None:
+        """Why, and by how much, a place is not within comfortable reach, in the best of some approaches.
 
         Tried are displacements up to 0.8 m, along eight horizontal directions, straight down and straight up.
 
         Args:
             arm: index into `arm_names`.
-            point: the tool's place in the base frame (m), shape (3,).
+            points: the tool's place as seen from each of the places where the base may stand (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
+            at_most_m: no displacement longer than this is tried either (m).
 
         Returns:
-            The smallest shortfall; None where the point is in comfort in one of the approaches. From 0.8 m on
-            `short_by_m` is a lower bound: nothing that was tried helps.
+            The smallest shortfall; None where the place is in comfort from somewhere in one of the approaches.
         """
         if len(approaches) == 0:
             raise ValueError("without an approach no point is within reach")
-        if self.from_anywhere(arm, point, approaches, 1, 0.0).any():
+        points = np.reshape(points, (-1, 3))
+        if self.from_anywhere(arm, points, approaches, 1, 0.0).any():
             return None
-        started = perf_counter()
+        started = thread_time()
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
-        on_grid = LENGTH_M * np.round(sided.mirrored_places(point) / LENGTH_M)
-        found, queries = left_shortfall(
-            sided.shape, on_grid - sided.shoulder(self._torso_m), self._axes[seen], self._comfort_m
-        )
+        on_grid = self._from_shoulder(sided, points)
+        found, queries = left_shortfall(sided.shape, self._wanted(seen), on_grid, at_most_m)
         x, y, z = sided.mirrored_places(np.array(found.towards))
-        self._queries += queries
-        self._query_time_s += perf_counter() - started
+        self._shortfall_queries += queries
+        self._query_time_s += thread_time() - started
         return replace(found, towards=(float(x), float(y), float(z)), approach=int(approaches[found.approach]))
 
+    def shortfall_together(
+        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> tuple[int, Shortfall] | None:
+        """Of places that are all to be had in one approach the worst, in the approach in which it is least so.
+
+        Args:
+            arm: index into `arm_names`.
+            places: places of the tool, each as seen from each of the places where the base may stand (m), shape
+                (p, n, 3).
+            approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: no displacement longer than this is tried (m).
+
+        Returns:
+            Which place, and its shortfall in that approach; None where some approach brings all into comfort. Where
+            `at_most_m` is lacking or more, nothing counts of the answer but that.
+        """
+        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        started = thread_time()
+        on_grid = self._from_shoulder(sided, places)
+        furthest = min(at_most_m, FURTHEST_M)
+        short, worst, best = least_worst(sided.shape, self._wanted(seen), on_grid, DIRECTIONS, furthest)
+        self._query_time_s += thread_time() - started
+        nearest = approaches[best : best + 1]
+        if worst >= 0:
+            found = self.shortfall(arm, places[worst], nearest)
+            return None if found is None else (int(worst), found)
+        if math.isfinite(short):
+            return None
+        if furthest < FURTHEST_M:
+            return 0, Shortfall("too_far", None, furthest, True, (1.0, 0.0, 0.0), int(nearest[0]), 0)
+        each = [(number, self.shortfall(arm, place, nearest, furthest)) for number, place in enumerate(places)]
+        worst, found = max(((n, f) for n, f in each if f is not None), key=lambda pair: pair[1].short_by_m)
+        return worst, replace(found, short_by_m=max(found.short_by_m, furthest), is_at_least=True)
+
+    def _wanted(self, seen: NDArray[np.int64]) -> Wanted:
+        """What is asked of a place that is to be had in one of some approaches, as the left arm sees them."""
+        return Wanted(self._axes[seen], seen + 1, self._comfort_m, self._room)
+
+    def _from_shoulder(self, sided: SidedArm, points: FloatArray) -> FloatArray:
+        """Points on the grid, as the left arm's shoulder sees them (m)."""
+        on_grid = LENGTH_M * np.round(sided.mirrored_places(points) / LENGTH_M)
+        return np.asarray(on_grid - sided.shoulder(self._torso_m))
+
     def _as_left_arm_sees(self, arm: int, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
-        indices = np.asarray(approaches, dtype=np.int64)
-        return self._mirror_images[indices] if self._arms[arm].is_mirrored else indices
+        return np.asarray(self._labels[arm][approaches] - 1)

@@ -1,6 +1,7 @@
-"""Why is a point not in comfortable reach of the left arm, and by how much?
+"""Why is a place not in comfortable reach of the left arm, and by how much?
 
-Everything is seen from its shoulder (m), parallel to the base.
+Everything is seen from its shoulder (m), parallel to the base. The base may stand in several places: the place is given
+as it is seen from each.
 """
 
 import math
@@ -10,9 +11,9 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.shortfall import Cause, Shortfall
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import aim_at, reachable_batch
+from planner.robot.kernel import reachable_batch
 from planner.robot.limiting_joint import limiting_joint
-from planner.robot.nearest_comfort import beyond_length, nearest_comfort, widest_comfort
+from planner.robot.nearest_comfort import Wanted, aims_gap, is_hindered, nearest_comfort, widest_comfort
 
 FURTHEST_M = 0.8
 """No displacement further than this is tried."""
@@ -28,43 +29,40 @@ DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)
 _RING = np.array(_STRAIGHT)
 
 
-def left_shortfall(shape: ArmShape, point: FloatArray, axes: FloatArray, comfort_m: float) -> tuple[Shortfall, int]:
-    """The shortfall of a point that is not in comfort, and the queries made.
+def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float) -> tuple[Shortfall, int]:
+    """The shortfall of a place that is in comfort from nowhere, and the queries made.
 
     Args:
         shape: the arm.
-        point: the tool's place, shape (3,).
-        axes: approach axes, shape (k, 3), at least one; the shortfall's `approach` is an index into them.
-        comfort_m: the comfort radius.
+        wanted: what is asked of the place, at least one approach; the shortfall's `approach` is an index into them.
+        points: the tool's place as seen from each place of the base, shape (n, 3).
+        at_most_m: no displacement longer than this, or than `FURTHEST_M`, is tried.
     """
-    radius_m, approach, queries = widest_comfort(shape, point, axes, comfort_m)
-    if approach >= 0:
-        shortfall, more = _of_comfort(shape, point, axes, comfort_m, radius_m, approach)
-        return shortfall, queries + more
-    short_by_m, approach, direction, more = nearest_comfort(shape, point, axes, DIRECTIONS, comfort_m, FURTHEST_M)
+    furthest = min(at_most_m, FURTHEST_M)
+    short_by_m, seen_from, approach, direction, queries = nearest_comfort(shape, wanted, points, DIRECTIONS, furthest)
+    comfort, widest_from, widest_approach, more = widest_comfort(shape, wanted, points)
     queries += more
-    if approach < 0:
-        return _far_away(shape, point, axes), queries
-    towards = DIRECTIONS[direction]
-    cause = _cause(point, point - shape.tool * axes[approach], towards, short_by_m)
-    joint = limiting_joint(shape, point, axes[approach])
-    return Shortfall(cause, joint, short_by_m, _as_point(towards), approach), queries
+    is_at_least = seen_from < 0
+    if is_at_least:
+        seen_from, approach, short_by_m = _nearest_by_length(shape, wanted, points, furthest)
+    point, axis = points[seen_from], wanted.axes[approach]
+    towards = _homewards(point) if is_at_least else DIRECTIONS[direction]
+    joint, comfort_m = limiting_joint(shape, point, axis), None
+    cause: Cause = "too_far" if is_at_least else _cause(point, point - shape.tool * axis, towards, short_by_m)
+    if widest_from >= 0:
+        cause, comfort_m = "comfort_only", comfort
+        joint = _missed_on_ring(shape, points[widest_from], wanted.axes[widest_approach], wanted.comfort)
+        queries += len(_RING)
+    elif is_hindered(shape, wanted, points):
+        cause, joint = "own_body", None
+    return Shortfall(cause, joint, short_by_m, is_at_least, _as_point(towards), approach, seen_from, comfort_m), queries
 
 
-def _of_comfort(
-    shape: ArmShape, point: FloatArray, axes: FloatArray, comfort_m: float, radius_m: float, approach: int
-) -> tuple[Shortfall, int]:
-    """The shortfall where only a part of the comfort circle is out of reach, and the queries made."""
-    axis = axes[approach]
-    *_, direction, queries = nearest_comfort(
-        shape, point, axes[approach : approach + 1], DIRECTIONS, comfort_m, FURTHEST_M
-    )
-    towards = DIRECTIONS[direction] if direction >= 0 else _homewards(point)
+def _missed_on_ring(shape: ArmShape, point: FloatArray, axis: FloatArray, comfort_m: float) -> str | None:
+    """The joint that limits at a place of the comfort circle that is out of reach."""
     ring = point + comfort_m * _RING
     missed = ring[~reachable_batch(shape, ring, np.repeat(axis[None], len(ring), axis=0))]
-    joint = limiting_joint(shape, missed[0] if len(missed) else point, axis)
-    shortfall = Shortfall("comfort_only", joint, comfort_m - radius_m, _as_point(towards), approach)
-    return shortfall, queries + len(ring)
+    return limiting_joint(shape, missed[0] if len(missed) else point, axis)
 
 
 def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m: float) -> Cause:
@@ -79,17 +77,16 @@ def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m
     return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"
 
 
-def _far_away(shape: ArmShape, point: FloatArray, axes: FloatArray) -> Shortfall:
-    """The shortfall of a point that no displacement brings into comfort.
+def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, furthest: float) -> tuple[int, int, float]:
+    """Of a place that no displacement brings into comfort: from where and how it is nearest, and a bound.
 
-    It is short by at least the distance by which the wrist is beyond the arm's length, and by at least
-    `FURTHEST_M` in the directions tried: the larger of the two is given.
+    It is short by at least what its wrist is beyond the arm (`planner.robot.arm_gap`), and by at least `furthest` in
+    the directions tried: the larger of the two is given.
     """
-    beyond_m = [float(beyond_length(shape, aim_at(shape, *point, *axis))) for axis in axes]
-    approach = int(np.argmin(beyond_m))
-    short_by_m = max(beyond_m[approach], FURTHEST_M)
-    joint = limiting_joint(shape, point, axes[approach])
-    return Shortfall("too_far", joint, short_by_m, _as_point(_homewards(point)), approach)
+    approaches = range(len(wanted.axes))
+    gaps = np.array([[aims_gap(shape, wanted, point, approach) for approach in approaches] for point in points])
+    seen_from, approach = np.unravel_index(int(gaps.argmin()), gaps.shape)
+    return int(seen_from), int(approach), max(float(gaps.min()), furthest)
 
 
 def _homewards(point: FloatArray) -> FloatArray:

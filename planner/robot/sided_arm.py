@@ -43,24 +43,24 @@ class SidedArm:
     ) -> FloatArray | None:
         """The joints nearest to `near`, shape (7,), with the tool at a pose in the base frame, or None."""
         point = self.mirrored_places(position) - self.shoulder(torso_m)
-        found, joints = nearest_joints(
-            self.shape, point, self._mirrored_rotation(rotation), self._mirrored_joints(near)
-        )
-        return self._mirrored_joints(joints) if found else None
+        found, joints = nearest_joints(self.shape, point, self.mirrored_rotations(rotation), self.mirrored_joints(near))
+        return self.mirrored_joints(joints) if found else None
 
     def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
-        position, rotation = tool_pose(self.shape, self._mirrored_joints(joints))
-        return self.mirrored_places(position + self.shoulder(torso_m)), self._mirrored_rotation(rotation)
+        position, rotation = tool_pose(self.shape, self.mirrored_joints(joints))
+        return self.mirrored_places(position + self.shoulder(torso_m)), self.mirrored_rotations(rotation)
 
     def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
         """How high the elbow is above the floor (m)."""
-        _, lift, *_ = self._mirrored_joints(joints)
+        _, lift, *_ = self.mirrored_joints(joints)
         return float(self.shoulder(torso_m)[2] - self.shape.upper * np.sin(lift))
 
-    def _mirrored_joints(self, joints: FloatArray) -> FloatArray:
+    def mirrored_joints(self, joints: FloatArray) -> FloatArray:
+        """Joints, shape (..., 7), as the left arm would name them, and back; a new array."""
         return np.array(joints * MIRROR if self.is_mirrored else joints, dtype=float, order="C")
 
-    def _mirrored_rotation(self, rotation: FloatArray) -> FloatArray:
-        mirrored = rotation * _MIRRORED_ROTATION if self.is_mirrored else rotation
+    def mirrored_rotations(self, rotations: FloatArray) -> FloatArray:
+        """Rotations, shape (..., 3, 3), as the left arm would see them; a new array."""
+        mirrored = rotations * _MIRRORED_ROTATION if self.is_mirrored else rotations
         return np.array(mirrored, dtype=float, order="C")

@@ -1,15 +1,21 @@
 """A* on anything hashable (paper, section 5.3). It knows no cloth and no robot.
 
+Successors may be costly to work out, and most of them are never looked at: they cost more than the best way. So
+instead of an edge a state may give a *promise*: edges that are still to be worked out, and a bound below which none of
+them can be. It waits in the queue as an edge would, and is redeemed when nothing cheaper is left.
+
 Ties: the larger cost so far first, then the order of insertion, so that the same problem gives the same path on
-every run and machine. With a consistent heuristic no state is expanded twice.
+every run and machine. A promise counts with the cost of the state that gave it, so a way that is known goes before one
+that is not. With a consistent heuristic no state is expanded twice.
 """
 
 import heapq
-from collections.abc import Callable, Hashable, Iterable
+import math
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import count
-from typing import Generic, TypeVar
+from typing import Generic, TypeAlias, TypeVar
 
 S = TypeVar("S", bound=Hashable)
 A = TypeVar("A")
@@ -42,6 +48,24 @@ class Edge(Generic[S, A]):
 
 
 @dataclass(frozen=True, slots=True)
+class Promise(Generic[S, A]):
+    """Edges that leave a state, not worked out yet.
+
+    Attributes:
+        cost: none of them costs less.
+        towards: none of them leads to where the heuristic is less than it is here.
+        redeem: works them out; further promises of the same state may be among them.
+    """
+
+    cost: float
+    towards: S
+    redeem: "Callable[[], Iterable[Edge[S, A] | Promise[S, A]]]"
+
+
+Successors: TypeAlias = Iterable[Edge[S, A] | Promise[S, A]]
+
+
+@dataclass(frozen=True, slots=True)
 class SearchResult(Generic[S, A]):
     """What a search found.
 
@@ -62,16 +86,45 @@ class SearchResult(Generic[S, A]):
     explored: int
 
 
-@dataclass(slots=True)
-class _Tree(Generic[S, A]):
-    """The states seen, what each costs so far, and the edge that led there."""
+_Entry: TypeAlias = tuple[float, float, int, S, Promise[S, A] | None]
+"""The estimate, minus the cost so far, a number for ties, the state, and the promise if it is one of the state's."""
 
-    costs: dict[S, float]
+
+@dataclass(slots=True)
+class _Search(Generic[S, A]):
+    """The states seen, what each costs so far, the edge that led there, and what waits."""
+
+    heuristic: Callable[[S], float]
+    costs: dict[S, float] = field(default_factory=dict)
     parents: dict[S, tuple[S, Edge[S, A]]] = field(default_factory=dict)
     closed: set[S] = field(default_factory=set)
+    queue: list[_Entry[S, A]] = field(default_factory=list)
+    numbers: Iterator[int] = field(default_factory=count)
+    explored: int = 0
 
-    def improves(self, state: S, cost: float) -> bool:
-        return cost < self.costs.get(state, float("inf"))
+    def push(self, state: S, cost: float, beyond: float, towards: S, promise: Promise[S, A] | None) -> bool:
+        """Let a state wait, or a promise of one; false where the heuristic knows that no goal can be reached."""
+        estimate = round(cost + beyond + self.heuristic(towards), _DIGITS)
+        if estimate == math.inf:
+            return False
+        heapq.heappush(self.queue, (estimate, -cost, next(self.numbers), state, promise))
+        return True
+
+    def push_all(self, state: S, cost: float, found: Successors[S, A]) -> None:
+        """Let what leads from a state, reached at a cost, wait."""
+        for way in found:
+            if isinstance(way, Promise):
+                self.push(state, cost, way.cost, way.towards, way)
+            else:
+                self._follow(state, round(cost + way.cost, _DIGITS), way)
+
+    def _follow(self, state: S, cost: float, edge: Edge[S, A]) -> None:
+        after = edge.after
+        is_better = after not in self.closed and cost < self.costs.get(after, math.inf)
+        if is_better and self.push(after, cost, 0.0, after, None):
+            self.costs[after] = cost
+            self.parents[after] = (state, edge)
+            self.explored += 1
 
     def path_to(self, state: S) -> tuple[Edge[S, A], ...]:
         path: list[Edge[S, A]] = []
@@ -83,7 +136,7 @@ class _Tree(Generic[S, A]):
 
 def a_star(
     start: S,
-    successors: Callable[[S], Iterable[Edge[S, A]]],
+    successors: Callable[[S], Successors[S, A]],
     is_goal: Callable[[S], bool],
     heuristic: Callable[[S], float],
     max_expanded: int,
@@ -93,32 +146,28 @@ def a_star(
 
     Args:
         start: where the search begins.
-        successors: the edges that leave a state.
+        successors: the edges that leave a state, or promises of them.
         is_goal: whether a state is a goal.
-        heuristic: a consistent lower bound on the cost from a state to a goal.
+        heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no way to one.
         max_expanded: the budget in expansions.
-        should_stop: asked before each expansion; true ends the search as out of budget.
+        should_stop: asked before each expansion and each promise; true ends the search as out of budget.
     """
-    tree: _Tree[S, A] = _Tree({start: 0.0})
-    numbers = count()
-    queue = [(round(heuristic(start), _DIGITS), 0.0, next(numbers), start)]
-    expanded = explored = 0
-    while queue:
-        estimate, minus_cost, _, state = heapq.heappop(queue)
-        if state in tree.closed:
+    search: _Search[S, A] = _Search(heuristic, {start: 0.0})
+    search.push(start, 0.0, 0.0, start, None)
+    expanded = 0
+    while search.queue:
+        estimate, minus_cost, _, state, promise = heapq.heappop(search.queue)
+        cost = -minus_cost
+        if promise is None and state in search.closed:
             continue
-        if is_goal(state):
-            return SearchResult(Outcome.SOLVED, tree.path_to(state), -minus_cost, -minus_cost, expanded, explored)
-        if expanded >= max_expanded or should_stop():
-            return SearchResult(Outcome.BUDGET_EXCEEDED, (), float("inf"), estimate, expanded, explored)
-        tree.closed.add(state)
-        expanded += 1
-        for edge in successors(state):
-            cost = round(edge.cost - minus_cost, _DIGITS)
-            if edge.after not in tree.closed and tree.improves(edge.after, cost):
-                tree.costs[edge.after] = cost
-                tree.parents[edge.after] = (state, edge)
-                entry = (round(cost + heuristic(edge.after), _DIGITS), -cost, next(numbers), edge.after)
-                heapq.heappush(queue, entry)
-                explored += 1
-    return SearchResult(Outcome.INFEASIBLE, (), float("inf"), float("inf"), expanded, explored)
+        if promise is None and is_goal(state):
+            return SearchResult(Outcome.SOLVED, search.path_to(state), cost, cost, expanded, search.explored)
+        if (promise is None and expanded >= max_expanded) or should_stop():
+            return SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, estimate, expanded, search.explored)
+        if promise is None:
+            search.closed.add(state)
+            expanded += 1
+            search.push_all(state, cost, successors(state))
+        else:
+            search.push_all(state, cost, promise.redeem())
+    return SearchResult(Outcome.INFEASIBLE, (), math.inf, math.inf, expanded, search.explored)

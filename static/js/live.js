@@ -1,7 +1,8 @@
-/** The websocket to the document: comes back by itself, waiting a little longer each time. */
+/** The websocket to the document: comes back by itself, waiting a little longer each time, unless it is gone. */
 
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
+const NOT_FOUND = 4404;
 
 export class Live extends EventTarget {
   /** @param {string} name the document */
@@ -24,7 +25,11 @@ export class Live extends EventTarget {
       const message = JSON.parse(event.data);
       this.dispatchEvent(new CustomEvent(message.kind, { detail: message }));
     });
-    this.socket.addEventListener("close", () => {
+    this.socket.addEventListener("close", (event) => {
+      if (event.code === NOT_FOUND) {
+        this.dispatchEvent(new CustomEvent("gone"));
+        return;
+      }
       this.dispatchEvent(new CustomEvent("lost"));
       setTimeout(() => this.open(), this.waitMs);
       this.waitMs = Math.min(2 * this.waitMs, LONGEST_WAIT_MS);

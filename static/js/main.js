@@ -12,7 +12,9 @@ import { StageFrame } from "./stage.js";
 import { Theme } from "./theme.js";
 import { Transport } from "./transport.js";
 
-const name = document.body.dataset.document ?? "main";
+const name = location.pathname.split("/").at(-1) ?? "";
+/** What the server said last about the drawing, and about its plan. */
+const told = { document: null, plan: null };
 const status = byId("status");
 const clock = new Clock();
 const live = new Live(name);
@@ -38,18 +40,32 @@ live.addEventListener("open", (event) => {
 live.addEventListener("lost", () => say("Connection lost, trying again...", "lost"));
 live.addEventListener("problem", (event) => say(event.detail.detail, "failed"));
 live.addEventListener("playback", (event) => clock.set(event.detail));
+live.addEventListener("gone", () => say("There is no such document.", "failed"));
 live.addEventListener("document", (event) => {
-  const message = event.detail;
-  say(message.text, message.status);
-  garments.show(message.garment.name);
-  folds.show(message.garment, message.plan);
-  plan.show(message.garment, message.plan, message.status);
-  lanes.show(message.garment, message.plan);
-  showNumbers(message);
+  told.document = event.detail;
+  show();
+});
+live.addEventListener("plan", (event) => {
+  told.plan = event.detail;
+  show();
 });
 clock.addEventListener("tick", () => {
   for (const part of [folds, plan, lanes]) part.tick(clock.now);
 });
+
+/** Show what was told; the plan may be that of a drawing a moment ago. */
+function show() {
+  if (!told.document || !told.plan) return;
+  const { garment } = told.document;
+  const fits = told.plan.plan?.dag.folds === garment.folds.length;
+  const shown = fits ? told.plan.plan : null;
+  say(told.plan.text, told.plan.status);
+  garments.show(garment.name);
+  folds.show(garment, shown);
+  plan.show(garment, shown, told.plan.status);
+  lanes.show(garment, shown);
+  showNumbers(told.plan);
+}
 
 function tellTheme() {
   live.send({ do: "theme", dark: theme.isDark });

@@ -48,6 +48,11 @@ class Served:
         return self.url.removeprefix("http://")
 
     @property
+    def document(self) -> str:
+        """The document that the page shows first."""
+        return httpx.get(f"{self.url}/").headers["location"].rpartition("/")[2]
+
+    @property
     def port(self) -> int:
         return int(self.url.rpartition(":")[2])
 

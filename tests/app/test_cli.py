@@ -122,3 +122,36 @@ def test_check_says_whether_each_fold_can_be_held() -> None:
     result = pleat("check", "t-shirt")
     assert result.exit_code == 0
     assert "left sleeve" in result.stdout
+
+
+def test_check_says_of_every_corner_whether_it_must_be_held_and_why() -> None:
+    words = " ".join(pleat("check", "vest").stdout.replace("│", " ").split())
+    assert "outline of 9 points, 0.508 x 0.610 m" in words
+    assert "(0.051, 0.610): must be held, hanging freely: nothing above" in words
+    assert "(0.254, 0.000) (0.254, 0.406): need not, on the fold line" in words
+    assert "(0.102, 0.610): need not, held by the cloth above" in words
+    assert "a grip holds what is within" in words
+
+
+def test_check_as_json_comes_alone() -> None:
+    result = pleat("check", "letter-towel", "--json", "-")
+    assert result.exit_code == 0
+    answer = json.loads(result.stdout)
+    assert answer["is_holdable"] is True
+    assert [fold["kind"] for fold in answer["folds"]] == ["blue", "red"]
+
+
+def test_check_of_a_fold_that_two_grippers_cannot_hold_is_status_3_and_says_what_would_do(tmp_path: Path) -> None:
+    # A hand for each eave and one for the tip, unless one amid a slope, half of hypot(0.2, 0.1) long, holds two.
+    house = {
+        "name": "house",
+        "outline": [[0.4, 0.3], [0.0, 0.3], [0.0, -0.1], [0.2, -0.2], [0.4, -0.1]],
+        "folds": [{"name": "roof", "kind": "blue", "start": [0.4, 0.0], "end": [0.0, 0.0], "grip_radius_m": 0.08}],
+    }
+    path = saved(tmp_path, house)
+    result = pleat("check", path)
+    assert result.exit_code == 3
+    assert "towel.json: folds[0]: two grippers cannot hold it" in result.stderr
+    assert "3 points of its edge must be held" in result.stderr
+    assert "a grip radius of 0.112 m would do" in result.stderr
+    assert json.loads(pleat("check", path, "--json", "-").stdout)["is_holdable"] is False

@@ -1,10 +1,21 @@
-from dataclasses import dataclass
+import threading
+import time
+from dataclasses import dataclass, replace
 
 import pytest
 
-from app.api.live_messages import status_text
-from app.document import Document
-from planner import Plan, Scene, load_garment, make_plan
+from app.api.live_messages import plan_message, status_text
+from app.document import Document, EndedDocumentError
+from app.document_state import Checks
+from app.drawing.draft import Draft, draft_of
+from app.drawing.drawing import Drawing
+from app.drawing.edit import Edit, Phase, StaleVersionError
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.solve import solve
+from planner import Plan, load_garment, make_plan
+from planner.cloth.garment import Garment
+from tests.app.drawing.drawings import outlined, pulled
+from tests.app.samples import towel
 
 
 @dataclass
@@ -15,19 +26,40 @@ class HandClock:
         return self.now_s
 
 
+TOWEL = draft_of(drawing_of(Garment.from_dict(towel())))
+SPOILT = outlined(TOWEL.drawing)
+
+
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("hand-towel"))
+    return make_plan(Garment.from_dict(towel()))
+
+
+@pytest.fixture(scope="module")
+def no_plan() -> Plan:
+    return replace(make_plan(Garment.from_dict(towel())), status="infeasible", primitives=(), cost_s=None)
 
 
 def document(clock: HandClock | None = None) -> Document:
-    return Document(load_garment("hand-towel"), Scene(), clock or HandClock())
+    return Document(TOWEL, clock=clock or HandClock())
 
 
-def settled(plan: Plan, clock: HandClock) -> Document:
-    settled = document(clock)
-    settled.settle(1, plan, "id", plan.timeline())
-    return settled
+def moved(millimetres: int) -> Drawing:
+    return solve(pulled(TOWEL.drawing, 0, -0.001 * millimetres, 0.0)).drawing
+
+
+def answer(document: Document, plan: Plan, *, film: bool = True) -> None:
+    question = document.state.question
+    assert question is not None
+    document.settle(document.state.version, question, plan, "id")
+    if film and plan.is_solved:
+        document.show_film(plan, plan.timeline())
+
+
+def answered(plan: Plan, clock: HandClock | None = None) -> Document:
+    made = document(clock)
+    answer(made, plan)
+    return made
 
 
 def test_a_new_document_wants_a_plan() -> None:
@@ -36,32 +68,153 @@ def test_a_new_document_wants_a_plan() -> None:
     assert status_text(state) == "Planning..."
 
 
-def test_an_answer_for_an_older_version_is_dropped(plan: Plan) -> None:
-    changed = document()
-    changed.choose(load_garment("tie"))
-    changed.settle(1, plan, "id", plan.timeline())
-    assert changed.state.plan is None
-    assert changed.state.version == 2
-
-
 def test_the_status_says_how_many_primitives_and_seconds(plan: Plan) -> None:
-    text = status_text(settled(plan, HandClock()).state)
-    assert text == f"Planned: {len(plan.primitives)} primitives, {plan.cost_s:.1f} s"
+    text = status_text(answered(plan).state)
+    count = len(plan.primitives)
+    assert text == f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
 
 
-def test_choosing_a_garment_forgets_plan_and_time_but_not_the_speed(plan: Plan) -> None:
-    changed = settled(plan, HandClock())
-    changed.set_speed(4.0)
+def test_every_change_is_a_new_version_and_what_changes_nothing_is_none() -> None:
+    changed = document()
+    assert changed.edit(Edit("Move", moved(1))).version == 2
+    assert changed.edit(Edit("Move", moved(1))).version == 2
+    assert changed.undo().version == 3
+    assert changed.undo().version == 3
+    assert changed.redo().version == 4
+
+
+def test_a_change_of_another_version_is_refused_and_changes_nothing() -> None:
+    changed = document()
+    changed.edit(Edit("Move", moved(1)))
+    for late in (lambda: changed.edit(Edit("Move", moved(2), base_version=1)), lambda: changed.undo(1)):
+        with pytest.raises(StaleVersionError):
+            late()
+    assert changed.state.drawing == moved(1)
+    assert changed.edit(Edit("Move", moved(2), base_version=2)).drawing == moved(2)
+
+
+def test_while_planning_the_plan_before_stays_and_says_so(plan: Plan) -> None:
+    changed = answered(plan)
+    changed.edit(Edit("Move", moved(1)))
+    message = plan_message(changed.state)
+    assert message["status"] == "planning"
+    assert message["version"] == 2
+    assert message["plan"]["version"] == 1
+    assert message["plan"]["is_stale"] is True
+
+
+def test_an_answer_to_an_older_question_is_shown_only_if_it_is_newer_than_what_is_shown(plan: Plan) -> None:
+    changed = document()
+    first = changed.state.question
+    assert first is not None
+    second = changed.edit(Edit("Move", moved(1))).question
+    assert second is not None
+    changed.edit(Edit("Move", moved(2)))
+    changed.settle(2, second, plan, "second")
+    assert changed.state.answer is not None
+    assert (changed.state.answer.version, changed.state.is_planning) == (2, True)
+    changed.settle(1, first, plan, "first")
+    assert changed.state.answer.plan_id == "second"
+
+
+def test_the_same_drawing_again_has_the_same_plan_at_once(plan: Plan) -> None:
+    """A commit of what was previewed last, or a title: what is to be planned is what was planned."""
+    changed = document()
+    changed.edit(Edit("Move", moved(1), Phase.PREVIEW))
+    answer(changed, plan)
+    state = changed.edit(Edit("Move", moved(1), Phase.COMMIT))
+    assert state.version == 3
+    assert state.answer is not None and state.answer.version == 3
+    assert state.film is not None and state.film.version == 3
+    assert not state.is_planning
+
+
+def test_with_something_wrong_there_is_no_plan_and_with_it_mended_the_old_one_is_back(plan: Plan) -> None:
+    changed = answered(plan)
+    state = changed.edit(Edit("Spoil", SPOILT))
+    assert plan_message(state)["plan"] is None
+    assert status_text(state).startswith("No plan: outline: has no points")
+    assert not state.is_planning
+    assert changed.undo().is_answered
+
+
+def test_the_plan_of_another_garment_is_not_shown_meanwhile(plan: Plan) -> None:
+    changed = answered(plan)
+    state = changed.edit(Edit("Open", drawing_of(load_garment("tie"))))
+    assert plan_message(state)["plan"] is None
+    assert state.playback.duration_s == 0.0
+
+
+def test_the_plan_before_is_the_last_one_of_another_committed_drawing(plan: Plan) -> None:
+    changed = answered(plan)
+    changed.edit(Edit("Move", moved(1), Phase.PREVIEW))
+    answer(changed, plan)
+    assert changed.state.before is None
+    changed.edit(Edit("Move", moved(2), Phase.PREVIEW))
+    changed.edit(Edit("Move", moved(2), Phase.COMMIT))
+    answer(changed, plan)
+    assert changed.state.before is not None
+    assert changed.state.before.version == 1
+
+
+def test_checks_of_another_drawing_are_dropped() -> None:
+    changed = document()
+    changed.put_checks(moved(1), ())
+    assert changed.state.checks is None
+    changed.put_checks(TOWEL.drawing, ())
+    assert changed.state.checks == Checks(1, ())
+
+
+def test_checks_of_a_preview_are_those_of_its_commit() -> None:
+    changed = document()
+    changed.edit(Edit("Move", moved(1), Phase.PREVIEW))
+    changed.edit(Edit("Move", moved(1), Phase.COMMIT))
+    changed.put_checks(moved(1), ())
+    assert changed.state.checks == Checks(3, ())
+
+
+def test_a_film_of_another_plan_is_dropped(plan: Plan, no_plan: Plan) -> None:
+    changed = document()
+    answer(changed, no_plan)
+    changed.show_film(plan, plan.timeline())
+    assert changed.state.film is None
+
+
+def test_a_film_that_comes_when_something_is_wrong_by_now_is_dropped(plan: Plan) -> None:
+    changed = document()
+    answer(changed, plan, film=False)
+    changed.edit(Edit("Spoil", SPOILT))
+    changed.show_film(plan, plan.timeline())
+    assert changed.state.film is None
+    assert changed.state.playback.duration_s == 0.0
+
+
+def test_a_failure_is_told_as_a_sentence_until_the_next_change() -> None:
+    failed = document()
+    failed.fail(2, "of another version")
+    assert failed.state.failure is None
+    failed.fail(1, "the planner failed")
+    assert status_text(failed.state) == "No plan: the planner failed"
+    assert failed.edit(Edit("Move", moved(1))).is_planning
+
+
+def test_the_time_stays_when_the_plan_changes(plan: Plan, no_plan: Plan) -> None:
+    changed = answered(plan)
     changed.seek(3.0)
-    changed.choose(load_garment("tie"))
-    assert changed.state.plan is None
+    changed.edit(Edit("Move", moved(1)))
+    answer(changed, plan)
+    assert changed.t_s == 3.0
+    changed.edit(Edit("Move", moved(2)))
+    answer(changed, no_plan)
     assert changed.t_s == 0.0
-    assert changed.state.playback.speed == 4.0
+    changed.edit(Edit("Move", moved(3)))
+    answer(changed, plan)
+    assert changed.t_s == 3.0
 
 
 def test_playing_goes_by_the_wall_clock_and_stops_at_the_end(plan: Plan) -> None:
     clock = HandClock()
-    played = settled(plan, clock)
+    played = answered(plan, clock)
     played.play()
     clock.now_s = 2.0
     assert played.t_s == 2.0
@@ -73,19 +226,58 @@ def test_playing_goes_by_the_wall_clock_and_stops_at_the_end(plan: Plan) -> None
     assert played.t_s == plan.cost_s
 
 
-def test_listeners_hear_of_every_change_until_they_leave(plan: Plan) -> None:
+def test_listeners_hear_of_every_change_until_they_leave() -> None:
     heard = []
     watched = document()
     leave = watched.subscribe(lambda: heard.append(watched.state.version))
-    watched.choose(load_garment("tie"))
-    watched.settle(2, plan, "id", plan.timeline())
+    watched.edit(Edit("Move", moved(1)))
+    watched.undo()
     leave()
-    watched.play()
-    assert heard == [2, 2]
+    watched.redo()
+    assert heard == [2, 3]
 
 
-def test_a_failure_is_told_as_a_sentence() -> None:
-    failed = document()
-    failed.fail(1, "folds[0].start: off the cloth")
-    assert status_text(failed.state) == "No plan: folds[0].start: off the cloth"
-    assert not failed.state.is_planning
+def test_a_change_is_kept_before_anybody_sees_it() -> None:
+    kept: list[tuple[int, Draft, int]] = []
+    watched = Document(TOWEL, keep=lambda version, draft: kept.append((version, draft, watched.state.version)))
+    watched.edit(Edit("Move", moved(1)))
+    assert [(version, seen) for version, _, seen in kept] == [(2, 1)]
+    assert kept[0][1].drawing == moved(1)
+
+
+def test_a_change_that_cannot_be_kept_is_not_made() -> None:
+    def refuse(*_: object) -> None:
+        raise OSError("the disk is full")
+
+    watched = Document(TOWEL, keep=refuse)
+    with pytest.raises(OSError, match="full"):
+        watched.edit(Edit("Move", moved(1)))
+    assert watched.state.version == 1
+    assert watched.state.drawing == TOWEL.drawing
+
+
+def test_an_ended_document_is_changed_no_more() -> None:
+    ended = document()
+    ended.end()
+    with pytest.raises(EndedDocumentError):
+        ended.edit(Edit("Move", moved(1)))
+
+
+def test_who_plans_waits_while_the_drawing_is_being_changed_but_not_for_ever() -> None:
+    begun, go = threading.Event(), threading.Event()
+
+    def hold(*_: object) -> None:
+        begun.set()
+        assert go.wait(60.0)
+
+    held = Document(TOWEL, keep=hold)
+    editing = threading.Thread(target=lambda: held.edit(Edit("Move", moved(1))))
+    editing.start()
+    assert begun.wait(60.0)
+    start = time.monotonic()
+    held.give_way(0.05)
+    assert time.monotonic() - start >= 0.05
+    threading.Timer(0.05, go.set).start()
+    held.give_way(60.0)
+    editing.join()
+    assert held.state.version == 2

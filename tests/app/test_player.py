@@ -1,10 +1,16 @@
 import time
+from dataclasses import replace
 
 import pytest
 
 from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.edit import Edit
+from app.drawing.garment_drawing import drawing_of
 from app.player import UPDATES_PER_S, Player
 from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.table import Table
+from tests.app.drawing.drawings import outlined, pulled
 
 
 class CountingStage:
@@ -15,9 +21,13 @@ class CountingStage:
         self.lying, self.plans = 0, 0
         self.times: list[float] = []
         self.themes: list[bool] = []
+        self.scenes: list[Scene] = []
 
     def set_theme(self, *, is_dark: bool) -> None:
         self.themes.append(is_dark)
+
+    def show_scene(self, scene: Scene) -> None:
+        self.scenes.append(scene)
 
     def show_garment(self, *_: object) -> None:
         self.lying += 1
@@ -34,6 +44,17 @@ def plan() -> Plan:
     return make_plan(load_garment("hand-towel"))
 
 
+def towel_document() -> Document:
+    return Document(draft_of(drawing_of(load_garment("hand-towel"))))
+
+
+def answer(document: Document, plan: Plan) -> None:
+    question = document.state.question
+    assert question is not None
+    document.settle(document.state.version, question, plan, "id")
+    document.show_film(plan, plan.timeline())
+
+
 def until(condition) -> None:
     deadline = time.monotonic() + 10.0
     while not condition():
@@ -42,11 +63,11 @@ def until(condition) -> None:
 
 
 def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
-    document, stage = Document(load_garment("hand-towel"), Scene()), CountingStage(has_watchers)
+    document, stage = towel_document(), CountingStage(has_watchers)
     player = Player(document, stage)
     try:
         until(lambda: stage.lying == 1)
-        document.settle(1, plan, "id", plan.timeline())
+        answer(document, plan)
         until(lambda: stage.times == [0.0])
         document.play()
         until(lambda: document.t_s > 1.0)
@@ -67,10 +88,10 @@ def test_an_unwatched_stage_gets_few(plan: Plan) -> None:
 
 
 def test_a_paused_stage_gets_one_update_for_each_change(plan: Plan) -> None:
-    document, stage = Document(load_garment("hand-towel"), Scene()), CountingStage(True)
+    document, stage = towel_document(), CountingStage(True)
     player = Player(document, stage)
     try:
-        document.settle(1, plan, "id", plan.timeline())
+        answer(document, plan)
         for t_s in (1.0, 2.0, 3.0):
             document.seek(t_s)
             until(lambda t_s=t_s: stage.times and stage.times[-1] == t_s)
@@ -81,15 +102,71 @@ def test_a_paused_stage_gets_one_update_for_each_change(plan: Plan) -> None:
 
 
 def test_the_stage_follows_the_theme_and_another_garment_keeps_it() -> None:
-    document, stage = Document(load_garment("hand-towel"), Scene()), CountingStage(True)
+    document, stage = towel_document(), CountingStage(True)
     player = Player(document, stage)
     try:
         until(lambda: stage.lying == 1)
         document.set_theme(is_dark=True)
         until(lambda: stage.themes == [False, True])
-        document.choose(load_garment("t-shirt"))
+        document.edit(Edit("Open T-shirt", drawing_of(load_garment("t-shirt"))))
         until(lambda: stage.lying == 2)
         assert document.state.is_dark
         assert stage.themes == [False, True]
+    finally:
+        player.close()
+
+
+def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_beginning(plan: Plan) -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        answer(document, plan)
+        until(lambda: stage.times == [0.0])
+        document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
+        until(lambda: stage.lying == 2)
+        document.undo()
+        until(lambda: len(stage.times) == 2)
+    finally:
+        player.close()
+
+
+def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan) -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        answer(document, plan)
+        document.seek(2.0)
+        until(lambda: stage.times and stage.times[-1] == 2.0)
+        document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
+        time.sleep(0.2)
+        assert stage.lying == 1
+    finally:
+        player.close()
+
+
+def test_a_spoilt_drawing_leaves_on_the_stage_what_was_there(plan: Plan) -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.edit(Edit("Clear", outlined(document.state.drawing)))
+        document.set_theme(is_dark=True)
+        until(lambda: stage.themes == [False, True])
+        assert stage.lying == 1
+    finally:
+        player.close()
+
+
+def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        high = replace(Scene(), table=Table(height_m=0.9))
+        document.edit(Edit("Table", replace(document.state.drawing, scene=high)))
+        until(lambda: stage.lying == 2)
+        assert stage.scenes == [Scene(), high]
     finally:
         player.close()

@@ -4,6 +4,7 @@ import json
 import signal
 import socket
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +16,20 @@ from websockets.sync.client import ClientConnection, connect
 from tests.app.conftest import Served
 from tests.app.samples import towel
 
-LIVE = "/api/documents/main/live"
-STAGE = "/viser/main"
 SUBPROTOCOL = "viser-v1.1.1"
 PATIENCE_S = 60.0
 
 
+def live_path(served: Served) -> str:
+    return f"/api/documents/{served.document}/live"
+
+
+def stage_path(served: Served) -> str:
+    return f"/viser/{served.document}"
+
+
 def live(served: Served, **options: Any) -> ClientConnection:
-    return connect(f"ws://{served.authority}{LIVE}", proxy=None, **options)
+    return connect(f"ws://{served.authority}{live_path(served)}", proxy=None, **options)
 
 
 def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]:
@@ -36,16 +43,19 @@ def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]
 
 def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
     with live(served) as page:
-        message = until(page, "document", status="solved")
-    assert message["garment"]["name"] == "t-shirt"
+        assert until(page, "document")["garment"]["name"] == "t-shirt"
+        message = until(page, "plan", status="solved")
     assert message["text"].startswith("Planned: ")
-    plan = httpx.get(f"{served.url}/api/plans/{message['plan']['id']}").json()
-    assert plan == message["plan"]
+    shown = message["plan"]
+    assert shown.pop("version") == message["version"]
+    assert shown.pop("is_stale") is False
+    assert httpx.get(f"{served.url}/api/plans/{shown['id']}").json() == shown
 
 
 def test_play_seek_speed_and_pause_are_obeyed(served: Served) -> None:
     with live(served) as page:
-        duration_s = until(page, "document", status="solved")["plan"]["cost_s"]
+        duration_s = until(page, "plan", status="solved")["plan"]["cost_s"]
+        until(page, "playback", duration_s=duration_s)
         page.send(json.dumps({"do": "seek", "t_s": 5.0}))
         until(page, "playback", t_s=5.0, playing=False)
         page.send(json.dumps({"do": "speed", "speed": 20.0}))
@@ -83,35 +93,41 @@ def test_another_garment_can_be_chosen_and_an_unknown_one_cannot(served: Served)
         assert "nothing" in until(page, "problem")["detail"]
         page.send(json.dumps({"do": "choose", "garment": "hand-towel"}))
         chosen = until(page, "document")
-        while chosen["garment"]["name"] != "hand-towel" or chosen["status"] != "solved":
+        while chosen["garment"]["name"] != "hand-towel":
             chosen = until(page, "document")
+        assert chosen["history"]["can_undo"] == "Open Hand towel"
+        until(page, "plan", status="solved", version=chosen["version"])
         page.send(json.dumps({"do": "choose", "garment": "t-shirt"}))
 
 
 def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served) -> None:
-    answer = httpx.get(f"{served.url}{STAGE}/")
+    answer = httpx.get(f"{served.url}{stage_path(served)}/")
     assert answer.status_code == 200
     assert "text/html" in answer.headers["content-type"]
-    with connect(f"ws://{served.authority}{STAGE}", subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as page:
+    address = f"ws://{served.authority}{stage_path(served)}"
+    with connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as page:
         assert page.subprotocol == SUBPROTOCOL
         assert isinstance(page.recv(timeout=PATIENCE_S), bytes)
 
 
-@pytest.mark.parametrize("path", [LIVE, STAGE])
+@pytest.mark.parametrize("path", [live_path, stage_path])
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
-def test_a_websocket_from_a_foreign_page_never_opens(served: Served, path: str, origin: str) -> None:
+def test_a_websocket_from_a_foreign_page_never_opens(
+    served: Served, path: Callable[[Served], str], origin: str
+) -> None:
     with pytest.raises(InvalidStatus) as refused:
-        connect(f"ws://{served.authority}{path}", origin=origin, subprotocols=[SUBPROTOCOL], proxy=None)
+        connect(f"ws://{served.authority}{path(served)}", origin=origin, subprotocols=[SUBPROTOCOL], proxy=None)
     assert refused.value.response.status_code == 403
 
 
 def test_a_websocket_under_a_foreign_name_never_opens(served: Served) -> None:
     host, _, port = served.authority.partition(":")
+    path = live_path(served)
     with (
         socket.create_connection((host, int(port))) as wire,
         pytest.raises(InvalidStatus) as refused,
     ):
-        connect(f"ws://evil.example:{port}{LIVE}", sock=wire, proxy=None)
+        connect(f"ws://evil.example:{port}{path}", sock=wire, proxy=None)
     assert refused.value.response.status_code == 403
 
 
@@ -136,9 +152,10 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
 def test_ctrl_c_ends_it_within_three_seconds_whatever_is_open(tmp_path: Path) -> None:
     server = Served(tmp_path)
     try:
+        address = f"ws://{server.authority}{stage_path(server)}"
         with (
             live(server) as page,
-            connect(f"ws://{server.authority}{STAGE}", subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as stage,
+            connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as stage,
         ):
             until(page, "document")
             stage.recv(timeout=PATIENCE_S)

@@ -4,6 +4,7 @@ import http
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,6 +25,8 @@ from app.ui.robot_model import load_robot_model
 from app.ui.rotation import from_matrix, product, turn
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.frame import ClothSurface
@@ -222,6 +225,22 @@ def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
     assert last.done_after == frozenset(range(len(plan.garment.folds)))
     after = last.placement_after
     np.testing.assert_allclose([after.x_m, after.y_m], [end.x_m, end.y_m], atol=1e-9)
+
+
+def test_another_scene_has_another_table_other_stations_and_another_floor(stage: Stage, plan: Plan) -> None:
+    scene = stage._server.scene
+    other = replace(Scene(), table=Table(1.0, 0.8, 0.9), stations=(("corner", Pose2(-0.8, 0.3, 0.0)),))
+    try:
+        stage.show_scene(other)
+        stage.show_garment(plan.garment, lying_cloth(plan.garment, other.table), other.stations[0][1])
+        top = scene.get_handle_by_name("/table/top")
+        assert top is not None and tuple(top.dimensions[:2]) == (1.0, 0.8)
+        assert scene.get_handle_by_name("/stations/corner") is not None
+        assert scene.get_handle_by_name("/stations/front") is None
+        assert shown_pose(stage, "/robot")[2, 3] == pytest.approx(-0.9)
+    finally:
+        stage.show_scene(Scene())
+    assert scene.get_handle_by_name("/stations/front") is not None
 
 
 def test_the_stages_own_port_answers_nobody_without_the_secret(stage: Stage) -> None:

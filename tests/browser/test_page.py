@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
@@ -248,6 +249,28 @@ def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
     expect(page.get_by_role("button", name="Play")).to_be_disabled()
     page.get_by_role("combobox", name="Garment").select_option("t-shirt")
     expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) -> None:
+    path = f"{served.url}/api/documents/{page.url.rpartition('/')[2]}"
+    drawing = httpx.get(path).json()["drawing"]
+    changed = {**drawing, "folds": drawing["folds"][:2]}
+    body = {"base_version": httpx.get(path).json()["version"], "label": "Fewer", "drawing": changed}
+    assert httpx.put(f"{path}/drawing", json=body).status_code == 200
+    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(2)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    assert httpx.post(f"{path}/undo").status_code == 200
+    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_a_document_that_is_not_there_is_told_of(browser: Browser, served: Served) -> None:
+    page = browser.new_page()
+    try:
+        page.goto(f"{served.url}/d/nothing")
+        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=PATIENCE_MS)
+    finally:
+        page.close()
 
 
 def test_the_page_comes_back_by_itself_when_the_server_does(browser: Browser, tmp_path: Path) -> None:

@@ -72,7 +72,7 @@ def test_folded_layers_weigh_as_much_as_there_are():
 
 def test_a_covered_corner_is_no_g_state():
     found = why(ClothState.spread_out(rectangle(0.4, 0.4, -1.0, -0.69)))
-    assert found.code == "not_a_g_state" and "corner at (-0.800, -0.490)" in found.message
+    assert found.code == "not_a_g_state" and found.point == pytest.approx((-0.8, -0.49))
 
 
 def test_a_corner_on_the_rim_of_the_cloth_is_not_covered():
@@ -84,7 +84,7 @@ def test_a_part_that_hangs_from_two_edges_at_once_is_no_g_state():
     points = [(-1, -0.69), (-0.5, -0.69), (-0.5, -0.35), (-0.6, -0.35), (-0.6, -0.6), (-0.9, -0.6)]
     points += [(-0.9, -0.3), (-0.6, -0.3), (-0.6, -0.2), (-1, -0.2)]
     found = why(spread(points), friction=9.0)
-    assert found.code == "not_a_g_state" and "right and near at once" in found.message
+    assert found.code == "not_a_g_state" and "right and near" in found.message
 
 
 def test_nothing_on_the_table_is_no_g_state():
@@ -98,7 +98,7 @@ def test_a_triangle_that_hangs_by_its_base_stays_and_by_its_tip_does_not():
     # Its sides lean by 26.6 degrees: 0.1 m to each side for 0.2 m down.
     by_tip = [(-0.4, -0.1), (-0.4, 0.1), (-0.8, 0.1), (-1.0, 0.2), (-1.0, -0.2), (-0.8, -0.1)]
     found = why(spread(by_tip))
-    assert found.code == "not_a_g_state" and "layer 0 hangs over the near edge" in found.message
+    assert found.code == "not_a_g_state" and (found.point[0], abs(found.point[1])) == pytest.approx((-1.0, 0.2))
     assert why(spread(by_tip), support_deg=26.0) is not None
     assert why(spread(by_tip), support_deg=27.0) is None
 
@@ -112,7 +112,7 @@ def with_hanging_flap(end_x: float, line_x: float) -> ClothState:
 def test_a_flap_that_hangs_from_nothing_but_its_crease_does_not_stay():
     # Crease 0.2 m below the edge; the flap's end at 0.05 m below the edge reaches up to nothing.
     found = why(with_hanging_flap(-1.15, -1.0))
-    assert found.code == "not_a_g_state" and "layer 1" in found.message
+    assert found.code == "not_a_g_state" and (found.point[0], abs(found.point[1])) == pytest.approx((-0.85, 0.2))
 
 
 def test_a_flap_that_reaches_back_onto_the_table_stays():

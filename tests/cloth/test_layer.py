@@ -32,19 +32,28 @@ def test_every_point_of_a_layer_is_traced_to_the_pattern():
     assert layer.to_pattern((0.4, 0.1)) == pytest.approx((0.2, 0.1))
 
 
+def test_a_layer_is_as_large_as_its_piece_of_the_pattern_and_has_its_points_unrounded_wherever_it_lies():
+    third = 1.0 / 3.0
+    layer = Layer(rectangle(third, 0.3), Isometry()).reflected(Segment((0.0, 0.0), (0.0, 1.0)))
+    assert layer.area == pytest.approx(0.1, rel=1e-12)
+    # Mirrored over the y axis, and still counter-clockwise: from (0, 0.3) to (-1/3, 0.3), down, right, up.
+    assert layer.ring.tolist() == [[0.0, 0.3], [-third, 0.3], [-third, 0.0], [0.0, 0.0]]
+
+
 def test_a_layer_cut_in_two_keeps_its_cloth_and_its_isometry():
     over = Isometry.reflection(Segment((0.4, 0.0), (0.4, 1.0)))
     layer = Layer(rectangle(0.4, 0.3), over)
-    inside, outside = layer.cut(Segment((0.5, 0.0), (0.5, 0.3)), rectangle(0.1, 0.3, 0.4))
+    inside, outside, slivers = layer.cut(Segment((0.5, 0.0), (0.5, 0.3)), rectangle(0.1, 0.3, 0.4))
     assert [p.region.area for p in inside] == pytest.approx([0.03])
     assert [p.region.area for p in outside] == pytest.approx([0.09])
+    assert slivers == ()
     assert inside[0].isometry == outside[0].isometry == over
     assert is_same_region(inside[0].pattern_piece, rectangle(0.1, 0.3, 0.3))
 
 
 def test_a_layer_outside_the_moving_part_stays_whole():
     layer = Layer(rectangle(0.4, 0.3), Isometry())
-    assert layer.cut(Segment((1.0, 0.0), (1.0, 1.0)), rectangle(0.1, 0.1, 5.0)) == ((), (layer,))
+    assert layer.cut(Segment((1.0, 0.0), (1.0, 1.0)), rectangle(0.1, 0.1, 5.0)) == ((), (layer,), ())
 
 
 def test_a_layer_as_json_is_a_ring_and_a_face():

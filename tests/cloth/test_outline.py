@@ -53,6 +53,15 @@ def test_edges_that_cross_are_named_with_the_place():
     assert field == "outline[2]" and message == "edges 0 and 2 cross at (0.500, 0.500) m"
 
 
+def test_a_neck_narrower_than_what_counts_as_one_place_is_refused():
+    def hourglass(neck_m: float) -> list[Point2]:
+        low, high = 0.15 - neck_m / 2, 0.15 + neck_m / 2
+        return [(0.0, 0.0), (0.2, low), (0.4, 0.0), (0.4, 0.3), (0.2, high), (0.0, 0.3)]
+
+    require_simple_outline(hourglass(2e-5))
+    assert "(0.200, 0.150)" in refusal(hourglass(5e-6))[1]
+
+
 def test_a_vertex_that_touches_another_edge_is_refused():
     field, message = refusal([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5, 0.0), (0.0, 1.0)])
     assert "(0.500, 0.000)" in message and field.startswith("outline[")

@@ -7,6 +7,7 @@ from planner.folds.fold import snapped_line
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
+from planner.geometry.segment import Segment
 from tests.builders import fold, garment, rectangle, rectangle_points
 
 TOWEL = rectangle(0.4, 0.3)
@@ -21,6 +22,11 @@ def refusal(start: Point2, end: Point2, silhouette: Region = TOWEL) -> tuple[str
 def test_ends_on_the_boundary_stay_where_they_are():
     line = snapped_line(fold((0.1, 0.0), (0.1, 0.3)), TOWEL)
     assert line.start == pytest.approx((0.1, 0.0)) and line.end == pytest.approx((0.1, 0.3))
+
+
+def test_an_end_a_few_micrometres_off_is_on_the_boundary_and_stays_exactly_where_it_is():
+    line = snapped_line(fold((0.1, 4e-6), (0.1000001, 0.299995)), TOWEL)
+    assert line == Segment((0.1, 4e-6), (0.1000001, 0.299995))
 
 
 @pytest.mark.parametrize("off", [0.0049, -0.0049])

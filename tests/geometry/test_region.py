@@ -45,6 +45,53 @@ def test_both_sides_of_a_line_add_up_to_the_whole():
         assert np.all(line.left_distances(left.coordinates) >= -2e-6)
 
 
+def test_the_two_sides_of_a_cut_lose_no_area_and_fit_together_again():
+    rng = random.Random(4)
+    for _ in range(40):
+        region = Region.polygon(star(rng, 9))
+        if not region.shape.is_valid:
+            continue
+        angle = rng.uniform(0.0, math.tau)
+        sides = region.parted_by(Segment((0.0, 0.0), (math.cos(angle), math.sin(angle))))
+        # On a grid of a nanometre: at most 3 m of boundary, off by half of it.
+        assert sum(side.area for side in sides) == pytest.approx(region.area, abs=2e-9)
+        whole = Region.rejoined(sides)
+        assert len(whole.parts) == 1 and not whole.shape.interiors
+        assert is_same_region(whole, region, 1e-8)
+
+
+def test_regions_that_only_touch_have_no_cloth_in_common():
+    one = rectangle(0.1, 0.1)
+    for other in (rectangle(0.1, 0.1, 0.1), rectangle(0.1, 0.1, 0.1, 0.1), rectangle(0.1, 0.1, 0.5)):
+        assert one.intersection(other).pieces == () and one.intersection(other).area == 0.0
+    # Where they touch there and overlap here, only the overlap is left: 0.05 x 0.1 m^2.
+    hook = Region.polygon([(0.05, 0), (0.3, 0), (0.3, 0.3), (0, 0.3), (0, 0.1), (0.02, 0.1), (0.02, 0.2), (0.05, 0.2)])
+    assert one.intersection(hook).area == pytest.approx(0.005)
+    assert one.intersection(hook).shape.geom_type == "Polygon"
+
+
+def test_parts_are_pieces_or_slivers():
+    # 0.1 x 0.1 m^2 is cloth, 3 x 3 mm^2 is not.
+    both = Region(shapely.MultiPolygon([shapely.box(0, 0, 0.1, 0.1), shapely.box(0.5, 0.0, 0.503, 0.003)]))
+    assert [round(p.area, 6) for p in both.parts] == [0.01, 9e-6]
+    assert [round(p.area, 6) for p in both.pieces] == [0.01]
+    assert [round(p.area, 6) for p in both.slivers] == [9e-6]
+
+
+def test_a_stretch_within_a_hair_of_the_boundary_does_not_run_inside():
+    towel = rectangle(0.4, 0.3)
+    assert towel.runs_inside(Segment((0.1, 0.0), (0.1, 0.1)))
+    assert not towel.runs_inside(Segment((0.1, 1e-5), (0.3, 1e-5)))
+    assert not towel.runs_inside(Segment((0.1, 0.0), (0.1, 1e-5)))
+    assert not towel.runs_inside(Segment((0.5, 0.0), (0.5, 0.1)))
+
+
+def test_all_points_of_a_ring_are_kept_where_they_are_asked_for():
+    straight = Region.polygon([(0.0, 0.0), (0.2, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)])
+    assert len(straight.ring) == 4
+    assert straight.whole_ring.tolist() == [[0.0, 0.0], [0.2, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]]
+
+
 def test_moving_keeps_the_area_and_moving_back_the_region():
     rng = random.Random(1)
     for _ in range(40):
@@ -116,11 +163,19 @@ def test_triangles_cover_the_region_and_run_counter_clockwise():
         assert doubled.sum() / 2 == pytest.approx(region.area, abs=1e-9)
 
 
-def test_pieces_leave_slivers_out():
-    scrap = shapely.box(0.5, 0.0, 0.503, 0.003)
-    assert len(Region(shapely.MultiPolygon([shapely.box(0, 0, 0.1, 0.1), scrap])).pieces) == 1
-
-
 def test_the_nearest_boundary_point_of_an_inner_point_is_on_the_nearest_edge():
     found = rectangle(0.4, 0.3).nearest_boundary_points(np.array([[0.2, 0.25], [0.39, 0.1]]))
     assert found == pytest.approx(np.array([[0.2, 0.3], [0.4, 0.1]]))
+
+
+def test_all_boundary_points_that_are_equally_near_are_found():
+    # The middle of a strip 0.2 m high is as near to its lower as to its upper edge; 1 mm higher it is not.
+    strip = rectangle(0.8, 0.2)
+    both = strip.all_nearest_boundary_points(np.array([[0.4, 0.1], [0.3, 0.101]]))
+    assert both == pytest.approx(np.array([[0.4, 0.0], [0.4, 0.2], [0.3, 0.2]]))
+
+
+def test_the_boundary_of_a_hole_is_boundary_too():
+    ring = Region.polygon(rectangle(0.4, 0.4).ring).difference(rectangle(0.1, 0.1, 0.15, 0.15))
+    found = ring.all_nearest_boundary_points(np.array([[0.16, 0.2]]))
+    assert found == pytest.approx(np.array([[0.15, 0.2]]))

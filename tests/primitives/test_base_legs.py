@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from planner.primitives.base_legs import IMPOSSIBLE, legs, travel
+from planner.geometry.driving import IMPOSSIBLE
+from planner.primitives.base_legs import legs, travel
 
 
 def strip_of(*masks: int) -> NDArray[np.uint32]:

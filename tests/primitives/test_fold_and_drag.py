@@ -11,8 +11,9 @@ import pytest
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
+from planner.primitives.base_legs import unbeaten
 from planner.primitives.g_drag import GDrag
-from planner.primitives.g_fold import GFold, unbeaten
+from planner.primitives.g_fold import GFold
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
@@ -79,7 +80,7 @@ def test_the_base_follows_its_hands_where_no_one_place_will_do():
 def test_what_no_arm_reaches_is_noted_and_not_done():
     problem = work(towel(NEAR_HALF), reach=WideReach(lambda arm, point, back_off: False))
     assert folds_of(problem) == []
-    assert [o.code.value for o in problem.obstacles.of(0)] == ["out_of_reach"]
+    assert [code.value for code in problem.obstacles.codes(0)] == ["out_of_reach"]
 
 
 def test_grips_nearer_than_ten_centimetres_are_not_taken_by_two_hands():
@@ -89,21 +90,21 @@ def test_grips_nearer_than_ten_centimetres_are_not_taken_by_two_hands():
     )
     problem = work(ribbon)
     assert folds_of(problem) == []
-    assert [o.code.value for o in problem.obstacles.of(0)] == ["grips_too_close"]
+    assert [code.value for code in problem.obstacles.codes(0)] == ["grips_too_close"]
 
 
 def test_a_line_wholly_off_the_table_is_not_folded():
     problem = work(towel(NEAR_HALF, x_m=-0.97))
     # The line lies at x = -0.97 + 0.15 = -0.82, beyond the edge at -0.8.
     assert folds_of(problem) == []
-    assert "line_off_table" in [o.code.value for o in problem.obstacles.of(0)]
+    assert "line_off_table" in [code.value for code in problem.obstacles.codes(0)]
 
 
 def test_a_fold_after_which_the_cloth_would_slip_is_not_done():
     # The far half comes over the near one: at x = -0.9..-0.75 twice, of it 0.1 m hang and 0.05 m lie.
     problem = work(towel(fold((0.0, 0.15), (0.4, 0.15)), x_m=-0.9))
     assert folds_of(problem) == []
-    assert [o.code.value for o in problem.obstacles.of(0)] == ["slips"]
+    assert [code.value for code in problem.obstacles.codes(0)] == ["slips"]
 
 
 def test_a_fold_before_a_red_one_keeps_hold_and_the_red_one_saves_the_reach():
@@ -176,5 +177,5 @@ def test_a_drag_ends_no_further_back_than_the_base_may_go():
 
 def test_of_ends_those_stay_that_cannot_be_had_by_driving_on():
     # From end 2 (cost 1) end 3 costs 2 by driving on, so its own 2 is no better and its own 1 would be.
-    assert unbeaten(np.array([9.0, 5.0, 1.0, 2.0, 2.0])) == [2, 4]
-    assert unbeaten(np.array([9.0, 5.0, 1.0, 1.0])) == [2, 3]
+    assert unbeaten(np.array([9, 5, 1, 2, 2])) == [2, 4]
+    assert unbeaten(np.array([9, 5, 1, 1])) == [2, 3]

@@ -46,6 +46,14 @@ def test_a_corner_is_pinched_from_within_the_cone_round_its_bisector():
     assert headings((0.0, 0.0), 50.0) == [0, 30, 60, 90, 999]
 
 
+def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one_is():
+    # Its lower edge falls by 1 um on 0.4 m, so the bisector by 1.25e-6 rad; 90 degrees is just within 45 of 45.
+    assert headings((0.0, 0.0), 45.0) == [0, 30, 60, 90, 999]
+    askew = garment([(0.0, 0.0), (0.4, -1e-6), (0.4, 0.3), (0.0, 0.3)])
+    problem = work(askew, Scene(approach_cone_rad=math.radians(45.0)), Fan())
+    assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0))) == 5
+
+
 def test_the_article_turned_turns_the_headings():
     assert headings((0.0, 0.15), 31.0, turn_deg=90.0) == [60, 90, 120, 999]
 

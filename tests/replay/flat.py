@@ -56,7 +56,9 @@ def polygons(shape: BaseGeometry) -> list[Polygon]:
 
 def together(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
     """What at least one shape covers; hairline cracks between them are closed."""
-    return shapely.union_all(list(shapes)).buffer(2e-6, join_style="mitre").buffer(-2e-6, join_style="mitre")
+    whole = shapely.union_all(list(shapes))
+    with np.errstate(divide="ignore", invalid="ignore"):  # GEOS divides by zero at a crack's tip, and copes with it
+        return whole.buffer(2e-6, join_style="mitre").buffer(-2e-6, join_style="mitre")
 
 
 def without_hairs(shape: BaseGeometry) -> BaseGeometry:
@@ -134,14 +136,20 @@ def reach_of(grips: list[Place], vertices: list[Place]) -> list[float]:
     return sorted((min(math.dist(v, g) for g in grips) for v in vertices), reverse=True)
 
 
-def best_cover(shape: BaseGeometry, vertices: list[Place], radius_m: float, arms: int) -> list[float] | None:
-    """The distances of the best cover with the fewest grips, by trying all; None if the arms do not suffice."""
+def best_cover(
+    shape: BaseGeometry, vertices: list[Place], radius_m: float, arms: int, still: Line | None = None
+) -> list[float] | None:
+    """The distances of the best cover with the fewest grips, by trying all; None if the arms do not suffice.
+
+    Nothing is lifted by a hand on the line that stays where it is.
+    """
     candidates = list(vertices)
     for count in (2, 3):
         for some in combinations(vertices, count):
             centre = shapely.minimum_bounding_circle(MultiPoint(some)).centroid
             foot = shapely.shortest_line(centre, shape.boundary).coords[1]
-            candidates.append(tuple(foot))
+            if still is None or LineString(still).distance(Point(foot)) > 1e-5:
+                candidates.append(tuple(foot))
     for count in range(1, arms + 1):
         ranks = [reach_of(list(grips), vertices) for grips in combinations(candidates, count)]
         good = [rank for rank in ranks if rank[0] <= radius_m + 1e-5]

@@ -5,10 +5,12 @@ import pytest
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Approach
-from planner.robot import back_offs, reach
+from planner.robot import comfort, reach
+from planner.robot.arm import read_arm
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES
-from tests.robot.model import limits, pin_tool_pose, random_joints
+from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.sided_arm import SidedArm
+from tests.robot.model import MODEL, limits, pin_tool_pose, random_joints
 
 ROBOT = load_robot("pr2")
 CARD = ROBOT.card
@@ -16,6 +18,12 @@ TORSO_M = 0.29
 STEP_M = 0.05
 COUNT = 17
 EVERY_APPROACH = np.arange(len(APPROACHES))
+
+
+def bodiless(comfort_m: float) -> Pr2Reach:
+    """The reach of the arms alone, with no body in their way: what the naive loop finds."""
+    arms = tuple(SidedArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
+    return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m)
 
 
 def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down():
@@ -74,7 +82,7 @@ def test_rolling_the_tool_about_its_axis_changes_nothing():
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
 def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
-    asked = ROBOT.reach(TORSO_M, comfort_m)
+    asked = bodiless(comfort_m)
     for points in _paths(np.random.default_rng(15)):
         masks = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
         np.testing.assert_array_equal(masks, _naive_masks(arm, points, comfort_m))
@@ -85,7 +93,7 @@ def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
 def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
-    asked = ROBOT.reach(TORSO_M, comfort_m)
+    asked = bodiless(comfort_m)
     points = np.vstack(list(_paths(np.random.default_rng(20))))
     few = 3
     expected = _naive_comfort(arm, points, comfort_m)[:, :, :few].any(axis=2)
@@ -98,7 +106,7 @@ def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
 
 
 def test_from_anywhere_and_back_offs_share_what_they_remember():
-    asked = ROBOT.reach(TORSO_M, 0.03)
+    asked = bodiless(0.03)
     point = np.array([[0.3, 0.1, 0.9]])
     masks = asked.back_offs(0, point, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
@@ -108,7 +116,7 @@ def test_from_anywhere_and_back_offs_share_what_they_remember():
 
 
 def test_what_was_asked_before_is_not_queried_again():
-    asked = ROBOT.reach(TORSO_M, 0.03)
+    asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(16)))
     asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
@@ -119,7 +127,7 @@ def test_what_was_asked_before_is_not_queried_again():
 
 
 def test_the_right_arm_profits_from_what_the_left_one_was_asked():
-    asked = ROBOT.reach(TORSO_M, 0.03)
+    asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(17)))
     left = asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
@@ -131,10 +139,10 @@ def test_the_right_arm_profits_from_what_the_left_one_was_asked():
 
 
 def test_a_full_memory_changes_no_answer(monkeypatch):
-    usual = ROBOT.reach(TORSO_M, 0.03)
-    tiny = back_offs.empty_memory(bits=4)
+    usual = bodiless(0.03)
+    tiny = comfort.empty_memory(size_bits=2)
     monkeypatch.setattr(reach, "empty_memory", lambda: tiny)
-    forgetful = ROBOT.reach(TORSO_M, 0.03)
+    forgetful = bodiless(0.03)
     for points in _paths(np.random.default_rng(18)):
         np.testing.assert_array_equal(
             forgetful.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
@@ -143,7 +151,7 @@ def test_a_full_memory_changes_no_answer(monkeypatch):
 
 
 def test_no_points_have_no_back_offs():
-    masks = ROBOT.reach(TORSO_M, 0.0).back_offs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
+    masks = bodiless(0.0).back_offs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
     assert masks.shape == (len(APPROACHES), 0)
 
 
@@ -158,7 +166,7 @@ def test_what_cannot_be_asked_is_refused():
 
 def test_a_back_off_beyond_a_gap_does_not_count():
     """The base cannot drive through a place from which the tool, resting, is out of reach."""
-    asked = ROBOT.reach(TORSO_M, 0.0)
+    asked = bodiless(0.0)
     for points in _paths(np.random.default_rng(19)):
         shifted = points + np.array([0.4, 0.0, 0.0])
         path = np.vstack([points[:1], shifted[-1:]])

@@ -1,0 +1,55 @@
+"""The page's commands to a document, by websocket or by POST."""
+
+from dataclasses import replace
+from typing import Any
+
+from pydantic import ValidationError
+
+from app.api.messages import COMMANDS, Choose, Command, Pause, Play, Seek, SetSpeed, SetTheme
+from app.document import Document
+from app.document_state import DocumentState
+from app.drawing.edit import Edit
+from app.drawing.garment_drawing import drawing_of
+from app.workspace import Workspace
+from planner.cloth.garment import Garment
+from planner.errors import RequestError
+from planner.strict_model import first_error
+
+
+def command_of(data: Any) -> Command:  # noqa: ANN401
+    """The command that some JSON is; raises `RequestError`."""
+    try:
+        return COMMANDS.validate_python(data)
+    except ValidationError as error:
+        raise first_error(error, RequestError) from None
+
+
+def obey(command: Command, workspace: Workspace, document: Document) -> None:
+    """Do what a command says."""
+    match command:
+        case Play():
+            document.play()
+        case Pause():
+            document.pause()
+        case Seek(t_s=t_s):
+            document.seek(t_s)
+        case SetSpeed(speed=speed):
+            document.set_speed(speed)
+        case SetTheme(dark=is_dark):
+            document.set_theme(is_dark=is_dark)
+        case Choose(garment=name):
+            put_garment(document, workspace.garments.garment(name))
+
+
+def put_garment(
+    document: Document, garment: Garment, label: str | None = None, base_version: int | None = None
+) -> DocumentState:
+    """Another garment into the same scene, as one step; raises `StaleVersionError`."""
+    now = document.state.drawing
+    drawing = replace(
+        drawing_of(garment, now.scene), start_station=now.start_station, comfort_radius_m=now.comfort_radius_m
+    )
+    edit = Edit(label or f"Open {garment.title}", drawing, base_version=base_version, gesture="open")
+    state = document.edit(edit)
+    document.rewind()
+    return state

@@ -1,0 +1,110 @@
+"""The shapes of answers about documents, for the description of the interface at /docs."""
+
+from typing import Literal
+
+from pydantic import BaseModel
+
+from app.api.answers import GarmentFile, LayerAnswer, Point
+from app.drawing.drawing_json import DrawingModel, EndModel
+
+Ring = list[Point]
+
+
+class DocumentEntryAnswer(BaseModel):
+    """A document in the list."""
+
+    id: str
+    title: str
+    name: str
+    changed_at: str
+    problem: str | None
+
+
+class SolvedFold(BaseModel):
+    """Whether a fold is legal, and where it is on the cloth as it is when its turn comes (m)."""
+
+    fold: str
+    status: Literal["legal", "illegal", "unchecked"]
+    start: Point
+    end: Point
+
+
+class StepAnswer(BaseModel):
+    """The cloth before a legal fold (after the last: what is left), and what the fold does (m)."""
+
+    silhouette: list[Ring]
+    flap: list[Ring]
+    moving: list[Ring] | None
+    landed: list[Ring] | None
+
+
+class DrawingProblem(BaseModel):
+    """One thing for which there is no plan, and where it can be shown (m)."""
+
+    code: str
+    field: str
+    message: str
+    fold: int | None
+    points: list[Point]
+    lines: list[tuple[Point, Point]]
+
+
+class HistoryAnswer(BaseModel):
+    """The labels of the steps that undo and redo would take."""
+
+    can_undo: str | None
+    can_redo: str | None
+
+
+class DocumentAnswer(BaseModel):
+    """A document: what is drawn, what it comes to, what is wrong with it, what can be undone."""
+
+    kind: Literal["document"]
+    id: str
+    version: int
+    drawing: DrawingModel
+    garment: GarmentFile
+    solved: list[SolvedFold]
+    steps: list[StepAnswer]
+    problems: list[DrawingProblem]
+    history: HistoryAnswer
+    gesture: str | None
+
+
+class PlaybackAnswer(BaseModel):
+    """The clock; `version` is the one whose plan is played."""
+
+    kind: Literal["playback"]
+    version: int | None
+    t_s: float
+    duration_s: float
+    playing: bool
+    speed: float
+
+
+class CreaseAnswer(BaseModel):
+    """A fold that could be drawn: its ends, what moves, and where that lands (m)."""
+
+    start: EndModel
+    end: EndModel
+    moving: list[Ring]
+    landed: list[Ring]
+
+
+class MovedLayerAnswer(LayerAnswer):
+    """A layer, and whether the last fold moved it."""
+
+    moved: bool
+
+
+class LayersAnswer(BaseModel):
+    """The layers at one moment, bottom to top."""
+
+    layers: list[MovedLayerAnswer]
+
+
+class StepsAnswer(BaseModel):
+    """The layers before each legal fold and after the last."""
+
+    version: int
+    steps: list[LayersAnswer]

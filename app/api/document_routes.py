@@ -1,0 +1,198 @@
+"""Documents: the list, one, its drawing with undo and redo, its playback, and where a fold would be."""
+
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import partial
+from typing import Any
+
+from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from starlette.responses import JSONResponse
+
+from app.api.asked import asked_garment, workspace_of
+from app.api.body import read_model, read_object
+from app.api.commands import command_of, obey, put_garment
+from app.api.described import problems, takes
+from app.api.document_answers import (
+    CreaseAnswer,
+    DocumentAnswer,
+    DocumentEntryAnswer,
+    PlaybackAnswer,
+    StepsAnswer,
+)
+from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest, NewDocument, TravelRequest
+from app.api.live_messages import document_message, playback_message
+from app.api.messages import Play
+from app.api.problems import ProblemResponse
+from app.document_state import DocumentState
+from app.drawing.blank import blank_drawing
+from app.drawing.drawing import Drawing
+from app.drawing.drawing_json import drawing_from_dict
+from app.drawing.edit import Edit, Phase, StaleVersionError
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.place_crease import PlacedCrease, along_line, grab_and_drop
+from app.open_document import OpenDocument
+from app.workspace import Workspace
+from planner.errors import FieldError, RequestError
+from planner.geometry.segment import Segment
+
+router = APIRouter(prefix="/api/documents", tags=["documents"])
+
+_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(404, 409, 413, 422, 507)}
+
+
+@router.get("", response_model=list[DocumentEntryAnswer])
+async def list_documents(request: Request) -> list[dict[str, Any]]:
+    """All documents, the one changed last first; those whose file cannot be read at the end."""
+    entries = await run_in_threadpool(workspace_of(request).documents.entries)
+    return [asdict(entry) for entry in entries]
+
+
+@router.post(
+    "",
+    status_code=201,
+    openapi_extra=takes(NewDocument),
+    responses={201: {"model": DocumentAnswer}, **problems(404, 413, 422, 507)},
+)
+async def create_document(request: Request) -> JSONResponse:
+    """A new document; its address is in `Location`."""
+    wanted = await read_model(request, NewDocument)
+    opened = await run_in_threadpool(_created, workspace_of(request), wanted)
+    message = await run_in_threadpool(document_message, opened.id, opened.document.state)
+    return JSONResponse(message, status_code=201, headers={"location": f"/d/{opened.id}"})
+
+
+@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(404, 422)})
+async def read_document(request: Request, document_id: str) -> JSONResponse:
+    """What is drawn, and what it comes to."""
+    opened = await _opened(request, document_id)
+    return JSONResponse(await run_in_threadpool(document_message, document_id, opened.document.state))
+
+
+@router.delete("/{document_id}", status_code=204, responses=problems(404))
+async def remove_document(request: Request, document_id: str) -> Response:
+    """Remove a document for good."""
+    await run_in_threadpool(workspace_of(request).remove, document_id)
+    return Response(status_code=204)
+
+
+@router.put("/{document_id}/drawing", openapi_extra=takes(EditRequest), responses=_CHANGED)
+async def put_drawing(request: Request, document_id: str) -> Response:
+    """Change the drawing; 409, with the current `state`, when it was changed by somebody else meanwhile."""
+    edit = _edit(await read_model(request, EditRequest))
+    opened = await _opened(request, document_id)
+    return await _changed(opened, partial(opened.document.edit, edit))
+
+
+@router.put("/{document_id}/garment", openapi_extra=takes(GarmentRequest), responses=_CHANGED)
+async def put_other_garment(request: Request, document_id: str) -> Response:
+    """Another garment in place of the one that is drawn, as one step."""
+    wanted = await read_model(request, GarmentRequest)
+    opened = await _opened(request, document_id)
+
+    def put() -> DocumentState:
+        garment = asked_garment(workspace_of(request), wanted.garment)
+        return put_garment(opened.document, garment, wanted.label, wanted.base_version)
+
+    return await _changed(opened, put)
+
+
+@router.post("/{document_id}/undo", openapi_extra=takes(TravelRequest), responses=_CHANGED)
+async def undo(request: Request, document_id: str) -> Response:
+    """Take the last step back; without one nothing happens."""
+    wanted = await read_model(request, TravelRequest, may_be_empty=True)
+    opened = await _opened(request, document_id)
+    return await _changed(opened, partial(opened.document.undo, wanted.base_version))
+
+
+@router.post("/{document_id}/redo", openapi_extra=takes(TravelRequest), responses=_CHANGED)
+async def redo(request: Request, document_id: str) -> Response:
+    """Take the step again that was undone last; without one nothing happens."""
+    wanted = await read_model(request, TravelRequest, may_be_empty=True)
+    opened = await _opened(request, document_id)
+    return await _changed(opened, partial(opened.document.redo, wanted.base_version))
+
+
+@router.post(
+    "/{document_id}/playback",
+    openapi_extra=takes(Play),
+    responses={200: {"model": PlaybackAnswer}, **problems(404, 413, 422)},
+)
+async def post_playback(request: Request, document_id: str) -> JSONResponse:
+    """A command as on the websocket: play, pause, seek, speed, theme, choose."""
+    command = command_of(await read_object(request))
+    opened = await _opened(request, document_id)
+    await run_in_threadpool(obey, command, workspace_of(request), opened.document)
+    return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
+
+
+@router.post(
+    "/{document_id}/crease",
+    openapi_extra=takes(CreaseRequest),
+    responses={200: {"model": CreaseAnswer}, **problems(404, 413, 422)},
+)
+async def post_crease(request: Request, document_id: str) -> JSONResponse:
+    """Where a fold would be that takes a point of the cloth to another place, or that runs along a line."""
+    wanted = await read_model(request, CreaseRequest)
+    opened = await _opened(request, document_id)
+    placed = await run_in_threadpool(_placed, opened, wanted)
+    return JSONResponse(placed.to_dict())
+
+
+@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(404, 422)})
+async def read_steps(request: Request, document_id: str) -> JSONResponse:
+    """The layers before each legal fold and after the last, bottom to top."""
+    opened = await _opened(request, document_id)
+    state = opened.document.state
+    return JSONResponse({"version": state.version, "steps": await run_in_threadpool(state.solution.layers)})
+
+
+async def _opened(request: Request, document_id: str) -> OpenDocument:
+    return await run_in_threadpool(workspace_of(request).opened, document_id)
+
+
+async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) -> Response:
+    """The state that a change leads to, or the current one when the change came too late."""
+    try:
+        state = await run_in_threadpool(change)
+    except StaleVersionError as error:
+        current = await run_in_threadpool(document_message, opened.id, opened.document.state)
+        return ProblemResponse(409, str(error), members={"state": current})
+    return JSONResponse(await run_in_threadpool(document_message, opened.id, state))
+
+
+def _created(workspace: Workspace, wanted: NewDocument) -> OpenDocument:
+    return workspace.create(_first_drawing(workspace, wanted))
+
+
+def _first_drawing(workspace: Workspace, wanted: NewDocument) -> Drawing:
+    if wanted.garment is not None and wanted.copy_of is not None:
+        raise RequestError("copy_of", "a new document is either of a garment or a copy")
+    if wanted.copy_of is not None:
+        return workspace.opened(wanted.copy_of).document.state.drawing
+    return blank_drawing() if wanted.garment is None else drawing_of(asked_garment(workspace, wanted.garment))
+
+
+def _edit(wanted: EditRequest) -> Edit:
+    phase = Phase(wanted.phase)
+    if wanted.drawing is None and phase is not Phase.CANCEL:
+        raise RequestError("drawing", "is missing")
+    try:
+        drawing = None if wanted.drawing is None else drawing_from_dict(wanted.drawing)
+    except FieldError as error:
+        raise error.within("drawing") from None
+    return Edit(wanted.label, drawing, phase, wanted.base_version, wanted.coalesce, wanted.gesture)
+
+
+def _placed(opened: OpenDocument, wanted: CreaseRequest) -> PlacedCrease:
+    solution, is_red = opened.document.state.solution, wanted.kind == "red"
+    if (wanted.grab is None) == (wanted.line is None):
+        raise RequestError("grab", "a fold is asked for by either grab or line")
+    if wanted.grab is not None:
+        (px, py), (qx, qy) = wanted.grab.start, wanted.grab.to
+        return grab_and_drop(solution, wanted.after, (px, py), (qx, qy), is_red=is_red)
+    assert wanted.line is not None
+    (ax, ay), (bx, by) = wanted.line.start, wanted.line.end
+    if (ax, ay) == (bx, by):
+        raise RequestError("line.end", "is the line's start")
+    return along_line(solution, wanted.after, Segment((ax, ay), (bx, by)), is_red=is_red)

@@ -1,0 +1,182 @@
+"""What a document is at one instant: a drawing and its history, the answer to it, the clock."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from app.drawing.draft import Draft
+from app.drawing.drawing import Drawing
+from app.drawing.solution import Solution
+from app.playback import Playback
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Point2
+from planner.plan.plan import Plan
+from planner.plan.timeline import Timeline
+from planner.primitives.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is to be planned; equal questions have the same answer.
+
+    Attributes:
+        garment: the garment, its folds and where it lies.
+        scene: the scene.
+        start_station: where the robot stands at the start.
+        comfort_radius_m: how much slack every reach has (m).
+    """
+
+    garment: Garment
+    scene: Scene
+    start_station: str
+    comfort_radius_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """A plan, and what it answers.
+
+    Attributes:
+        version: the document's version that it belongs to.
+        question: what was asked.
+        plan: the plan.
+        plan_id: the name under which it can be read.
+    """
+
+    version: int
+    question: Question
+    plan: Plan
+    plan_id: str
+
+    @cached_property
+    def body(self) -> dict[str, Any]:
+        """The plan as JSON."""
+        return self.plan.to_dict()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Film:
+    """What is played.
+
+    Attributes:
+        version: the document's version that it belongs to.
+        plan: the plan.
+        timeline: what robot and cloth do at every moment.
+    """
+
+    version: int
+    plan: Plan
+    timeline: Timeline
+
+
+@dataclass(frozen=True, slots=True)
+class HeldFold:
+    """What one fold needs.
+
+    Attributes:
+        must_hold: the vertices that must be held, article frame (m).
+        grips: the grips that hold them (m); empty when the arms do not suffice.
+        grips_needed: how many; None when more than there are arms.
+    """
+
+    must_hold: tuple[Point2, ...]
+    grips: tuple[Point2, ...]
+    grips_needed: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Checks:
+    """What the folds need, fold by fold.
+
+    Attributes:
+        version: the document's version that they belong to.
+        folds: one for each legal fold.
+    """
+
+    version: int
+    folds: tuple[HeldFold, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentState:
+    """A document at one instant.
+
+    Attributes:
+        version: grows with every change of the draft.
+        draft: what is drawn, and how it came about.
+        answer: the latest answer; it may belong to an older version.
+        committed: the latest answer to a drawing that was committed.
+        before: the one before that to another question, for comparing.
+        film: what is played; it may belong to an older version.
+        checks: what the folds need.
+        failure: why the planner gave no answer at all to this version.
+        playback: the clock.
+        is_dark: whether it is shown on a dark ground; of several pages, the last one to say decides.
+    """
+
+    version: int
+    draft: Draft
+    answer: Answer | None = None
+    committed: Answer | None = None
+    before: Answer | None = None
+    film: Film | None = None
+    checks: Checks | None = None
+    failure: str | None = None
+    playback: Playback = Playback()
+    is_dark: bool = False
+
+    @property
+    def solution(self) -> Solution:
+        """The drawing, and what it comes to."""
+        return self.draft.solution
+
+    @property
+    def drawing(self) -> Drawing:
+        """What is drawn."""
+        return self.draft.drawing
+
+    @property
+    def question(self) -> Question | None:
+        """What is to be planned; None while something is wrong with the drawing."""
+        garment, drawing = self.solution.garment, self.drawing
+        if garment is None:
+            return None
+        return Question(garment, drawing.scene, drawing.start_station, drawing.comfort_radius_m)
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether the answer belongs to this version."""
+        return self.answer is not None and self.answer.version == self.version
+
+    @property
+    def is_planning(self) -> bool:
+        """Whether the answer is still being worked out."""
+        return not (self.is_answered or self.failure or self.solution.problems)
+
+    def redrawn(self, draft: Draft, now_s: float) -> "DocumentState":
+        """The next version, at a time of the wall clock (s).
+
+        An answer to the same question is an answer to it too; the plan of a garment of another name is none of it.
+        """
+        version = self.version + 1
+        after = replace(self, version=version, draft=draft, failure=None)
+        if draft.drawing.name != self.drawing.name:
+            after = replace(after, answer=None, committed=None, before=None)
+        answer, question = after.answer, after.question
+        if question is None or answer is None:
+            return replace(after, film=None, playback=self.playback.lasting(now_s, 0.0))
+        if answer.question != question:
+            return after
+        if self.film is not None and self.film.plan is answer.plan:
+            after = replace(after, film=replace(self.film, version=version))
+        if self.checks is not None and self.checks.version == self.version:
+            after = replace(after, checks=replace(self.checks, version=version))
+        return after.answered(replace(answer, version=version))
+
+    def answered(self, answer: Answer) -> "DocumentState":
+        """With an answer; that to a committed drawing is remembered, for comparing with the next."""
+        after = replace(self, answer=answer)
+        if self.draft.gesture is not None or answer.version != self.version:
+            return after
+        is_another = self.committed is not None and self.committed.question != answer.question
+        return replace(after, committed=answer, before=self.committed if is_another else self.before)

@@ -1,0 +1,232 @@
+"""A drawing as JSON: read strictly, written in full.
+
+What a person can draw is never refused here, however wrong: that is for solving to say. Refused is what is no
+drawing: unknown fields, numbers beyond all bounds, two corners of one name.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, ValidationError
+
+from app.drawing.drawing import (
+    ChordTie,
+    Corner,
+    CornerTie,
+    Crease,
+    CreaseTie,
+    Drawing,
+    EdgeTie,
+    End,
+    Tie,
+    fresh_ids,
+)
+from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
+from planner.cloth.outline import POINTS_MAX
+from planner.errors import FieldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.plan.make_plan import COMFORT_MAX_M
+from planner.primitives.scene import Scene
+from planner.strict_model import Bounded, PlanePoint, Positive, StrictModel, first_error
+
+Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,16}$")]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+Title = Annotated[str, Field(max_length=TITLE_MAX)]
+Name = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}$")]
+
+
+class CornerTieModel(StrictModel):
+    """Tied to a corner."""
+
+    kind: Literal["vertex"]
+    vertex: Id
+
+    def value(self) -> Tie:
+        """The tie."""
+        return CornerTie(self.vertex)
+
+
+class EdgeTieModel(StrictModel):
+    """Tied to a fraction of the way along the outline from one corner on to another."""
+
+    kind: Literal["edge"]
+    start: Id = Field(alias="from")
+    end: Id = Field(alias="to")
+    fraction: Fraction
+
+    def value(self) -> Tie:
+        """The tie."""
+        return EdgeTie(self.start, self.end, self.fraction)
+
+
+class CreaseTieModel(StrictModel):
+    """Tied to a fraction of an earlier fold's line, in the layer that some folds had carried before it."""
+
+    kind: Literal["crease"]
+    fold: Id
+    fraction: Fraction
+    carried: Annotated[list[Id], Field(max_length=FOLDS_MAX)] = Field(default_factory=list)
+
+    def value(self) -> Tie:
+        """The tie."""
+        return CreaseTie(self.fold, self.fraction, tuple(self.carried))
+
+
+class ChordTieModel(StrictModel):
+    """Where the fold's line meets the boundary."""
+
+    kind: Literal["chord"]
+
+    def value(self) -> Tie:
+        """The tie."""
+        return ChordTie()
+
+
+class EndModel(StrictModel):
+    """An end of a fold: where it is (m), and what it is tied to; without a tie one is looked for."""
+
+    point: PlanePoint
+    on: Annotated[
+        CornerTieModel | EdgeTieModel | CreaseTieModel | ChordTieModel | None, Field(discriminator="kind")
+    ] = None
+
+    def value(self) -> End:
+        """The end."""
+        return End((self.point[0], self.point[1]), None if self.on is None else self.on.value())
+
+
+class CornerModel(StrictModel):
+    """A corner of the outline (m); without a name it is given one."""
+
+    id: Id | None = None
+    point: PlanePoint
+
+
+class CreaseModel(StrictModel):
+    """A fold; without a name of its own it is given one."""
+
+    id: Id | None = None
+    name: Title = ""
+    kind: Literal["blue", "red"]
+    start: EndModel
+    end: EndModel
+    grip_radius_m: Positive | None = None
+    twin: Id | None = None
+
+
+class PlacementModel(StrictModel):
+    """A pose in the table frame (m, rad)."""
+
+    x_m: Bounded
+    y_m: Bounded
+    yaw_rad: Bounded
+
+
+class DrawingModel(StrictModel):
+    """A drawing."""
+
+    name: Name
+    title: Title
+    outline: Annotated[list[CornerModel], Field(max_length=POINTS_MAX)]
+    areal_density_kg_m2: Positive
+    grip_radius_m: Positive
+    folds: Annotated[list[CreaseModel], Field(max_length=FOLDS_MAX)]
+    placement: PlacementModel
+    scene: dict[str, Any]
+    start_station: Annotated[str, Field(max_length=TITLE_MAX)]
+    comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
+
+    def value(self) -> Drawing:
+        """The drawing; raises `FieldError` for two of one name and for a scene that is none."""
+        corners = _named("outline", "v", [corner.id for corner in self.outline])
+        names = _named("folds", "f", [fold.id for fold in self.folds])
+        return Drawing(
+            self.name,
+            self.title,
+            tuple(
+                Corner(name, (corner.point[0], corner.point[1]))
+                for name, corner in zip(corners, self.outline, strict=True)
+            ),
+            self.areal_density_kg_m2,
+            self.grip_radius_m,
+            tuple(_crease(name, fold, names) for name, fold in zip(names, self.folds, strict=True)),
+            Pose2(self.placement.x_m, self.placement.y_m, self.placement.yaw_rad),
+            _scene(self.scene),
+            self.start_station,
+            self.comfort_radius_m,
+        )
+
+
+def drawing_from_dict(data: Mapping[str, Any]) -> Drawing:
+    """A drawing from JSON; raises `FieldError` naming the field."""
+    try:
+        return DrawingModel.model_validate(data).value()
+    except ValidationError as error:
+        raise first_error(error, RequestError) from None
+
+
+def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
+    """A drawing as JSON, every field filled in."""
+    return {
+        "name": drawing.name,
+        "title": drawing.title,
+        "outline": [{"id": corner.id, "point": list(corner.point)} for corner in drawing.outline],
+        "areal_density_kg_m2": drawing.areal_density_kg_m2,
+        "grip_radius_m": drawing.grip_radius_m,
+        "folds": [_crease_to_dict(fold) for fold in drawing.folds],
+        "placement": drawing.placement.to_dict(),
+        "scene": drawing.scene.to_dict(),
+        "start_station": drawing.start_station,
+        "comfort_radius_m": drawing.comfort_radius_m,
+    }
+
+
+def end_to_dict(end: End) -> dict[str, Any]:
+    """An end as JSON."""
+    return {"point": list(end.point), "on": None if end.tie is None else _tie_to_dict(end.tie)}
+
+
+def _tie_to_dict(tie: Tie) -> dict[str, Any]:
+    match tie:
+        case CornerTie(corner):
+            return {"kind": "vertex", "vertex": corner}
+        case EdgeTie(start, end, fraction):
+            return {"kind": "edge", "from": start, "to": end, "fraction": fraction}
+        case CreaseTie(fold, fraction, carried):
+            return {"kind": "crease", "fold": fold, "fraction": fraction, "carried": list(carried)}
+        case ChordTie():
+            return {"kind": "chord"}
+
+
+def _crease_to_dict(fold: Crease) -> dict[str, Any]:
+    return {
+        "id": fold.id,
+        "name": fold.name,
+        "kind": fold.kind,
+        "start": end_to_dict(fold.start),
+        "end": end_to_dict(fold.end),
+        "grip_radius_m": fold.grip_radius_m,
+        "twin": fold.twin,
+    }
+
+
+def _crease(name: str, fold: CreaseModel, names: Sequence[str]) -> Crease:
+    twin = fold.twin if fold.twin in names and fold.twin != name else None
+    return Crease(name, fold.name, fold.kind, fold.start.value(), fold.end.value(), fold.grip_radius_m, twin)
+
+
+def _named(field: str, prefix: str, given: Sequence[str | None]) -> list[str]:
+    """The given names, new ones where there are none; raises `RequestError` when two are the same."""
+    known = [name for name in given if name is not None]
+    for index, name in enumerate(given):
+        if name is not None and name in given[:index]:
+            raise RequestError(f"{field}[{index}].id", f"{name!r} is the id of another one too")
+    fresh = iter(fresh_ids(prefix, known, len(given) - len(known)))
+    return [next(fresh) if name is None else name for name in given]
+
+
+def _scene(data: dict[str, Any]) -> Scene:
+    try:
+        return Scene.from_dict(data)
+    except FieldError as error:
+        raise error.within("scene") from None

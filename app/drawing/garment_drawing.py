@@ -1,0 +1,36 @@
+"""From a garment file to a drawing: its points get names, its folds are tied to the cloth when it is solved."""
+
+from app.drawing.drawing import Corner, Crease, Drawing, End
+from planner.cloth.garment import Garment
+from planner.primitives.scene import Scene
+
+START_STATION = "front"
+COMFORT_RADIUS_M = 0.03
+
+
+def drawing_of(garment: Garment, scene: Scene | None = None) -> Drawing:
+    """A garment as a drawing, in a scene."""
+    where = scene or Scene()
+    stations = [name for name, _ in where.stations]
+    return Drawing(
+        garment.name,
+        garment.title,
+        tuple(Corner(f"v{i}", point) for i, point in enumerate(garment.outline)),
+        garment.areal_density_kg_m2,
+        garment.grip_radius_m,
+        tuple(
+            Crease(
+                f"f{i}",
+                fold.name,
+                fold.kind,
+                End(fold.start),
+                End(fold.end),
+                None if fold.grip_radius_m == garment.grip_radius_m else fold.grip_radius_m,
+            )
+            for i, fold in enumerate(garment.folds)
+        ),
+        garment.placement,
+        where,
+        START_STATION if START_STATION in stations else stations[0],
+        COMFORT_RADIUS_M,
+    )

@@ -1,0 +1,147 @@
+"""Where a fold would be: from a point of the cloth and where it is to land, or from a line drawn anywhere.
+
+A point lands on another when the cloth is folded over the perpendicular bisector of the two. The bisector may cross
+the cloth several times; the fold is along the chord, of those that part the point from where it shall land, that
+is nearest to the middle between them.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from app.drawing.drawing import ChordTie, End, Tie
+from app.drawing.drawing_json import end_to_dict
+from app.drawing.solution import Solution, landed_rings, rings
+from app.drawing.ties import Names
+from planner.cloth.outline import EDGE_MIN_M
+from planner.errors import FoldError, RequestError
+from planner.folds.attachment import Replay, attached
+from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.geometry.chord import chords, nearest_chord
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.split import split_along
+from planner.geometry.tolerance import LENGTH_M
+
+
+@dataclass(frozen=True)
+class PlacedCrease:
+    """A legal fold that is not drawn yet.
+
+    Attributes:
+        start: its first end; what lies to the left of start -> end moves.
+        end: its second end.
+        line: the same as a segment, article frame.
+        folded: the fold done.
+    """
+
+    start: End
+    end: End
+    line: Segment
+    folded: Folded
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fold's ends as in a drawing, what moves and where it lands, as JSON."""
+        moving = self.folded.moving
+        return {
+            "start": end_to_dict(self.start),
+            "end": end_to_dict(self.end),
+            "moving": rings(moving),
+            "landed": landed_rings(moving, self.line),
+        }
+
+
+def grab_and_drop(
+    solution: Solution, after: int | None, grabbed: Point2, dropped: Point2, *, is_red: bool
+) -> PlacedCrease:
+    """The fold that takes a point of the cloth to another place.
+
+    Args:
+        solution: the drawing.
+        after: so many of its folds are done before; None: all.
+        grabbed: the point, article frame, cloth as it is then (m).
+        dropped: where it is to land (m).
+        is_red: whether only the layers that the last fold moved are taken.
+
+    Raises:
+        RequestError: there is no such fold; the field is one of ``after``, ``grab.from``, ``grab.to``.
+    """
+    replay = _replay(solution, after)
+    silhouette = _seen(replay, is_red=is_red)
+    apart = math.dist(grabbed, dropped)
+    if apart < EDGE_MIN_M:
+        raise RequestError("grab.to", f"is {apart * 1000:.3f} mm from where the cloth is grabbed, less than 1 mm")
+    if not _is_on(silhouette, grabbed):
+        raise RequestError("grab.from", f"there is no cloth at ({grabbed[0]:.4f}, {grabbed[1]:.4f}) m")
+    line = _parting_chord(silhouette, grabbed, dropped)
+    if line is None:
+        raise RequestError("grab.to", "no straight fold through the cloth takes the point there")
+    return _placed(solution, replay, line, "grab.to", is_red=is_red)
+
+
+def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red: bool) -> PlacedCrease:
+    """The fold along a line, its ends on the boundary of the cloth nearest to the line's.
+
+    Raises:
+        RequestError: there is no such fold; the field is ``after`` or ``line``.
+    """
+    replay = _replay(solution, after)
+    line = nearest_chord(_seen(replay, is_red=is_red), guide)
+    if line is None:
+        raise RequestError("line", "does not cross the cloth")
+    return _placed(solution, replay, line, "line", is_red=is_red)
+
+
+def _replay(solution: Solution, after: int | None) -> Replay:
+    if solution.replay is None:
+        raise RequestError("after", "there is no cloth: the outline is not a good one")
+    count = len(solution.drawing.folds) if after is None else after
+    legal = len(solution.replay.lines)
+    if count > legal:
+        raise RequestError("after", f"is {count}, but only {legal} folds are drawn and legal")
+    return Replay(solution.replay.outline, solution.replay.cloths[: count + 1], solution.replay.lines[:count])
+
+
+def _seen(replay: Replay, *, is_red: bool) -> Region:
+    if is_red and not replay.lines:
+        raise RequestError("kind", "the first fold cannot be red: no fold comes before it")
+    return flap_silhouette(replay.cloths[-1], is_red=is_red)
+
+
+def _is_on(region: Region, point: Point2) -> bool:
+    return region.contains(point) or region.boundary_distance(point) <= LENGTH_M
+
+
+def _parting_chord(silhouette: Region, grabbed: Point2, dropped: Point2) -> Segment | None:
+    """Of the chords on the bisector that have the point in the part to their left, the one nearest to its middle."""
+    (px, py), (qx, qy) = grabbed, dropped
+    middle = ((px + qx) / 2, (py + qy) / 2)
+    bisector = Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
+    for chord in sorted(chords(silhouette, bisector), key=lambda chord: _distance(chord, bisector)):
+        parts = split_along(silhouette, chord)
+        if parts is not None and _is_on(parts[0], grabbed) and not parts[1].is_sliver:
+            return chord
+    return None
+
+
+def _distance(chord: Segment, bisector: Segment) -> float:
+    """How far a chord of the bisector is from where that begins (m)."""
+    low, high = (math.dist(bisector.start, end) for end in (chord.start, chord.end))
+    return 0.0 if abs(low + high - chord.length) <= LENGTH_M else min(low, high)
+
+
+def _placed(solution: Solution, replay: Replay, line: Segment, field: str, *, is_red: bool) -> PlacedCrease:
+    crease = replay.lines[-1] if is_red else None
+    try:
+        folded = fold_cloth(replay.cloths[-1], line, is_red=is_red, crease=crease)
+    except FoldError as error:
+        raise RequestError(field, error.message) from None
+    names = Names.of(solution.drawing)
+    start, end = (End(point, _tie(point, replay, names, is_red=is_red)) for point in (line.start, line.end))
+    return PlacedCrease(start, end, line, folded)
+
+
+def _tie(point: Point2, replay: Replay, names: Names, *, is_red: bool) -> Tie:
+    attachment = attached(point, replay, is_red=is_red)
+    return ChordTie() if attachment is None else names.tie(attachment)

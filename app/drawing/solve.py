@@ -1,0 +1,81 @@
+"""Solves a drawing: replays its folds in their order, each on the cloth that the ones before it left.
+
+What is illegal is kept as it was drawn. The folds after an illegal one are not looked at: what they would lie on is
+not known.
+"""
+
+from dataclasses import replace
+
+from app.drawing.drawing import Crease, Drawing
+from app.drawing.fold_line import find_line
+from app.drawing.outline_problems import outline_problems
+from app.drawing.problem import Problem
+from app.drawing.solution import Solution, steps_of
+from app.drawing.ties import Names
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.garment import DrawnFold, Garment
+from planner.folds.attachment import Replay
+from planner.folds.fold_cloth import Folded
+from planner.geometry.region import Region
+
+
+def solve(drawing: Drawing) -> Solution:
+    """Where the folds are, and what is wrong."""
+    problems = [*_scene_problems(drawing)]
+    faults = outline_problems(drawing.points)
+    if faults:
+        return Solution(drawing, (*faults, *problems), None, (), None, None, [])
+    names = Names.of(drawing)
+    replay = Replay(drawing.points, (ClothState.spread_out(Region.polygon(drawing.points)),))
+    folded: list[Folded] = []
+    folds: list[Crease] = []
+    for index, crease in enumerate(drawing.folds):
+        problem = _red_first(crease, index)
+        found = problem or find_line(crease, index, replay, names, radius_m(drawing, crease))
+        if isinstance(found, Problem):
+            problems.insert(0, found)
+            break
+        replay = replay.then(found.line, found.folded.cloth)
+        folded.append(found.folded)
+        folds.append(found.crease)
+    solved = replace(drawing, folds=(*folds, *drawing.folds[len(folds) :]))
+    spread = garment_of(replace(solved, folds=tuple(folds)))
+    steps = steps_of(replay, folded)
+    return Solution(solved, tuple(problems), replay, tuple(folded), None if problems else spread, spread, steps)
+
+
+def garment_of(drawing: Drawing) -> Garment:
+    """The garment that is drawn, its folds' ends as points; raises `GarmentError` if it is none."""
+    return Garment(
+        drawing.name,
+        drawing.title,
+        drawing.points,
+        drawing.areal_density_kg_m2,
+        tuple(
+            DrawnFold(fold.name, fold.kind, fold.start.point, fold.end.point, radius_m(drawing, fold))
+            for fold in drawing.folds
+        ),
+        drawing.grip_radius_m,
+        drawing.placement,
+    )
+
+
+def radius_m(drawing: Drawing, crease: Crease) -> float:
+    """A fold's grip radius (m): its own, or the article's."""
+    return drawing.grip_radius_m if crease.grip_radius_m is None else crease.grip_radius_m
+
+
+def _red_first(crease: Crease, index: int) -> Problem | None:
+    if index > 0 or not crease.is_red:
+        return None
+    ends = (crease.start.point, crease.end.point)
+    message = "the first fold cannot be red: no fold comes before it"
+    return Problem("fold_illegal", "folds[0].kind", message, 0, ends)
+
+
+def _scene_problems(drawing: Drawing) -> list[Problem]:
+    names = [name for name, _ in drawing.scene.stations]
+    if drawing.start_station in names:
+        return []
+    message = f"{drawing.start_station!r} is none of {', '.join(names)}"
+    return [Problem("unknown_station", "start_station", message)]

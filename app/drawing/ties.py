@@ -1,0 +1,67 @@
+"""Between ties, which name corners and folds, and attachments, which number them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.drawing.drawing import CornerTie, CreaseTie, Drawing, EdgeTie, Tie
+from planner.folds.attachment import Attachment, OnCrease, OnEdge, OnVertex
+from planner.geometry.pose import Point2
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """What the corners and folds of a drawing are called, in their order.
+
+    Attributes:
+        corners: the corners' names.
+        points: the corners (m).
+        folds: the folds' names.
+    """
+
+    corners: tuple[str, ...]
+    points: tuple[Point2, ...]
+    folds: tuple[str, ...]
+
+    @staticmethod
+    def of(drawing: Drawing) -> "Names":
+        """The names in a drawing."""
+        corners = tuple(corner.id for corner in drawing.outline)
+        return Names(corners, drawing.points, tuple(fold.id for fold in drawing.folds))
+
+    def attachment(self, tie: Tie | None) -> Attachment | None:
+        """What a tie means; None if it is to nothing, or to something that is not there."""
+        match tie:
+            case CornerTie(corner) if corner in self.corners:
+                return OnVertex(self.corners.index(corner))
+            case EdgeTie(start, end, fraction) if start in self.corners and end in self.corners and start != end:
+                return self._on_outline(self.corners.index(start), self.corners.index(end), fraction)
+            case CreaseTie(fold, fraction, carried) if {fold, *carried} <= set(self.folds):
+                return OnCrease(self.folds.index(fold), fraction, tuple(self.folds.index(one) for one in carried))
+        return None
+
+    def tie(self, attachment: Attachment) -> Tie:
+        """The tie that means an attachment."""
+        match attachment:
+            case OnVertex(vertex):
+                return CornerTie(self.corners[vertex])
+            case OnEdge(edge, fraction):
+                return EdgeTie(self.corners[edge], self.corners[(edge + 1) % len(self.corners)], fraction)
+            case OnCrease(fold, fraction, carried):
+                return CreaseTie(self.folds[fold], fraction, tuple(self.folds[one] for one in carried))
+
+    def _on_outline(self, start: int, end: int, fraction: float) -> OnEdge:
+        """The place at a fraction of the way along the outline, whichever way has fewer corners."""
+        count = len(self.corners)
+        if (end - start) % count > count // 2:
+            start, end, fraction = end, start, 1.0 - fraction
+        if (end - start) % count == 1:
+            return OnEdge(start, fraction)
+        walk = [(start + step) % count for step in range((end - start) % count + 1)]
+        points = np.array([self.points[corner] for corner in walk])
+        lengths = np.hypot(*np.diff(points, axis=0).T)
+        ends = np.cumsum(lengths)
+        place = fraction * ends[-1]
+        leg = min(int(np.searchsorted(ends, place)), len(lengths) - 1)
+        along = float((place - ends[leg] + lengths[leg]) / lengths[leg]) if lengths[leg] > 0.0 else 0.0
+        return OnEdge(walk[leg], min(max(along, 0.0), 1.0))

@@ -1,0 +1,53 @@
+"""Where a grip may be: the vertices that must be held, and the boundary near the centres of circles round some of them.
+
+A grip holds all vertices within its radius, so for a few of them it is best near the centre of the smallest circle
+round them; two or three determine that circle. Where several points of the boundary are equally near to a centre all of
+them are candidates, or a mirrored garment would plan differently.
+"""
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.smallest_circle import pair_centres, triple_centres
+from planner.geometry.tolerance import LENGTH_M
+
+_CIRCLED_MAX = 64
+"""Of more vertices only so many, evenly spread, have circles put round them: there are ten million threes of 400."""
+
+
+def grip_candidates(piece: Region, vertices: FloatArray, baseline: tuple[Segment, ...] = ()) -> FloatArray:
+    """The places for grips that hold vertices of a piece of cloth.
+
+    Args:
+        piece: the cloth whose boundary is gripped.
+        vertices: what must be held, shape (n, 2), m, at least one.
+        baseline: the part of the boundary that stays where it is: a hand there lifts nothing.
+
+    Returns:
+        Shape (m, 2), m: the vertices first; no place twice.
+    """
+    some = _evenly(vertices)
+    centres = [pair_centres(some), triple_centres(some)]
+    near = piece.all_nearest_boundary_points(distinct_rows(np.vstack(centres)))
+    found = distinct_rows(np.vstack([vertices, near]))
+    for segment in baseline:
+        found = found[segment.distances(found) > LENGTH_M]
+    return found
+
+
+def distinct_rows(points: FloatArray) -> FloatArray:
+    """Points, shape (n, 2), with repetitions left out, in their order."""
+    x, y = np.round(points / LENGTH_M).astype(np.int64).T
+    _, first = np.unique((x << 32) + y, return_index=True)
+    return np.asarray(points[np.sort(first)])
+
+
+def _evenly(vertices: FloatArray) -> FloatArray:
+    """All vertices, or the most that are allowed, chosen alike from either end."""
+    count = len(vertices)
+    if count <= _CIRCLED_MAX:
+        return vertices
+    half = np.round(np.linspace(0.0, (count - 1) / 2, _CIRCLED_MAX // 2)).astype(np.int64)
+    return np.asarray(vertices[np.unique(np.concatenate([half, count - 1 - half]))])

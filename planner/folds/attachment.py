@@ -1,0 +1,183 @@
+"""What a fold's end is attached to, so that it stays there when the garment changes its shape.
+
+A fold's ends lie on the boundary of the silhouette as it is when its turn comes. Kept as points they leave it
+as soon as somebody pulls at a corner. But every piece of that boundary is cloth: an edge of the pattern as some layer
+carried it there, or the crease of an earlier fold. Folding is a continuous map of the pattern to the plane, so a place
+of the *pattern* determines a place in the folded cloth, whatever the shape. An end is attached to a corner or to a
+fraction of an edge of the pattern, or to a fraction of an earlier crease in the layer that certain folds had carried.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.layer import Layer
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M, SNAP_M
+
+
+@dataclass(frozen=True, slots=True)
+class OnVertex:
+    """Attached to a corner of the outline, by its index."""
+
+    vertex: int
+
+
+@dataclass(frozen=True, slots=True)
+class OnEdge:
+    """Attached to the edge from corner `edge` to the next one, at a fraction of its length (0..1)."""
+
+    edge: int
+    fraction: float
+
+
+@dataclass(frozen=True, slots=True)
+class OnCrease:
+    """Attached to the line of an earlier fold, at a fraction of its length (0..1).
+
+    Attributes:
+        fold: the earlier fold's index.
+        fraction: from its start.
+        carried: the folds before that one which had moved the layer meant, ascending; the crease runs through several.
+    """
+
+    fold: int
+    fraction: float
+    carried: tuple[int, ...] = ()
+
+
+Attachment: TypeAlias = OnVertex | OnEdge | OnCrease
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """Folds done so far, in the user's order.
+
+    Attributes:
+        outline: the pattern's corners (m).
+        cloths: the stack before each fold, and after the last.
+        lines: the fold lines, article frame.
+    """
+
+    outline: tuple[Point2, ...]
+    cloths: tuple[ClothState, ...]
+    lines: tuple[Segment, ...] = ()
+
+    def then(self, line: Segment, cloth: ClothState) -> "Replay":
+        """One fold more."""
+        return Replay(self.outline, (*self.cloths, cloth), (*self.lines, line))
+
+    def seen(self, *, is_red: bool) -> tuple[Layer, ...]:
+        """The layers that the next fold sees: all of them, or those that the last fold moved."""
+        return self.cloths[-1].flap if is_red else self.cloths[-1].layers
+
+
+def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 | None:
+    """Where an attachment is, article frame, after the folds so far (m).
+
+    Args:
+        attachment: what is asked for.
+        replay: the folds so far.
+        is_red: whether it is wanted for a red fold, which sees only the layers moved last.
+
+    Returns:
+        None if there is no such corner, edge or crease, or not in the layers that are seen.
+    """
+    material = _material(attachment, replay)
+    if material is None:
+        return None
+    nearest, gap_m = None, SNAP_M
+    for layer in replay.seen(is_red=is_red):
+        piece = layer.pattern_piece
+        distance_m = 0.0 if piece.contains(material) else piece.boundary_distance(material)
+        if distance_m < gap_m:
+            nearest, gap_m = layer, distance_m
+    return None if nearest is None else nearest.isometry.apply_point(material)
+
+
+def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | None:
+    """What there is to attach to at a place on the boundary of the silhouette.
+
+    A corner is taken before the end of a crease, that before an edge, and an edge before the inside of a crease; of
+    layers that lie alike, the one that has been moved least.
+
+    Args:
+        place: article frame, after the folds so far (m).
+        replay: the folds so far.
+        is_red: whether it is wanted for a red fold.
+
+    Returns:
+        None if no layer that is seen has its boundary there.
+    """
+    found: list[tuple[int, int, Attachment]] = []
+    for layer in replay.seen(is_red=is_red):
+        if layer.region.boundary_distance(place) <= LENGTH_M:
+            trace = _Trace(layer, replay)
+            material = layer.to_pattern(place)
+            for rank, attachment in (*_on_outline(material, replay.outline), *trace.creases(material)):
+                found.append((rank, len(trace.carried), attachment))
+    return min(found, key=lambda one: one[:2])[2] if found else None
+
+
+class _Trace:
+    """One layer's way through the folds so far."""
+
+    def __init__(self, layer: Layer, replay: Replay) -> None:
+        self._lines = replay.lines
+        inner = layer.pattern_piece.inner_point
+        self._stages = [_holding(inner, cloth.layers) for cloth in replay.cloths]
+        faces = [stage.isometry.is_mirrored for stage in self._stages]
+        self.carried = tuple(i for i in range(len(replay.lines)) if faces[i] != faces[i + 1])
+
+    def creases(self, material: Point2) -> Iterator[tuple[int, OnCrease]]:
+        """The creases that run through a place of the pattern in this layer; ends before the rest."""
+        for fold, (line, stage) in enumerate(zip(self._lines, self._stages, strict=False)):
+            place = np.array([stage.isometry.apply_point(material)])
+            if line.distances(place)[0] > LENGTH_M:
+                continue
+            fraction = min(max(float(line.positions(place)[0]) / line.length, 0.0), 1.0)
+            carried = tuple(i for i in self.carried if i < fold)
+            end = round(fraction)
+            is_end = abs(fraction - end) * line.length <= LENGTH_M
+            yield (1, OnCrease(fold, float(end), carried)) if is_end else (3, OnCrease(fold, fraction, carried))
+
+
+def _holding(inner: Point2, layers: Sequence[Layer]) -> Layer:
+    """The layer whose piece of the pattern has a point inside."""
+    return next(layer for layer in layers if layer.pattern_piece.contains(inner))
+
+
+def _on_outline(material: Point2, outline: tuple[Point2, ...]) -> Iterator[tuple[int, Attachment]]:
+    """Corners and edges of the outline at a place of the pattern."""
+    place = np.array([material])
+    for index, corner in enumerate(outline):
+        edge = Segment(corner, outline[(index + 1) % len(outline)])
+        if np.hypot(*(place[0] - corner)) <= LENGTH_M:
+            yield 0, OnVertex(index)
+        elif edge.distances(place)[0] <= LENGTH_M:
+            yield 2, OnEdge(index, float(edge.positions(place)[0]) / edge.length)
+
+
+def _material(attachment: Attachment, replay: Replay) -> Point2 | None:
+    """The place of the pattern that is meant (m)."""
+    match attachment:
+        case OnVertex(vertex):
+            return replay.outline[vertex] if vertex < len(replay.outline) else None
+        case OnEdge(edge, fraction):
+            if edge >= len(replay.outline):
+                return None
+            (ax, ay), (bx, by) = replay.outline[edge], replay.outline[(edge + 1) % len(replay.outline)]
+            return (ax + fraction * (bx - ax), ay + fraction * (by - ay))
+        case OnCrease(fold, fraction, carried):
+            if fold >= len(replay.lines) or any(index >= fold for index in carried):
+                return None
+            line = replay.lines[fold]
+            way = Isometry()
+            for index in carried:
+                way = Isometry.reflection(replay.lines[index]).after(way)
+            return way.inverse.apply_point(line.at(fraction * line.length))

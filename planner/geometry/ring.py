@@ -1,0 +1,71 @@
+"""Rings of points: a polygon's boundary without the closing point."""
+
+import math
+
+import numpy as np
+import shapely
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import GRID_M, LENGTH_M
+
+
+def corners(ring: FloatArray) -> FloatArray:
+    """The true corners of a ring, shape (n, 2), counter-clockwise: straight runs lose their points.
+
+    A point is on a straight run when leaving it out moves the boundary by less than the tolerance.
+    """
+    if len(ring) < 4:
+        return counter_clockwise(ring)
+    closed = np.vstack([ring, ring[:1]])
+    slim = np.asarray(shapely.get_coordinates(shapely.simplify(shapely.LineString(closed), LENGTH_M)))
+    slim = slim[:-1]
+    if len(slim) > 3 and _is_on_line(slim[0], slim[-1], slim[1]):
+        slim = slim[1:]
+    return counter_clockwise(slim if len(slim) >= 3 else ring)
+
+
+def counter_clockwise(ring: FloatArray) -> FloatArray:
+    """The same ring, the inside to its left."""
+    x, y = ring.T
+    doubled = np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))
+    return ring if doubled >= 0.0 else ring[::-1]
+
+
+def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
+    """The unit vector that halves the directions leading from a point on a ring of corners into it.
+
+    None for a point off the ring.
+    """
+    for before, corner, after in zip(np.roll(ring, 1, axis=0), ring, np.roll(ring, -1, axis=0), strict=True):
+        side = Segment(_point(corner), _point(after))
+        if np.hypot(*(corner - point)) <= LENGTH_M:
+            return _halving(Segment(_point(before), _point(corner)), side)
+        if np.hypot(*(after - point)) > LENGTH_M and side.distances(np.array([point]))[0] <= LENGTH_M:
+            return side.left
+    return None
+
+
+def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    """For each point, shape (n, 2), what is nearest to it of each edge, shapes (m, 2) -> (n, m, 2), m."""
+    along = ends - starts
+    share = ((points[:, None] - starts) * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), GRID_M**2)
+    return np.asarray(starts + np.clip(share, 0.0, 1.0)[:, :, None] * along)
+
+
+def _is_on_line(point: FloatArray, a: FloatArray, b: FloatArray) -> bool:
+    if np.allclose(a, b, atol=LENGTH_M):
+        return False
+    return bool(abs(Segment(_point(a), _point(b)).left_distances(point[None])[0]) <= LENGTH_M)
+
+
+def _halving(arriving: Segment, leaving: Segment) -> Point2:
+    """The inward bisector at the corner between two edges of a counter-clockwise ring."""
+    (ax, ay), (bx, by) = arriving.direction, leaving.direction
+    turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+    heading = math.atan2(by, bx) + (math.pi - turn) / 2
+    return (math.cos(heading), math.sin(heading))
+
+
+def _point(row: FloatArray) -> Point2:
+    return (float(row[0]), float(row[1]))

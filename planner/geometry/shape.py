@@ -1,0 +1,50 @@
+"""Shapely's shapes, made or mended before they are regions."""
+
+from itertools import combinations
+
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import GRID_M, LENGTH_M
+
+_FAR_M = 100.0
+
+_TOUCH_M = 10 * LENGTH_M
+"""Parts that are near to each other along less than this only touch (m)."""
+_POLYGONAL = (int(shapely.GeometryType.POLYGON), int(shapely.GeometryType.MULTIPOLYGON))
+
+
+def polygonal(shape: BaseGeometry) -> BaseGeometry:
+    """What a shape has of polygons: where two of them only touch, their intersection has lines and points too."""
+    if shapely.get_type_id(shape) in _POLYGONAL:
+        return shape
+    parts = shapely.get_parts(shape)
+    return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+
+
+def without_cracks(shape: BaseGeometry) -> BaseGeometry:
+    """The shape with cracks narrower than `LENGTH_M` between its parts, and holes no wider, closed.
+
+    All else stays where it is. (To grow and shrink the whole would do the same, were it not for holes that GEOS loses.)
+    """
+    seams = [_seam(a, b) for a, b in combinations(shapely.get_parts(shape), 2) if shapely.dwithin(a, b, LENGTH_M)]
+    joined = shapely.union_all([shape, *(s for s in seams if s.area > _TOUCH_M * LENGTH_M)], grid_size=GRID_M)
+    rings = (ring for part in shapely.get_parts(joined) for ring in part.interiors)
+    holes = (shapely.Polygon(ring) for ring in rings)
+    narrow = [hole for hole in holes if 2.0 * hole.area <= LENGTH_M * hole.length]
+    return shapely.union_all([joined, *narrow], grid_size=GRID_M)
+
+
+def _seam(one: BaseGeometry, other: BaseGeometry) -> BaseGeometry:
+    """What is near to both of two parts: a strip along the crack between them."""
+    return shapely.intersection(shapely.buffer(one, LENGTH_M / 2), shapely.buffer(other, LENGTH_M / 2))
+
+
+def half_plane(line: Segment) -> BaseGeometry:
+    """What lies to the left of the whole line through a segment, as far as anything may lie."""
+    nx, ny = line.left
+    (ax, ay), (bx, by) = line.at(-_FAR_M), line.at(line.length + _FAR_M)
+    return shapely.Polygon(
+        [(ax, ay), (bx, by), (bx + _FAR_M * nx, by + _FAR_M * ny), (ax + _FAR_M * nx, ay + _FAR_M * ny)]
+    )

@@ -1,0 +1,50 @@
+"""The boxes of which a table is made: a top, and four legs far from its edges.
+
+A robot's base drives under the edges, so the legs stand where it does not come: well inside, `LEG_INSET_X_M` and
+`LEG_INSET_Y_M` from the edges to their middles. At the table of the paper, 1.60 m by 0.98 m, they then stand 4 cm
+beside the base of a PR2 at each of its five stations. Under a smaller table they move together.
+"""
+
+from dataclasses import dataclass
+
+from planner.geometry.pose import Point3
+from planner.geometry.table import Table
+
+TOP_THICKNESS_M = 0.03
+LEG_WIDTH_M = 0.05
+LEG_INSET_X_M = 0.45
+LEG_INSET_Y_M = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class TablePart:
+    """A box with its sides along the table's.
+
+    Attributes:
+        name: what people call it.
+        center: its middle, table frame (m).
+        size: its extents along x, y and z (m).
+    """
+
+    name: str
+    center: Point3
+    size: Point3
+
+
+def table_parts(table: Table) -> tuple[TablePart, ...]:
+    """The top, its upper side at z = 0, and the four legs down to the floor."""
+    thickness = min(TOP_THICKNESS_M, table.height_m / 2)
+    top = TablePart("table top", (0.0, 0.0, -thickness / 2), (table.depth_m, table.width_m, thickness))
+    height = table.height_m - thickness
+    x, y = _inset(table.depth_m, LEG_INSET_X_M), _inset(table.width_m, LEG_INSET_Y_M)
+    places = (("near left", -x, y), ("near right", -x, -y), ("far left", x, y), ("far right", x, -y))
+    legs = (
+        TablePart(f"{name} table leg", (dx, dy, -thickness - height / 2), (LEG_WIDTH_M, LEG_WIDTH_M, height))
+        for name, dx, dy in places
+    )
+    return (top, *legs)
+
+
+def _inset(extent_m: float, inset_m: float) -> float:
+    """How far from the middle the legs stand: never less than half their width."""
+    return max(extent_m / 2 - inset_m, LEG_WIDTH_M / 2)

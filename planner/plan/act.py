@@ -1,0 +1,35 @@
+"""What a plan consists of once it is real: runs in which cloth is held, and moves between them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from planner.plan.real_run import RealRun
+from planner.primitives.primitive import Step
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Act:
+    """Primitives that follow one another without letting go, or one in which nothing is held.
+
+    Attributes:
+        first: the index of its first primitive in the plan.
+        steps: its primitives, as they are performed.
+        run: the joint paths; None where nothing is held.
+    """
+
+    first: int
+    steps: tuple[Step, ...]
+    run: RealRun | None
+
+    def durations_s(self) -> tuple[float, ...]:
+        """How long each of its primitives takes (s)."""
+        return self.run.durations_s() if self.run is not None else tuple(step.duration_s for step in self.steps)
+
+
+def runs_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
+    """Steps that follow one another without letting go, each time with the index of the first."""
+    first = 0
+    for number, step in enumerate(steps):
+        if not step.after.held:
+            yield first, tuple(steps[first : number + 1])
+            first = number + 1

@@ -1,0 +1,72 @@
+"""Keyframes of all arms and grippers, between which everything moves evenly."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+
+OPEN_M, CLOSED_M = 0.06, 0.004
+"""The gripper's opening when it is free and when it holds cloth (m)."""
+
+_GRASP_S = 0.2
+"""How long the fingers take to close, and to open (s)."""
+
+
+@dataclass(slots=True)
+class JointTrack:
+    """Where all arms are, and how far their grippers are open.
+
+    Attributes:
+        times_s: when the keyframes are (s), rising.
+        joints: the joints there (rad), shape (arms, 7) each.
+    """
+
+    times_s: list[float]
+    joints: list[FloatArray]
+    _grip_times_s: list[list[float]] = field(default_factory=list)
+    _openings_m: list[list[float]] = field(default_factory=list)
+
+    @staticmethod
+    def at_rest(joints: FloatArray) -> "JointTrack":
+        """A track that begins at some joints, shape (arms, 7), all grippers open."""
+        arms = len(joints)
+        return JointTrack([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
+
+    @property
+    def last(self) -> FloatArray:
+        """The joints of the last keyframe (rad), shape (arms, 7)."""
+        return self.joints[-1]
+
+    def joints_at(self, t_s: float) -> FloatArray:
+        """All arms' joints at a time (rad), shape (arms, 7)."""
+        after = int(np.searchsorted(self.times_s, t_s, side="right"))
+        if after == 0 or after == len(self.times_s):
+            return self.joints[max(after - 1, 0)]
+        start, end = self.times_s[after - 1], self.times_s[after]
+        share = (t_s - start) / (end - start)
+        return np.asarray((1.0 - share) * self.joints[after - 1] + share * self.joints[after])
+
+    def opening_at(self, arm: int, t_s: float) -> float:
+        """A gripper's opening at a time (m)."""
+        return float(np.interp(t_s, self._grip_times_s[arm], self._openings_m[arm]))
+
+    def add(self, times_s: FloatArray, joints: FloatArray) -> None:
+        """Add keyframes, shape (n,) and (n, arms, 7); those no later than the last are left out."""
+        for t, here in zip(times_s.tolist(), joints, strict=True):
+            if t > self.times_s[-1]:
+                self.times_s.append(t)
+                self.joints.append(here)
+
+    def close(self, arm: int, t_s: float) -> None:
+        """Close a gripper so that it holds from a time on."""
+        self._grip(arm, t_s, CLOSED_M)
+
+    def open(self, arm: int, t_s: float) -> None:
+        """Open a gripper so that it is open from a time on."""
+        self._grip(arm, t_s, OPEN_M)
+
+    def _grip(self, arm: int, t_s: float, opening_m: float) -> None:
+        times, openings = self._grip_times_s[arm], self._openings_m[arm]
+        times += [max(t_s - _GRASP_S, times[-1]), t_s]
+        openings += [openings[-1], opening_m]

@@ -1,0 +1,156 @@
+"""A run of primitives made real: joint paths, and the time they take."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice, product
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.tolerance import TIME_S
+from planner.plan.carrying import Carried, Carrier
+from planner.plan.cue import Cue
+from planner.plan.machine import Machine
+from planner.plan.moments import Moments, moments_of
+from planner.plan.pacing import needed_s, paced_s
+from planner.plan.transits import Transits
+from planner.primitives.phase import Phase
+from planner.primitives.primitive import Step
+from planner.primitives.work import Work
+
+MARGIN_M = 0.001
+"""How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
+
+_VARIANTS_MAX = 6
+"""So many choices of orientations are tried for a run."""
+
+HALF = 0.5
+"""The share of a reach's time in which hands must be able to come from home, and to go home after the run before."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RealRun:
+    """What the arms do from before their grips to after letting go.
+
+    Attributes:
+        steps: the primitives, as they are performed.
+        carried: the joints.
+        cues: the phases in which cloth is held; their primitives are counted within the run.
+        times_s: when each moment is, from the first grip (s), shape (moments,).
+        lead_s: the least time for each step that leads to the grips, shape (steps before the moments,).
+        tail_s: the least time for each step away from them, shape (steps after the moments,).
+        late_s: how much more than their shares of a reach's time it takes to come from home to the grips, and to go
+            home afterwards (s).
+    """
+
+    steps: tuple[Step, ...]
+    carried: Carried
+    cues: tuple[Cue, ...]
+    times_s: FloatArray
+    lead_s: FloatArray
+    tail_s: FloatArray
+    late_s: tuple[float, float]
+
+    @property
+    def free_phases(self) -> tuple[Phase, ...]:
+        """The phases before the grips are reached: the base drives, the hands reach."""
+        return tuple(p for p in self.steps[0].phases() if p.duration_s > 0.0 and not is_carrying(p))
+
+    def durations_s(self) -> tuple[float, ...]:
+        """How long each step really takes (s)."""
+        late = [0.0] * len(self.steps)
+        for cue in self.cues:
+            late[cue.primitive] += cue.duration_s - cue.phase.duration_s
+        late[0] += self.late_s[0]
+        late[-1] += self.late_s[1]
+        exact = (excess if excess > TIME_S else 0.0 for excess in late)
+        return tuple(step.duration_s + excess for step, excess in zip(self.steps, exact, strict=True))
+
+
+def pose_of(base: FloatArray) -> Pose2:
+    """A base's pose from x (m), y (m) and yaw (rad)."""
+    x, y, yaw = (float(c) for c in base)
+    return Pose2(x, y, yaw)
+
+
+def is_carrying(phase: Phase) -> bool:
+    """Whether a hand holds cloth throughout a phase."""
+    return any(hand is not None and not hand.is_reaching for hand in phase.hands)
+
+
+class RunMaker:
+    """Makes runs of one planning problem real.
+
+    Attributes:
+        transits: the ways of free hands.
+        collisions: what is in whose way.
+    """
+
+    def __init__(self, work: Work, machine: Machine) -> None:
+        """Nothing has been made real yet."""
+        scene = work.scene
+        collisions = machine.collisions(scene.table, scene.torso_m, margin_m=MARGIN_M)
+        self._work = work
+        self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
+        self._carrier = Carrier(machine, collisions, scene.torso_m, scene.table.height_m)
+        self.transits = Transits(machine, collisions)
+        self.collisions = collisions
+
+    def real(self, steps: Sequence[Step]) -> RealRun | None:
+        """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow."""
+        choices = product(*(step.variants() for step in steps))
+        made = (self.made(tuple(chosen)) for chosen in islice(choices, _VARIANTS_MAX))
+        return next((run for run in made if run is not None), None)
+
+    def made(self, steps: tuple[Step, ...]) -> RealRun | None:
+        """The run of steps exactly as they are; None if the arms cannot follow."""
+        phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
+        carrying = [(n, phase) for n, phase in phases if is_carrying(phase)]
+        moments = moments_of([phase for _, phase in carrying], self._work.scene.table.height_m)
+        carried = self._carrier.carried(moments)
+        if carried is None:
+            return None
+        late = self._late(carried)
+        if late is None:
+            return None
+        least = needed_s(carried.joints, self._speeds)
+        first, last = carried.first, carried.last
+        times = np.append(0.0, np.cumsum(_paced(carrying, moments, least[first:last])))
+        cues = tuple(_cues(carrying, moments, times))
+        return RealRun(steps, carried, cues, times, least[:first], least[last:], late)
+
+    def _late(self, carried: Carried) -> tuple[float, float] | None:
+        """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way."""
+        home, joints, bases = self.transits.home, carried.joints, carried.bases
+        late = []
+        ends = ((bases[0], joints[0], joints[: carried.first + 1]), (bases[-1], joints[-1], joints[carried.last :]))
+        for base, away, line in ends:
+            way = self.transits.way(pose_of(base), home, away)
+            if way is None:
+                return None
+            needed = float(self.transits.needed_s(way).sum() + self.transits.needed_s(line).sum())
+            late.append(max(0.0, needed - HALF * self._work.scene.arm_motion_s))
+        return late[0], late[1]
+
+
+def _paced(carrying: list[tuple[int, Phase]], moments: Moments, least_s: FloatArray) -> FloatArray:
+    """How long each step from moment to moment takes (s), shape (moments - 1,).
+
+    The phases of one arm motion share its time; a drive is no quicker than it is, even in parts.
+    """
+    phases, nominal = moments.phases[1:], moments.nominal_s[1:]
+    found = np.maximum(least_s, nominal)
+    motions = [(primitive, phase.motion) for primitive, phase in carrying]
+    for motion in dict.fromkeys(motions):
+        if motion[1] is not None:
+            rows = np.flatnonzero(np.isin(phases, [i for i, other in enumerate(motions) if other == motion]))
+            found[rows] = paced_s(nominal[rows], least_s[rows])
+    return found
+
+
+def _cues(carrying: list[tuple[int, Phase]], moments: Moments, times: FloatArray) -> Iterator[Cue]:
+    start = 0.0
+    for number, (primitive, phase) in enumerate(carrying):
+        rows = np.flatnonzero((moments.phases == number) & (times > start))
+        yield Cue(primitive, phase, np.append(start, times[rows]) - start, np.append(0.0, moments.fractions[rows]))
+        start = float(times[rows[-1]])

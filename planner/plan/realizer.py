@@ -1,0 +1,110 @@
+"""Making a plan real, lazily: joint paths only for what the search is about to accept.
+
+The search works with what each primitive costs if the arms can follow; that is a lower bound. When it has found a path,
+the path's runs are made real one after the other. A step that cannot be is struck out, one that takes longer gets its
+true cost, and the search goes on with what is known now. Bounds only rise, so the first path that is real at the cost
+at which it was found is the quickest of all: the same that a search would find that made every step real at once.
+
+The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
+either, and to be told so one by one would take long. So a spread of other ways to do the same is tried at once, begun
+and ended elsewhere, and in every state in which the hands would do the same those that are real take the place of all
+that the search had, but for what has turned out to be real before. So "infeasible" is no proof where steps were struck
+out.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+from planner.geometry.tolerance import TIME_S
+from planner.plan.act import Act, runs_of
+from planner.plan.real_run import RealRun, RunMaker
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+
+_SPREAD = 16
+"""So many other ways to do the same are tried once one has failed."""
+
+
+class Realizer:
+    """Knows which steps of one planning problem are slower than they seem, or cannot be."""
+
+    def __init__(self, maker: RunMaker) -> None:
+        """Nothing is known yet."""
+        self._maker = maker
+        self._made: dict[tuple[object, ...], RealRun | None] = {}
+        self._least_s: dict[object, float] = {}
+        self._others: dict[object, tuple[Step, ...]] = {}
+        self._real_steps: set[object] = set()
+
+    def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
+        if not (self._others or self._least_s):
+            yield from ((step, step.duration_s) for step in steps)
+            return
+        situations: dict[tuple[object, ...], None] = {}
+        for step in steps:
+            situation = step.situation
+            situations[situation] = None
+            if situation not in self._others or _key(step) in self._real_steps:
+                yield from self._unless_struck(step)
+        for situation in situations:
+            for other in self._others.get(situation, ()):
+                yield from self._unless_struck(other.begun_in(state))
+
+    def _unless_struck(self, step: Step) -> Iterator[tuple[Step, float]]:
+        cost_s = max(step.duration_s, self._least_s.get(_key(step), 0.0))
+        if math.isfinite(cost_s):
+            yield step, cost_s
+
+    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | Step | None:
+        """What a plan's steps are once they are real.
+
+        Returns:
+            The acts; or the step that was struck out; or None if some steps only turned out to take longer.
+        """
+        found, is_as_it_seemed = [], True
+        for first, run in runs_of(steps):
+            if not any(step.grips for step in run):
+                found.append(Act(first, run, None))
+                continue
+            made = self._real(run)
+            if made is None:
+                return self._strike(run)
+            found.append(Act(first, made.steps, made))
+            is_as_it_seemed &= self._agrees(run, made)
+        return tuple(found) if is_as_it_seemed else None
+
+    def _real(self, run: tuple[Step, ...]) -> RealRun | None:
+        key = tuple(_key(step) for step in run)
+        if key not in self._made:
+            self._made[key] = self._maker.real(run)
+        return self._made[key]
+
+    def _strike(self, run: tuple[Step, ...]) -> Step:
+        """Strike out the first step up to which a run cannot be made real; find other ways to do the same."""
+        number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
+        culprit, before = run[number], run[:number]
+        others: dict[object, Step] = {}
+        self._least_s[_key(culprit)] = math.inf
+        for other in culprit.elsewhere(_SPREAD):
+            made = None if _key(other) in others else self._maker.made((*before, other))
+            if made is not None:
+                others[_key(other)] = other
+                self._made[tuple(_key(step) for step in (*before, other))] = made
+                self._least_s[_key(other)] = made.durations_s()[-1]
+        self._others[culprit.situation] = tuple(others.values())
+        return culprit
+
+    def _agrees(self, run: tuple[Step, ...], made: RealRun) -> bool:
+        """Whether the steps of a run take as long as was known; what they take is known now."""
+        is_known = True
+        for step, duration_s in zip(run, made.durations_s(), strict=True):
+            known = max(step.duration_s, self._least_s.get(_key(step), 0.0))
+            is_known &= duration_s <= known + TIME_S
+            self._least_s[_key(step)] = max(duration_s, known)
+            self._real_steps.add(_key(step))
+        return is_known
+
+
+def _key(step: Step) -> tuple[object, ...]:
+    return (step.kind, step.before.key, step.after.key)

@@ -1,0 +1,57 @@
+"""One reason why there is no plan."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from planner.geometry.pose import Point3
+from planner.primitives.obstacle import Code
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """One reason, about one fold or about the whole.
+
+    Attributes:
+        fold: the fold's index, or None.
+        code: which constraint.
+        message: a sentence with the numbers.
+        cause: for what is out of reach: too far, too near, a joint's limit, comfort only, the robot's own body.
+        joint: the joint that limits, where one does.
+        point: where: of what is out of reach the tool point, else a point of the cloth; table frame (m).
+        short_by_m: by how much: how far the point, the line or the cloth would have to be displaced, how much wider a
+            grip radius or the gap between two grips would have to be (m).
+        towards: for what is out of reach the unit direction in which the point would have to be displaced, table frame.
+        arm: for what is out of reach the arm that came closest.
+        station: for what is out of reach the station from which it came closest.
+        back_off_m: and how far the base had backed off from there (m).
+        shift_m: for what is out of reach the least shift of all that the hands do that brings all of it into reach (m);
+            None where none was found.
+        shift_towards: the unit direction of that shift, table frame.
+        comfort_m: with "comfort_only" the comfort radius with which it can be reached (m).
+        needed_friction: the friction with which the cloth would not slip.
+        needed_grip_radius_m: the grip radius with which the hands would hold what they must (m).
+    """
+
+    fold: int | None
+    code: Code
+    message: str
+    cause: str | None = None
+    joint: str | None = None
+    point: Point3 | None = None
+    short_by_m: float | None = None
+    towards: Point3 | None = None
+    arm: str | None = None
+    station: str | None = None
+    back_off_m: float | None = None
+    shift_m: float | None = None
+    shift_towards: Point3 | None = None
+    comfort_m: float | None = None
+    needed_friction: float | None = None
+    needed_grip_radius_m: float | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The reason as JSON."""
+        found = {name: getattr(self, name) for name in self.__slots__}
+        for name in ("point", "towards", "shift_towards"):
+            found[name] = None if found[name] is None else list(found[name])
+        return {**found, "code": self.code.value}

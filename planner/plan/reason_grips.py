@@ -1,0 +1,81 @@
+"""How wide a grip would have to hold, so that the hands there are suffice.
+
+Of points in convex position that two discs cover, each disc can be given a run of neighbours: the line halfway between
+the discs' centres parts them. What must be held are corners of a convex hull, so it is enough to try all ways to cut
+their ring into two runs, and for each run the grip that is best for it.
+"""
+
+import math
+
+import numpy as np
+
+from planner.cloth.grip_candidates import grip_candidates
+from planner.cloth.grips import Cover
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.smallest_circle import pair_centres
+from planner.geometry.tolerance import LENGTH_M
+
+_ALL_MAX, _PAIRS_MAX = 32, 64
+"""Up to so many vertices all candidates are tried, then those between two of them, beyond only those at the vertices:
+the planner has all of those too, so the radius will do."""
+
+
+def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips: int) -> float:
+    """A grip radius with which so many grips hold all vertices (m): the least, or for a great many little more.
+
+    Args:
+        piece: the cloth whose boundary is gripped.
+        baseline: the part of its boundary that stays where it is: no grip goes there.
+        vertices: what must be held, shape (n, 2), m, at least one.
+        grips: how many hands there are; of more than two only two are counted on.
+    """
+    candidates = _candidates(piece, baseline, vertices)
+    middle = vertices.mean(axis=0)
+    ring = vertices[np.argsort(np.arctan2(*(vertices - middle).T[::-1]), kind="stable")]
+    distances = np.hypot(*(candidates[:, None] - ring[None]).transpose(2, 0, 1))
+    if grips == 1:
+        return float(distances.max(axis=1).min())
+    return _in_two_runs(distances)
+
+
+def held_radius(held: Cover, vertices: FloatArray) -> float:
+    """The grip radius with which grips where they are hold all vertices (m); infinite without a grip."""
+    if not held:
+        return math.inf
+    return float(np.hypot(*(np.array(held)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0).max())
+
+
+def farthest_from(held: Cover, vertices: FloatArray) -> Point2:
+    """The vertex that is furthest from the grip nearest to it; the first without a grip."""
+    index = 0
+    if held:
+        gaps = np.hypot(*(np.array(held)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0)
+        index = int(gaps.argmax())
+    return (float(vertices[index, 0]), float(vertices[index, 1]))
+
+
+def _candidates(piece: Region, baseline: Segment, vertices: FloatArray) -> FloatArray:
+    if len(vertices) <= _ALL_MAX:
+        return grip_candidates(piece, vertices, (baseline,))
+    if len(vertices) > _PAIRS_MAX:
+        return vertices
+    found = np.vstack([vertices, piece.nearest_boundary_points(pair_centres(vertices))])
+    return np.asarray(found[baseline.distances(found) > LENGTH_M])
+
+
+def _in_two_runs(distances: FloatArray) -> float:
+    """The least radius for two grips, from the distances of candidates to the ring of vertices, shape (m, n)."""
+    count = distances.shape[1]
+    least = np.empty((count, count))
+    """The least radius for a run that begins at the first index and has one more vertex than the second."""
+    for start in range(count):
+        run = np.maximum.accumulate(np.roll(distances, -start, axis=1), axis=1)
+        least[start] = run.min(axis=0)
+    best = float(least[0, -1])
+    for start in range(count):
+        for length in range(1, count):
+            rest = least[(start + length) % count, count - length - 1]
+            best = min(best, max(float(least[start, length - 1]), float(rest)))
+    return best

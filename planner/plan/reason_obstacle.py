@@ -1,0 +1,128 @@
+"""What an obstacle says, as a reason: its numbers worked out, and what would do."""
+
+import math
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point2, Point3
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
+from planner.plan.reason import Reason
+from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
+from planner.plan.reason_words import carried
+from planner.primitives.fold_trial import lifted_points
+from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
+from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.work import Work
+
+_LISTED_MAX = 4
+"""Of more points only the outermost are told."""
+
+
+def of_obstacle(work: Work, obstacle: Obstacle) -> Reason:
+    """What an obstacle says, its numbers worked out."""
+    if obstacle.fold is not None and obstacle.state is not None:
+        if obstacle.code is Code.TOO_MANY_GRIPS:
+            return _too_many_grips(work, obstacle.fold, obstacle.state.done)
+        if obstacle.code is Code.GRIPS_TOO_CLOSE:
+            return _grips_too_close(work, obstacle.fold, obstacle.state.done)
+        if obstacle.code is Code.RED_NEEDS_HOLD:
+            held = lifted_points(work, obstacle.state.done, obstacle.fold, obstacle.state.held)
+            return _red_needs_hold(work, obstacle.fold, obstacle.state.done, tuple(held))
+        if obstacle.code is Code.COLLISION:
+            station = work.scene.stations[obstacle.state.station][0]
+            return Reason(obstacle.fold, obstacle.code, obstacle.message + carried(obstacle.state), station=station)
+    return _at_rest(work, obstacle)
+
+
+def lacking(reason: Reason, work: Work) -> float:
+    """How much is lacking, for telling small repairs from large ones (m, or of the friction coefficient)."""
+    if reason.needed_friction is not None:
+        return reason.needed_friction - work.scene.friction
+    return math.inf if reason.short_by_m is None else reason.short_by_m
+
+
+def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
+    """How the cloth would lie or slip."""
+    is_slip = obstacle.code is Code.SLIPS
+    state = obstacle.state
+    point: Point3 | None = None
+    message = obstacle.message
+    if state is not None:
+        message += carried(state)
+        if obstacle.point is not None:
+            x, y = work.placed(state.offset).to_outer(np.array(obstacle.point))
+            point = (float(x), float(y), 0.0)
+    return Reason(
+        obstacle.fold,
+        obstacle.code,
+        message,
+        point=point,
+        short_by_m=None if is_slip else obstacle.severity,
+        needed_friction=work.scene.friction + obstacle.severity if is_slip else None,
+    )
+
+
+def _too_many_grips(work: Work, fold: int, done: int) -> Reason:
+    drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
+    vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+    needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, vertices, arms)
+    where = _along(drawn.line, vertices)
+    message = (
+        f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {arms} hands "
+        f"can when each holds what is within {drawn.grip_radius_m:g} m of it; a grip radius of {_up(needed)} m would "
+        "do, or a fold that moves less"
+    )
+    short = needed - drawn.grip_radius_m
+    return Reason(fold, Code.TOO_MANY_GRIPS, message, short_by_m=short, needed_grip_radius_m=needed)
+
+
+def _grips_too_close(work: Work, fold: int, done: int) -> Reason:
+    drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
+    found = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms)
+    cover = np.array(max(found.covers, key=lambda c: nearest_pair_m(np.array(c))))
+    apart = nearest_pair_m(cover)
+    needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, np.array(found.vertices), 1)
+    message = (
+        f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
+        f"{GRIPS_APART_M:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, one hand would "
+        "hold both"
+    )
+    return Reason(fold, Code.GRIPS_TOO_CLOSE, message, short_by_m=GRIPS_APART_M - apart, needed_grip_radius_m=needed)
+
+
+def _red_needs_hold(work: Work, fold: int, done: int, held: tuple[Point2, ...]) -> Reason:
+    drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
+    vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+    x, y = farthest_from(held, vertices)
+    needed = held_radius(held, vertices)
+    before = work.sequence.folds[fold - 1].label
+    must = f"{drawn.label}: ({x:.2f}, {y:.2f}) m of the garment must be held"
+    if math.isinf(needed):
+        message = f"{must}, but no hand that still holds from {before} is on the part that moves; make it a blue fold"
+        return Reason(fold, Code.RED_NEEDS_HOLD, message)
+    message = (
+        f"{must}, but the nearest hand that still holds from {before} is {needed:.2f} m away and holds what is within "
+        f"{drawn.grip_radius_m:g} m; a grip radius of {_up(needed)} m would do, or a blue fold"
+    )
+    short = needed - drawn.grip_radius_m
+    return Reason(fold, Code.RED_NEEDS_HOLD, message, short_by_m=short, needed_grip_radius_m=needed)
+
+
+def _along(line: Segment, points: FloatArray) -> str:
+    """Points of the garment in the order in which they lie along a line: all of a few, else the outermost (m)."""
+    ordered = points[np.argsort(line.positions(points), kind="stable")]
+    if len(ordered) <= _LISTED_MAX:
+        return _list(ordered)
+    (x0, y0), (x1, y1) = ordered[0], ordered[-1]
+    return f"from ({x0:.2f}, {y0:.2f}) round to ({x1:.2f}, {y1:.2f}) m of the garment"
+
+
+def _list(points: FloatArray) -> str:
+    """Points of the garment (m)."""
+    return f"{' and '.join(f'({x:.2f}, {y:.2f})' for x, y in points)} m of the garment"
+
+
+def _up(number: float) -> str:
+    """A number with three decimals that is not smaller."""
+    return f"{math.ceil(number * 1000.0 - LENGTH_M) / 1000.0:.3f}"

@@ -1,0 +1,147 @@
+"""What was out of reach, as a sentence: where, by how much, why, and what would do."""
+
+import math
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point3, Pose2
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.plan.reason import Reason
+from planner.plan.reason_attempt import Demand, Miss, explained
+from planner.plan.reason_remedy import FURTHEST_M, Remedy, remedy
+from planner.primitives.obstacle import Code
+from planner.primitives.state import State
+from planner.primitives.work import BACK_OFFS_PER_M, Work
+
+_SHORT_M = 0.0095
+"""Lengths shorter than this are told to the millimetre (m)."""
+
+_OBLIQUE = 0.5
+"""A direction with a component smaller than this is not said to lead there."""
+
+
+def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
+    """What lacked where the attempt came closest."""
+    miss = explained(work, miss)
+    found, trial = miss.shortfall, miss.trial
+    label = work.sequence.folds[fold].label
+    station, pose = work.scene.stations[miss.state.station]
+    arm = work.reach.arm_names[trial.arms[miss.grip]]
+    point = _point(trial.tools[miss.grip, miss.waypoint])
+    mending = None if found.is_at_least else remedy(work, miss)
+    message = (
+        f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {_moment(miss)}, {_lack(work, miss)}; "
+        f"closest: {station}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}; "
+        f"{_what_to_do(found.is_at_least, mending)}"
+    )
+    return Reason(
+        fold,
+        Code.OUT_OF_REACH,
+        message,
+        cause=found.cause,
+        joint=found.joint,
+        point=point,
+        short_by_m=found.short_by_m,
+        towards=_turned(pose, found.towards),
+        arm=arm,
+        station=station,
+        back_off_m=miss.back_off / BACK_OFFS_PER_M,
+        shift_m=None if mending is None else mending.distance_m,
+        shift_towards=None if mending is None else _turned(pose, mending.towards),
+        comfort_m=found.comfort_m,
+    )
+
+
+def _moment(miss: Miss) -> str:
+    """How high a tool is, and when."""
+    z = float(miss.trial.tools[miss.grip, miss.waypoint, 2])
+    height = f"{z:.2f} m over the table" if z >= 0.0 else f"{-z:.2f} m below the table's top"
+    last, sweep = len(miss.trial.sweeps) - 1, float(miss.trial.sweeps[miss.waypoint])
+    if miss.waypoint == 0:
+        return f"{height} where it is picked up"
+    if miss.waypoint == last:
+        return f"{height} where it is laid down"
+    if abs(sweep - 1.0) <= ANGLE_RAD:
+        return f"{height} at the top of its way, as high as it is far from the fold line"
+    return f"{height} on its way {'up' if sweep < 1.0 else 'down'}"
+
+
+def _lack(work: Work, miss: Miss) -> str:
+    """By how much a point is out of reach, why, and where it would not be."""
+    found = miss.shortfall
+    limit = None if found.joint is None else f"{found.joint} limit"
+    demand = {
+        Demand.ALONE: "",
+        Demand.ONE_ORIENTATION: " in the orientation that suits its way best",
+        Demand.DRIVING: " from where the base is by then",
+        Demand.WITH_THE_OTHER_HAND: " from where the other hand has what it needs",
+    }[miss.demand]
+    decimals = 2 if found.short_by_m >= _SHORT_M else 3
+    by = ("at least " if found.is_at_least else "") + f"{found.short_by_m:.{decimals}f}"
+    if found.cause == "comfort_only":
+        return (
+            f"can be reached, but with {_down(found.comfort_m or 0.0)} m of comfort only, not {work.reach.comfort_m:g}"
+            f" m{demand} ({limit or 'too far'}): it is {by} m out of comfort"
+        )
+    why = {
+        "too_far": "too far",
+        "too_near": "too near",
+        "joint_limit": "joint limit",
+        "own_body": "the robot's own body is in the way",
+    }[found.cause]
+    if found.cause in ("too_far", "too_near") and not found.is_at_least and abs(found.towards[2]) > _OBLIQUE:
+        why += " down" if found.towards[2] > 0.0 else " up"
+    because = why if limit is None else f"{why}, {limit}"
+    return f"is {by} m out of reach{demand} ({because})"
+
+
+def _what_to_do(is_at_least: bool, mending: Remedy | None) -> str:
+    """What a person can change."""
+    if is_at_least:
+        return "place the cloth or a station so that it is nearer"
+    if mending is None:
+        return f"no shift of its way by up to {FURTHEST_M:g} m brings all of it into reach: fold less at once"
+    decimals = 2 if mending.distance_m >= _SHORT_M else 3
+    by = f"{mending.distance_m:.{decimals}f} m {_where_to(mending.towards)}"
+    up = mending.towards[2]
+    how = "move the cloth or the station"
+    if abs(up) > _OBLIQUE:
+        how = "raise the table or lower the torso" if up > 0.0 else "lower the table or raise the torso"
+    return f"all of its way is in reach {by}: {how}"
+
+
+def _where_to(towards: Point3) -> str:
+    """A direction of the base frame in words."""
+    words = []
+    for component, forwards, backwards in zip(
+        towards,
+        ("further from the robot", "further to its left", "higher"),
+        ("nearer to the robot", "further to its right", "lower"),
+        strict=True,
+    ):
+        if abs(component) > _OBLIQUE:
+            words.append(forwards if component > 0.0 else backwards)
+    return " and ".join(words) or "nearer to its shoulder"
+
+
+def carried(state: State) -> str:
+    """Where drags had brought the cloth."""
+    if math.hypot(*state.offset) <= LENGTH_M:
+        return ""
+    x, y = (LENGTH_M * round(c / LENGTH_M) + 0.0 for c in state.offset)
+    hold = " and held on to" if state.is_dragged else ""
+    return f" (the cloth dragged by ({x:.2f}, {y:.2f}) m from where it starts{hold})"
+
+
+def _down(number: float) -> str:
+    """A number with three decimals that is not larger."""
+    return f"{math.floor(number * 1000.0 + LENGTH_M) / 1000.0:.3f}"
+
+
+def _turned(pose: Pose2, direction: Point3) -> Point3:
+    """A direction of a base's frame, in the table frame."""
+    return _point(pose.to_outer(np.array(direction)) - pose.to_outer(np.zeros(3)))
+
+
+def _point(row: FloatArray) -> Point3:
+    return (float(row[0]), float(row[1]), float(row[2]))

@@ -1,0 +1,116 @@
+"""All ways to perform a fold between the same two states, and a spread of those from one state to any.
+
+The search keeps one way for each end; what it leaves out may be all that is left once arms must not collide: other
+grips that tie, the grips given to the arms the other way round, other orientations, a path begun or ended elsewhere.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import merge
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import BoolArray
+from planner.primitives.base_legs import travel
+from planner.primitives.fold_trial import FoldTrial, fold_trials
+from planner.primitives.fold_way import FoldWay
+from planner.primitives.state import State
+from planner.primitives.work import BACK_OFF_STEP_M, Work
+
+_COMBINATIONS_MAX = 240
+"""Of more combinations of orientations than this only so many are looked at, evenly spread."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Variant:
+    """One way to perform a fold.
+
+    Attributes:
+        way: grips, arms and path, in one orientation of each hand.
+        first: the back-off from which the path is begun.
+        end: the back-off at its end.
+        steps: travel in all, in steps of the grid.
+        driven: the part of it that is driven once the path is begun.
+        rank: how far from natural the orientations are.
+    """
+
+    way: FoldWay
+    first: int
+    end: int
+    steps: int
+    driven: int
+    rank: int
+
+
+def fold_variants(work: Work, state: State, fold: int, end: int) -> Iterator[Variant]:
+    """The ways to do a fold in a state and end at a back-off: by rising travel, then the most natural first."""
+    found = (sorted(_variants(work, state, trial, end), key=_rank) for trial in fold_trials(work, state, fold))
+    yield from merge(*found, key=_rank)
+
+
+def fold_spread(work: Work, state: State, fold: int, count: int) -> Iterator[Variant]:
+    """Some ways to do a fold in a state, wherever the base ends: the best ones, and others evenly spread over the rest.
+
+    While the hands are free they are the same wherever the base stands before.
+    """
+    found = [v for trial in fold_trials(work, state, fold) for v in _variants(work, state, trial, None)]
+    found.sort(key=lambda variant: (variant.driven, variant.rank))
+    best = count // 2
+    step = max(1, -(-(len(found) - best) // (count - best)))
+    yield from (*found[:best], *found[best::step])
+
+
+def _rank(variant: Variant) -> tuple[int, int]:
+    return variant.steps, variant.rank
+
+
+def _variants(work: Work, state: State, trial: FoldTrial, end: int | None) -> Iterator[Variant]:
+    """The ways of one trial, each combination of orientations with the base travelling least."""
+    masks, approaches, ranks = _all_strips(work, state, trial)
+    every = max(1, len(ranks) // _COMBINATIONS_MAX)
+    for number in range(0, len(ranks), every):
+        steps, _ = travel(masks[number : number + 1], work.back_offs)
+        begin = np.abs(np.arange(work.back_offs) - state.back_off)
+        total = steps if end is None else steps + begin[:, None]
+        total = np.where(_allowed(work, state, end), total, IMPOSSIBLE)
+        first, last = (int(i) for i in np.unravel_index(int(total.argmin()), total.shape))
+        if total[first, last] < IMPOSSIBLE:
+            way = FoldWay(trial, tuple(int(approach) for approach in approaches[number]))
+            driven = int(steps[first, last])
+            yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
+
+
+def _allowed(work: Work, state: State, end: int | None) -> BoolArray:
+    """Which back-offs a path may be begun from and ended at, shape (back-offs, back-offs)."""
+    every = np.arange(work.back_offs)
+    is_first = every == state.back_off if state.held else np.ones(work.back_offs, dtype=bool)
+    is_last = every == end if end is not None else np.ones(work.back_offs, dtype=bool)
+    return np.asarray(is_first[:, None] & is_last)
+
+
+def _all_strips(
+    work: Work, state: State, trial: FoldTrial
+) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
+    """Every combination of approaches in which the base has a place at every waypoint, and how natural it is.
+
+    Bit masks of back-offs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); ranks.
+    """
+    start = state.back_off if state.held else None
+    masks, numbers = [], []
+    for arm, tools, allowed in zip(trial.arms, trial.tools, trial.approaches, strict=True):
+        points = work.in_base(state.station, tools)
+        found = work.reach.back_offs(arm, points, allowed, work.back_offs, BACK_OFF_STEP_M, start=start)
+        able = np.flatnonzero(found.all(axis=1))
+        masks.append(found[able])
+        numbers.append(able)
+    choices = np.array([*product(*(range(len(n)) for n in numbers))], dtype=np.int64).reshape(-1, len(numbers))
+    both = np.bitwise_and.reduce([m[choices[:, i]] for i, m in enumerate(masks)])
+    is_able = both.all(axis=1)
+    kept = choices[is_able]
+    ranks = np.sum([n[kept[:, i]] for i, n in enumerate(numbers)], axis=0)
+    columns = zip(trial.approaches, numbers, strict=True)
+    approaches = np.column_stack([allowed[n[kept[:, i]]] for i, (allowed, n) in enumerate(columns)])
+    return both[is_able], approaches, np.asarray(ranks, dtype=np.int64)

@@ -1,0 +1,166 @@
+"""Joints for an arm whose tool follows a path: continuous, within limits, free of collision.
+
+The dynamic programme of `planner.robot.joint_chain` runs on every few poses of the path. Whether a sample collides is
+asked only where the chain found does: the samples of those poses are then asked, the colliding ones struck out, and the
+chain is found anew, until it is free or none is left. Between its poses the joints keep to the pan of the chain,
+smoothed, and follow in closed form, so the tool is exactly where it must be at every pose.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.joint_chain import cheapest_chain, filled, solutions
+from planner.robot.sided_arm import SidedArm
+
+IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
+"""Asked with the numbers of poses, shape (m,), and joints there, shape (m, 7): which of them do not collide; and with
+whether only those count that certainly do not, which is quicker to answer."""
+
+STRIDE = 3
+"""Every so many poses the chain has a link."""
+
+_LEAP_RAD = 0.4
+"""Joints that go further than this between neighbouring poses have jumped (rad)."""
+
+_SMOOTHINGS = 6
+_TRIES_MAX = 16
+
+
+@dataclass(frozen=True, slots=True)
+class ToolPath:
+    """Where an arm's tool must be, pose after pose, a centimetre or a few degrees apart.
+
+    Attributes:
+        positions: base frame, shape (n, 3), m.
+        rotations: the tool's axes as columns, base frame, shape (n, 3, 3).
+        spans_s: how long each step from pose to pose should take at most (s), shape (n - 1,); infinite where time does
+            not press.
+    """
+
+    positions: FloatArray
+    rotations: FloatArray
+    spans_s: FloatArray
+
+
+def arm_path(
+    arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+) -> FloatArray | None:
+    """The calmest joints that keep the tool on a path.
+
+    Args:
+        arm: the arm.
+        speeds: how fast its joints turn (rad/s), shape (7,).
+        path: where the tool must be.
+        torso_m: how far the torso is raised (m).
+        floor_m: the height over which elbows had better stay, base frame (m).
+        is_free: which joints do not collide.
+
+    Returns:
+        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None if there are none.
+    """
+    return _ArmPath(arm, speeds, path, torso_m, floor_m, is_free).found()
+
+
+def free_postures(
+    arm: SidedArm,
+    position: FloatArray,
+    rotation: FloatArray,
+    torso_m: float,
+    is_free: Callable[[FloatArray], BoolArray],
+) -> FloatArray:
+    """Samples of an arm's joints that bring its tool to a pose and do not collide (rad), shape (k, 7).
+
+    Args:
+        arm: the arm.
+        position: the tool's place, base frame, shape (3,), m.
+        rotation: its axes, base frame, shape (3, 3).
+        torso_m: how far the torso is raised (m).
+        is_free: asked with joints, shape (m, 7): which of them do not collide.
+    """
+    place = arm.mirrored_places(position)[None] - arm.shoulder(torso_m)
+    joints, costs = solutions(arm.shape, place, arm.mirrored_rotations(rotation)[None], -np.inf)
+    able = arm.mirrored_joints(joints[0, np.isfinite(costs[0])])
+    return able[is_free(able)] if len(able) else able
+
+
+class _ArmPath:
+    """One question."""
+
+    def __init__(
+        self, arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+    ) -> None:
+        self._arm = arm
+        self._speeds = speeds
+        self._is_free = is_free
+        shoulder = arm.shoulder(torso_m)
+        self._positions = arm.mirrored_places(path.positions) - shoulder
+        self._rotations = arm.mirrored_rotations(path.rotations)
+        count = len(self._positions)
+        self._links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
+        self._samples, self._costs = solutions(
+            arm.shape, self._positions[self._links], self._rotations[self._links], floor_m - float(shoulder[2])
+        )
+        self._spans = np.add.reduceat(np.append(path.spans_s, 0.0), self._links)[:-1]
+        self._is_asked = np.zeros(len(self._links), dtype=bool)
+
+    def found(self) -> FloatArray | None:
+        for number in range(_TRIES_MAX):
+            chain = cheapest_chain(self._samples, self._costs, self._speeds, self._spans)
+            if not len(chain):
+                return None
+            guides = self._guides(chain)
+            bad = self._links[~self._is_free(self._links, self._arm.mirrored_joints(guides), False)]
+            if not len(bad):
+                joints, bad = self._followed(guides)
+            if not len(bad):
+                return self._smoothed(guides, joints)
+            self._strike(chain, self._links if number == 1 else bad)
+        return None
+
+    def _guides(self, chain: NDArray[np.int64]) -> FloatArray:
+        """The chain's joints, continuous ones unwound, shape (links, 7)."""
+        guides = self._samples[np.arange(len(chain)), chain]
+        for joint in (4, 6):
+            guides[:, joint] = np.unwrap(guides[:, joint])
+        return guides
+
+    def _followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+        """The joints along the whole path, shape (n, 7), and the poses at which they will not do."""
+        everywhere = np.arange(len(self._positions))
+        between = np.column_stack([np.interp(everywhere, self._links, column) for column in guides.T])
+        joints, is_found = filled(self._arm.shape, self._positions, self._rotations, between)
+        leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
+        is_bad = ~is_found | np.append(leaps, False)
+        if not is_bad.any():
+            joints = self._arm.mirrored_joints(joints)
+            is_bad = ~self._is_free(everywhere, joints, False)
+        return joints, np.flatnonzero(is_bad)
+
+    def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64]) -> None:
+        """Ask all samples beside bad poses; where they have been asked already, drop the one that was taken."""
+        beside = np.unique(np.clip(np.searchsorted(self._links, bad)[:, None] - [0, 1], 0, None))
+        unasked = [int(link) for link in beside if not self._is_asked[link]]
+        before = self._costs[beside, chain[beside]].copy()
+        self._ask(unasked)
+        if np.array_equal(before, self._costs[beside, chain[beside]]):
+            self._costs[beside, chain[beside]] = np.inf
+
+    def _ask(self, links: list[int]) -> None:
+        rows, columns = np.nonzero(np.isfinite(self._costs[links]))
+        asked = np.array(links, dtype=np.int64)[rows]
+        self._is_asked[links] = True
+        joints = self._arm.mirrored_joints(self._samples[asked, columns])
+        is_bad = ~self._is_free(self._links[asked], joints, True)
+        self._costs[asked[is_bad], columns[is_bad]] = np.inf
+
+    def _smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
+        """The same path with the pan's corners rounded, as far as that keeps it possible."""
+        calmer = guides.copy()
+        for _ in range(_SMOOTHINGS):
+            calmer[1:-1] = 0.25 * calmer[:-2] + 0.5 * calmer[1:-1] + 0.25 * calmer[2:]
+        smooth, bad = self._followed(calmer)
+        return joints if len(bad) else smooth

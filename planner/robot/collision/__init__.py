@@ -1,0 +1,1 @@
+"""Whether arms, body and table are in each other's way."""

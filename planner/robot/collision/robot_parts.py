@@ -1,0 +1,93 @@
+"""All that is known of the PR2's parts before it is asked where they are."""
+
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+from planner.geometry.pose import FloatArray
+from planner.robot.arm import ArmShape, read_arm
+from planner.robot.card import RobotCard
+from planner.robot.collision.part_shapes import OPENINGS_M, finger_key, part_shapes
+from planner.robot.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS
+from planner.robot.collision.rounded_hull import RoundedHull
+from planner.robot.collision.separation import Parts
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotParts:
+    """The PR2's parts: the left arm's, then the right arm's, then the body's.
+
+    Attributes:
+        arm: lengths of the left arm.
+        names: what people call each part.
+        hulls: for each of `OPENINGS_M` the parts' shapes, those of the right arm as the left one has them.
+        convexes: the same as coal's shapes, those of the right arm mirrored.
+        body_poses: rotations and, in their last row, places (m) of the body's parts in the base frame, the torso
+            down, shape (b, 4, 3).
+    """
+
+    arm: ArmShape
+    names: tuple[str, ...]
+    hulls: tuple[tuple[RoundedHull, ...], ...]
+    convexes: tuple[tuple[coal.Convex, ...], ...]
+    body_poses: FloatArray
+
+
+def robot_parts(model: pin.Model, card: RobotCard, cache: Path | None = None) -> RobotParts:
+    """The parts of the PR2 (15 ms; a second when the cache has no shapes yet).
+
+    Args:
+        model: its kinematic tree.
+        card: what else is known of it: where head and laser rest, how fingers open.
+        cache: a directory; None: the platform's place for caches.
+    """
+    shapes = part_shapes(model, card.arms[0].gripper, cache)
+    left, right = {}, {}
+    for name, shape in shapes.items():
+        left[name], right[name] = shape.convex(), shape.mirrored().convex()
+    body = [part.name for part in BODY_PARTS]
+    arms = [[*(part.name for part in ARM_PARTS[:FINGERS]), *_fingers(opening_m)] for opening_m in OPENINGS_M]
+    return RobotParts(
+        arm=read_arm(model),
+        names=(*(f"{one.name} {part.name}" for one in card.arms for part in ARM_PARTS), *body),
+        hulls=tuple(tuple(shapes[name] for name in (*arm, *arm, *body)) for arm in arms),
+        convexes=tuple((*map(left.get, arm), *map(right.get, arm), *map(left.get, body)) for arm in arms),
+        body_poses=_body_poses(model, card),
+    )
+
+
+def _fingers(opening_m: float) -> tuple[str, ...]:
+    return tuple(finger_key(part, opening_m) for part in range(FINGERS, len(ARM_PARTS)))
+
+
+def compiled_parts(robot: RobotParts, level: int, boxes: FloatArray) -> Parts:
+    """The robot's parts, and boxes, as the compiled pass wants them.
+
+    Args:
+        robot: its parts.
+        level: which of `OPENINGS_M` the fingers are open to.
+        boxes: the sizes of the boxes, which come last (m), shape (t, 3).
+    """
+    hulls = robot.hulls[level]
+    corner_signs = np.array([*product((-0.5, 0.5), repeat=3)])
+    clouds = [hull.corners for hull in hulls] + [corner_signs * size for size in boxes]
+    rounding = np.array([hull.radius_m for hull in hulls] + [0.0] * len(boxes))
+    low, high = (np.array([limit(cloud, axis=0) for cloud in clouds]) for limit in (np.min, np.max))
+    middle, half = (low + high) / 2, (high - low) / 2 + rounding[:, None]
+    radius = [np.linalg.norm(cloud - at, axis=1).max() for cloud, at in zip(clouds, middle, strict=True)] + rounding
+    last = np.cumsum([len(cloud) for cloud in clouds])
+    spans = np.column_stack([last - [len(cloud) for cloud in clouds], last])
+    return Parts(np.vstack(clouds), spans, np.column_stack([middle, half, radius, rounding]))
+
+
+def _body_poses(model: pin.Model, card: RobotCard) -> FloatArray:
+    data, q = model.createData(), pin.neutral(model)
+    for name, angle in card.resting:
+        q[model.joints[model.getJointId(name)].idx_q] = angle
+    pin.forwardKinematics(model, data, q)
+    placements = [data.oMi[model.getJointId(part.joint)] for part in BODY_PARTS]
+    return np.array([np.vstack([one.rotation, one.translation]) for one in placements])

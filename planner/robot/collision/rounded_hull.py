@@ -1,0 +1,111 @@
+"""A convex body of few corners that contains a cloud of points.
+
+The convex hull of a mesh has a hundred corners and more, and whoever asks a convex body how far it reaches in a
+direction looks at all of them. Leaving corners out would cut into the mesh. So some are left out and the body is made
+rounder by the distance of the furthest one left out: everything within that radius of the hull of the corners kept
+is inside. Two such bodies are apart where the hulls of their corners are further apart than both radii together.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TYPE_CHECKING
+
+import coal
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import GRID_M
+
+if TYPE_CHECKING:
+    from scipy.spatial import ConvexHull
+
+IntArray = NDArray[np.int32]
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RoundedHull:
+    """All points within a radius of the convex hull of some corners.
+
+    Attributes:
+        corners: shape (n, 3), m.
+        faces: three corners for each triangle of the hull, counter-clockwise from outside, shape (m, 3).
+        radius_m: how far the body reaches beyond the hull (m).
+    """
+
+    corners: FloatArray
+    faces: IntArray
+    radius_m: float
+
+    def __post_init__(self) -> None:
+        """Refuse what is no such body; raises `ValueError`."""
+        if self.corners.ndim != 2 or self.corners.shape[1:] != (3,) or self.faces.shape[1:] != (3,):
+            raise ValueError(f"corners of shape {self.corners.shape} and faces of {self.faces.shape} make no hull")
+        if len(self.faces) < 4 or self.faces.min() < 0 or self.faces.max() >= len(self.corners):
+            raise ValueError("faces must be of corners that there are, and at least four")
+        if not self.radius_m >= 0.0:
+            raise ValueError(f"{self.radius_m} m is no radius")
+
+    def convex(self) -> coal.Convex:
+        """The hull of the corners as coal's ``Convex``, without the rounding."""
+        points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+        for corner in self.corners:
+            points.append(corner)
+        for i, j, k in self.faces.tolist():
+            triangles.append(coal.Triangle(i, j, k))
+        return coal.Convex(points, triangles)
+
+    def mirrored(self) -> "RoundedHull":
+        """Its mirror image in y."""
+        return RoundedHull(self.corners * _MIRROR, self.faces[:, ::-1].copy(), self.radius_m)
+
+
+def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = False) -> RoundedHull:
+    """A body round points, shape (n, 3), that do not all lie in one plane (m).
+
+    Corners are taken up one by one, always the point that stands out furthest from the hull of those before,
+    until none stands out further than `radius_max_m` (m). The body is symmetric in y if asked to be, points or not.
+    """
+    points = points[_qhull(points).vertices]
+    kept = points[np.argmax(points @ _DIRECTIONS.T, axis=0)]
+    while True:
+        hull = _exact_hull(np.vstack([kept, kept * _MIRROR]) if is_symmetric else kept)
+        away = _distances(points, hull)
+        furthest = int(np.argmax(away))
+        if away[furthest] <= radius_max_m:
+            return replace(hull, radius_m=float(away[furthest]) + GRID_M)
+        kept = np.vstack([kept, points[furthest]])
+
+
+def _exact_hull(points: FloatArray) -> RoundedHull:
+    """The convex hull of points, not rounded."""
+    points = np.unique(points, axis=0)
+    found = _qhull(points)
+    number = np.full(len(points), -1)
+    number[found.vertices] = np.arange(len(found.vertices))
+    faces = number[found.simplices]
+    corners = points[found.vertices]
+    a, b, c = (corners[faces[:, k]] for k in range(3))
+    is_inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0.0
+    faces[is_inwards] = faces[is_inwards][:, ::-1]
+    return RoundedHull(corners, faces.astype(np.int32), 0.0)
+
+
+def _distances(points: FloatArray, hull: RoundedHull) -> FloatArray:
+    """How far each point is from a hull (m), 0 inside."""
+    convex, point = hull.convex(), coal.Sphere(0.0)
+    request, here = coal.DistanceRequest(), coal.Transform3s.Identity()
+    found = np.zeros(len(points))
+    for i, place in enumerate(points):
+        there = coal.Transform3s(np.eye(3), place)
+        found[i] = max(coal.distance(convex, here, point, there, request, coal.DistanceResult()), 0.0)
+    return found
+
+
+def _qhull(points: FloatArray) -> "ConvexHull":
+    from scipy.spatial import ConvexHull  # slow to import, and needed only where shapes are made
+
+    return ConvexHull(points)

@@ -1,0 +1,182 @@
+"""Which pairs of convex parts are certainly apart? Compiled, for many postures at once.
+
+Nearly all pairs are far apart in nearly all postures, and to be asked one by one costs far more than to be computed.
+So this finds, for every posture, the first pair that is *not* certainly apart; only those are put to the exact
+algorithm. A pair is certainly apart if
+
+- the sphere round one does not reach the box round the other, or
+- some plane has one on this side and the other on that. It is looked for as by Chung and Wang (1996): along a
+  direction d the two come nearest with the points p and q; if p is beyond q, the plane is found, else the direction
+  is reflected at p - q, which has every plane that is possible on its further side.
+
+Arrays are handed on one by one: to take them out of a tuple in the inner loop costs more than the loop does.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.robot.arm import ArmShape
+from planner.robot.collision.part_poses import EACH, MIDDLE, PLACE, Index, pose_arm, set_middles
+
+REFLECTIONS = 12
+"""So many directions are tried for a pair."""
+
+HALF, RADIUS, ROUNDING = 3, 6, 7
+"""Columns of bounds: after the bounding box's middle, half its extents, the sphere's radius, the rounding (m)."""
+
+
+class Parts(NamedTuple):
+    """All parts: those of the arms first, left before right, then those that stand still while arms move.
+
+    Attributes:
+        corners: of all hulls, each in its part's frame (m), shape (c, 3).
+        spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
+        bounds: of each part its bounding box's middle, in its frame, half the box's extents, the radius of the
+            sphere about that middle which holds the part, and how far it reaches beyond its hull (m), shape (p, 8).
+    """
+
+    corners: FloatArray
+    spans: Index
+    bounds: FloatArray
+
+
+@njit(cache=True, nogil=True)
+def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[float, float, float]:
+    """The way from the box round part b to the middle of part a (m); zero if that is inside."""
+    dx = poses[a, MIDDLE, 0] - poses[b, MIDDLE, 0]
+    dy = poses[a, MIDDLE, 1] - poses[b, MIDDLE, 1]
+    dz = poses[a, MIDDLE, 2] - poses[b, MIDDLE, 2]
+    ox = oy = oz = 0.0
+    for axis in range(3):
+        along = poses[b, 0, axis] * dx + poses[b, 1, axis] * dy + poses[b, 2, axis] * dz
+        half = bounds[b, HALF + axis]
+        outside = along - min(max(along, -half), half)
+        ox += outside * poses[b, 0, axis]
+        oy += outside * poses[b, 1, axis]
+        oz += outside * poses[b, 2, axis]
+    return ox, oy, oz
+
+
+@njit(cache=True, nogil=True)
+def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z: float) -> int:
+    """The corner furthest along a direction, seen from the corners' frame."""
+    best, found = -math.inf, first
+    for i in range(first, last):
+        along = corners[i, 0] * x + corners[i, 1] * y + corners[i, 2] * z
+        if along > best:
+            best, found = along, i
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner: int) -> float:
+    """One coordinate of a corner after a part's rotation."""
+    turned: float = (
+        poses[part, row, 0] * corners[corner, 0]
+        + poses[part, row, 1] * corners[corner, 1]
+        + poses[part, row, 2] * corners[corner, 2]
+    )
+    return turned
+
+
+@njit(cache=True, nogil=True)
+def _is_plane_between(
+    corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: tuple[float, float, float]
+) -> bool:
+    """Whether a plane is found with part b, a gap (m), and part a behind each other along a direction like `way`."""
+    tx, ty, tz = r[a, PLACE, 0] - r[b, PLACE, 0], r[a, PLACE, 1] - r[b, PLACE, 1], r[a, PLACE, 2] - r[b, PLACE, 2]
+    dx, dy, dz = way
+    if dx == 0.0 and dy == 0.0 and dz == 0.0:
+        dx, dy, dz = tx, ty, tz
+    for _ in range(REFLECTIONS):
+        length = math.sqrt(dx * dx + dy * dy + dz * dz)
+        if length == 0.0:
+            return False
+        dx, dy, dz = dx / length, dy / length, dz / length
+        ax = -(r[a, 0, 0] * dx + r[a, 1, 0] * dy + r[a, 2, 0] * dz)
+        ay = -(r[a, 0, 1] * dx + r[a, 1, 1] * dy + r[a, 2, 1] * dz)
+        az = -(r[a, 0, 2] * dx + r[a, 1, 2] * dy + r[a, 2, 2] * dz)
+        p = _furthest(corners, spans[a, 0], spans[a, 1], ax, ay, az)
+        bx = r[b, 0, 0] * dx + r[b, 1, 0] * dy + r[b, 2, 0] * dz
+        by = r[b, 0, 1] * dx + r[b, 1, 1] * dy + r[b, 2, 1] * dz
+        bz = r[b, 0, 2] * dx + r[b, 1, 2] * dy + r[b, 2, 2] * dz
+        q = _furthest(corners, spans[b, 0], spans[b, 1], bx, by, bz)
+        wx = tx + _turned(r, a, 0, corners, p) - _turned(r, b, 0, corners, q) - gap * dx
+        wy = ty + _turned(r, a, 1, corners, p) - _turned(r, b, 1, corners, q) - gap * dy
+        wz = tz + _turned(r, a, 2, corners, p) - _turned(r, b, 2, corners, q) - gap * dz
+        along = wx * dx + wy * dy + wz * dz
+        if along > 0.0:
+            return True
+        squared = wx * wx + wy * wy + wz * wz
+        if squared == 0.0:
+            return False
+        back = 2.0 * along / squared
+        dx, dy, dz = dx - back * wx, dy - back * wy, dz - back * wz
+    return False
+
+
+@njit(cache=True, nogil=True)
+def first_close_pair(
+    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
+) -> int:
+    """The first pair, from one on, that is not certainly apart by a margin (m); -1 if all are."""
+    for pair in range(start, len(pairs)):
+        a, b = pairs[pair, 0], pairs[pair, 1]
+        reach = bounds[a, RADIUS] + margin
+        way = _towards(bounds, poses, a, b)
+        if way[0] * way[0] + way[1] * way[1] + way[2] * way[2] > reach * reach:
+            continue
+        reach = bounds[b, RADIUS] + margin
+        back = _towards(bounds, poses, b, a)
+        if back[0] * back[0] + back[1] * back[1] + back[2] * back[2] > reach * reach:
+            continue
+        gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
+        if not _is_plane_between(corners, spans, poses, a, b, gap, way):
+            return pair
+    return -1
+
+
+@njit(cache=True, nogil=True)
+def first_close(
+    shape: ArmShape,
+    lift_m: float,
+    parts: Parts,
+    poses: FloatArray,
+    pairs: Index,
+    joints: FloatArray,
+    arms: Index,
+    start: Index,
+    margin: float,
+) -> tuple[Index, FloatArray]:
+    """For every posture the first pair that is not certainly apart, from a given one on.
+
+    Args:
+        shape: the left arm.
+        lift_m: how far the torso is raised (m).
+        parts: all parts.
+        poses: those of what stands still are set, shape (p, 5, 3); those of the arms become the last posture's.
+        pairs: numbers of the parts to be compared, shape (q, 2).
+        joints: of each posture, the joints of each arm that is looked at (rad), shape (n, k, 7).
+        arms: those arms, 0 for the left and 1 for the right, shape (k,).
+        start: the pair with which to start, shape (n,).
+        margin: how far apart they should be (m).
+
+    Returns:
+        The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
+    """
+    corners, spans, bounds = parts
+    found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    for i in range(len(joints)):
+        for k in range(len(arms)):
+            low, high = EACH * arms[k], EACH * (arms[k] + 1)
+            pose_arm(shape, lift_m, joints[i, k], 1.0 - 2.0 * arms[k], poses[low:high])
+            set_middles(bounds[low:high], poses[low:high])
+        found[i] = first_close_pair(corners, spans, bounds, poses, pairs, start[i], margin)
+        if found[i] >= 0:
+            for side in range(2):
+                places[i, side] = poses[pairs[found[i], side]]
+    return found, places

@@ -1,0 +1,215 @@
+"""Is a tool comfortable at a place? Asked of the closed form once, then remembered. Compiled.
+
+A place is in comfort when it and four places on a circle round it are within reach. Back-offs lie on a grid of 5 cm
+and drags on one of 10 cm, so the same places return in the base frame, again and again, and always in rows along its
+x axis. So what is remembered are rows: the places of one approach, one y and one z that lie a step apart in x, one bit
+each. A row is found once and then answers for all back-offs.
+
+Every place is put onto the grid of `LENGTH_M` before it is asked, so that what is remembered for it is exact, whichever
+question came first. Mirroring has both arms share the memory. The memory is a hash table; a row that finds its place
+taken moves on to the next. When it is three quarters full it learns no more, and the answers stay the same.
+
+A place also counts only if the body leaves the arm room there (see `planner.robot.posture_room`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import LENGTH_M
+from planner.robot.arm import ArmShape
+from planner.robot.kernel import Aim, aim_at, beside, is_reachable_near, is_within_length, ring_slack, shape_of
+from planner.robot.posture_room import Room, has_room_about, may_be_hindered
+
+COORDINATE_BITS = 18
+"""A coordinate is kept as this many bits of `LENGTH_M` steps: 1.3 m either way from the shoulder."""
+
+ROW_CELLS = 60
+"""So many places has a row, the middle one beside the shoulder; beyond them no arm is long enough."""
+
+ROW_STEP = 5_000
+"""From one place of a row to the next, in steps of `LENGTH_M`: 5 cm. Other steps are answered, but not remembered."""
+
+ROWS, QUERIES = 0, 1
+"""What is counted: rows, and queries made."""
+
+KNOWN, GOOD = 0, 1
+"""The bits of a row: which places have been asked, and which of them are comfortable."""
+
+FORGETFUL = -1
+"""The slot of a row that finds no room in the memory."""
+
+_SCATTER = 0x1E3779B97F4A7C15
+
+
+class Memory(NamedTuple):
+    """What has been answered.
+
+    Attributes:
+        keys: of the rows, shape (size,), size a power of two; 0 is empty.
+        bits: of the rows, shape (size, 2).
+        counts: what is counted, shape (2,).
+        hints: for each approach the pan that served last (rad) and its branch, shape (64, 2).
+    """
+
+    keys: NDArray[np.int64]
+    bits: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    hints: FloatArray
+
+
+def empty_memory(size_bits: int = 16) -> Memory:
+    """A memory with room for 2 ** size_bits rows, of which it uses three quarters."""
+    size = 1 << size_bits
+    bits, counts = np.zeros((size, 2), dtype=np.int64), np.zeros(2, dtype=np.int64)
+    return Memory(np.zeros(size, dtype=np.int64), bits, counts, np.tile((0.5, 1.0), (64, 1)))
+
+
+class Place(NamedTuple):
+    """A tool point, seen from the shoulder as the base stands at back-off 0, in steps of `LENGTH_M`."""
+
+    x: int
+    y: int
+    z: int
+
+
+class Question(NamedTuple):
+    """What stays the same while places are asked in one approach; numbers alone, to be handed on without cost.
+
+    Attributes:
+        shape: the arm.
+        rest: what the shoulder is off the grid of `LENGTH_M` (m).
+        axis: the approach axis.
+        label: what to call the approach in the memory, 1..63.
+        comfort: radius of the comfort circle (m).
+        step: from one back-off to the next, in steps of `LENGTH_M`.
+    """
+
+    shape: ArmShape
+    rest: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    label: int
+    comfort: float
+    step: int
+
+
+@njit(cache=True, nogil=True)
+def in_steps(value: float) -> int:
+    """A coordinate in steps of `LENGTH_M`."""
+    return round(value / LENGTH_M)
+
+
+@njit(cache=True, nogil=True)
+def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
+    """The place of a tool point, both given in the base frame (m)."""
+    return Place(
+        in_steps(point[0]) - in_steps(shoulder[0]),
+        in_steps(point[1]) - in_steps(shoulder[1]),
+        in_steps(point[2]) - in_steps(shoulder[2]),
+    )
+
+
+@njit(cache=True, nogil=True)
+def question(
+    numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
+) -> Question:
+    """What is asked in the approach of a label."""
+    rest = (
+        shoulder[0] - in_steps(shoulder[0]) * LENGTH_M,
+        shoulder[1] - in_steps(shoulder[1]) * LENGTH_M,
+        shoulder[2] - in_steps(shoulder[2]) * LENGTH_M,
+    )
+    axis = (axes[label - 1, 0], axes[label - 1, 1], axes[label - 1, 2])
+    return Question(shape_of(numbers), rest, axis, label, comfort, step)
+
+
+@njit(cache=True, nogil=True)
+def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
+    """Where in the memory the row of a place is; it is begun if there is none yet."""
+    half = 1 << (COORDINATE_BITS - 1)
+    if abs(place.y) >= half or abs(place.z) >= half or ask.step % ROW_STEP != 0:
+        return FORGETFUL
+    key = ((((place.x % ROW_STEP) << COORDINATE_BITS) + place.y + half) << COORDINATE_BITS) + place.z + half
+    key = (key << 6) + ask.label
+    scattered = key * _SCATTER
+    slot = (scattered ^ (scattered >> 29) ^ (scattered >> 45)) & (len(keys) - 1)
+    while keys[slot] != key:
+        if keys[slot] == 0:
+            if 4 * counts[ROWS] >= 3 * len(keys):
+                return FORGETFUL
+            keys[slot] = key
+            counts[ROWS] += 1
+            break
+        slot = (slot + 1) & (len(keys) - 1)
+    return slot
+
+
+@njit(cache=True, nogil=True)
+def cell_of(x: int) -> int:
+    """The cell of a place in its row, which may lie beyond the row's ends, by its x."""
+    return x // ROW_STEP + ROW_CELLS // 2
+
+
+@njit(cache=True, nogil=True)
+def from_cell(bits: int, cell: int) -> int:
+    """The bits of a row from a cell on: one for each back-off by the row's step."""
+    return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
+
+
+@njit(cache=True, nogil=True)
+def aim_from(ask: Question, place: Place, back_off: int) -> Aim:
+    """The aim at a place, the base having backed off."""
+    x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
+    ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
+    return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
+
+
+@njit(cache=True, nogil=True)
+def is_comfortable_at(
+    ask: Question, memory: Memory, room: Room, arcs: FloatArray, slot: int, place: Place, back_off: int
+) -> bool:
+    """Whether a tool is comfortable at a place, the base having backed off, from memory if it is known there.
+
+    `arcs`, shape (MOST_ARCS, 2), is space to work in.
+    """
+    cell = cell_of(place.x + back_off * ask.step)
+    bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
+    if memory.bits[slot, KNOWN] & bit != 0:
+        return bool(memory.bits[slot, GOOD] & bit != 0)
+    aim, answer = aim_from(ask, place, back_off), False
+    if is_within_length(ask.shape, aim):
+        answer, queries = is_comfortable(ask.shape, aim, ask.comfort, arcs, memory.hints[ask.label])
+        memory.counts[QUERIES] += queries
+        if answer and may_be_hindered(aim):
+            answer = has_room_about(ask.shape, room, ask.label, aim, arcs)
+    if bit != 0:
+        memory.bits[slot, KNOWN] |= bit
+        if answer:
+            memory.bits[slot, GOOD] |= bit
+    return answer
+
+
+@njit(cache=True, nogil=True)
+def is_comfortable(shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray, hint: FloatArray) -> tuple[bool, int]:
+    """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made.
+
+    Mostly the pan that served last, `hint`, serves all five. If not, the one that it serves least is asked first.
+    """
+    if comfort <= 0.0:
+        return is_reachable_near(shape, aim, arcs, hint), 1
+    least, worst = ring_slack(shape, aim, comfort, hint[0], hint[1])
+    if least >= 0.0:
+        return True, 5
+    pan, branch = hint
+    if not is_reachable_near(shape, beside(aim, comfort, worst), arcs, hint):
+        return False, 1
+    if ring_slack(shape, aim, comfort, hint[0], hint[1])[0] >= 0.0:
+        return True, 5
+    for number in range(5):
+        if number != worst and not is_reachable_near(shape, beside(aim, comfort, number), arcs, hint):
+            hint[0], hint[1] = pan, branch
+            return False, 2 + number - (1 if number > worst else 0)
+    return True, 5

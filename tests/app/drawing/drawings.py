@@ -1,0 +1,43 @@
+"""Drawings that tests begin with."""
+
+from dataclasses import replace
+from typing import Any
+
+from app.drawing.drawing import Corner, Crease, Drawing, End, Tie
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.solve import solve
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Point2
+from tests.app.samples import towel
+
+
+def towel_drawing(*folds: Crease, **changes: Any) -> Drawing:
+    """A towel of 0.4 x 0.3 m; unless told otherwise its near half goes up over y = 0.15."""
+    drawing = solve(drawing_of(Garment.from_dict(towel(**changes)))).drawing
+    return replace(drawing, folds=folds) if folds else drawing
+
+
+def crease(name: str, start: Point2 | End, end: Point2 | End, kind: str = "blue") -> Crease:
+    ends = (point if isinstance(point, End) else End(point) for point in (start, end))
+    return Crease(name, name, kind, *ends)
+
+
+def tied(point: Point2, tie: Tie) -> End:
+    return End(point, tie)
+
+
+def pulled(drawing: Drawing, corner: int, dx_m: float, dy_m: float) -> Drawing:
+    """The drawing with one corner pulled."""
+    x, y = drawing.outline[corner].point
+    return with_corner(drawing, corner, (x + dx_m, y + dy_m))
+
+
+def with_corner(drawing: Drawing, corner: int, point: Point2) -> Drawing:
+    outline = list(drawing.outline)
+    outline[corner] = replace(outline[corner], point=point)
+    return replace(drawing, outline=tuple(outline))
+
+
+def outlined(drawing: Drawing, *points: Point2) -> Drawing:
+    """The drawing with another outline."""
+    return replace(drawing, outline=tuple(Corner(f"v{i}", point) for i, point in enumerate(points)))

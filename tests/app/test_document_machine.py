@@ -1,0 +1,284 @@
+"""Random operations on a document over REST: no state is lost and none is stale.
+
+Beside the server runs a model that knows nothing of how it is done: a list of drawings that can be gone back to, and
+one of drawings that can be gone forward to. Two pages listen all the time.
+"""
+
+import asyncio
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import httpx
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from app.api.create_app import create_app
+from app.settings import Settings
+from tests.app.conftest import OWN_URL
+from tests.app.samples import towel
+from tests.app.websocket import Listener
+
+corners = st.integers(0, 3)
+centimetres = st.integers(-2, 2)
+keys = st.sampled_from(["one", "two"])
+
+
+class DocumentMachine(RuleBasedStateMachine):
+    """What is done to one document, and what should have come of it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.loop = asyncio.new_event_loop()
+        self.data = Path(tempfile.mkdtemp(prefix="pleat-"))
+        self.past: list[tuple[str, Any]] = []
+        self.future: list[tuple[str, Any]] = []
+        self.gesture: tuple[str, str, Any] | None = None
+        self.steps = 0
+
+    @initialize()
+    def begin(self) -> None:
+        self.serve()
+        answer = self.ask("POST", "", {"garment": towel()})
+        assert answer.status_code == 201
+        self.state = answer.json()
+        self.listen()
+
+    # rules: what pages do
+
+    @rule(corner=corners, x=centimetres, y=centimetres, key=keys)
+    def drag(self, corner: int, x: int, y: int, key: str) -> None:
+        drawing = self.pulled(corner, x, y)
+        self.edit("preview", f"Drag {self.steps}", drawing, key)
+
+    @rule(corner=corners, x=centimetres, y=centimetres, key=keys)
+    def drop(self, corner: int, x: int, y: int, key: str) -> None:
+        self.edit("commit", f"Drop {self.steps}", self.pulled(corner, x, y), key)
+
+    @rule(across=st.floats(0.05, 0.35))
+    def draw_fold(self, across: float) -> None:
+        """From the middle of the cloth as it is then to wherever the line leads; it may be illegal."""
+        fold = {"name": "", "kind": "blue", "start": {"point": [across, 0.15]}, "end": {"point": [across, 0.3]}}
+        folds = [*self.state["drawing"]["folds"][:1], fold]
+        self.edit("commit", f"Fold {self.steps}", {**self.state["drawing"], "folds": folds}, "fold")
+
+    @rule()
+    def rub_out_folds(self) -> None:
+        self.edit("commit", f"Rub out {self.steps}", {**self.state["drawing"], "folds": []}, "rub")
+
+    @rule()
+    def spoil(self) -> None:
+        """Exchange two corners: the outline crosses itself, or is mended."""
+        first, second, *rest = self.state["drawing"]["outline"]
+        self.edit("commit", f"Spoil {self.steps}", {**self.state["drawing"], "outline": [second, first, *rest]}, "x")
+
+    @rule()
+    def cancel(self) -> None:
+        body = {"base_version": self.state["version"], "phase": "cancel"}
+        before = self.gesture[2] if self.gesture else self.state["drawing"]
+        self.gesture = None
+        self.changed(self.ask("PUT", "/drawing", body), before)
+
+    @rule(in_the_middle=st.booleans())
+    def undo(self, in_the_middle: bool = False) -> None:
+        self.drag_on(in_the_middle)
+        self.close_gesture()
+        drawing = self.state["drawing"]
+        if self.past:
+            label, target = self.past.pop()
+            self.future.append((label, drawing))
+            drawing = target
+        self.changed(self.ask("POST", "/undo"), drawing)
+
+    @rule(in_the_middle=st.booleans())
+    def redo(self, in_the_middle: bool = False) -> None:
+        self.drag_on(in_the_middle)
+        self.close_gesture()
+        drawing = self.state["drawing"]
+        if self.future:
+            label, target = self.future.pop()
+            self.past.append((label, drawing))
+            drawing = target
+        self.changed(self.ask("POST", "/redo", {"base_version": self.state["version"]}), drawing)
+
+    @precondition(lambda self: self.gesture is None)
+    @rule()
+    def undo_and_redo(self) -> None:
+        before = self.state
+        can_undo = self.past != []
+        self.undo()
+        if can_undo:
+            self.redo()
+        assert self.state["drawing"] == before["drawing"]
+        assert self.state["history"] == before["history"]
+
+    @precondition(lambda self: self.state["version"] > 1)
+    @rule(corner=corners)
+    def come_too_late(self, corner: int) -> None:
+        body = {"base_version": self.state["version"] - 1, "drawing": self.pulled(corner, 1, 1)}
+        answer = self.ask("PUT", "/drawing", body)
+        assert answer.status_code == 409
+        assert answer.json()["state"] == self.state
+
+    @rule(in_the_middle=st.booleans())
+    def kill_and_restart(self, in_the_middle: bool) -> None:
+        """The server is gone from one moment to the next; another one begins with what is on the disk."""
+        self.drag_on(in_the_middle)
+        killed = self.app
+        self.serve()
+        self.close_gesture()
+        state = self.ask("GET", "").json()
+        assert state["version"] == self.state["version"]
+        self.state = {**state, "gesture": None}
+        self.run(self.hang_up())
+        self.listen()
+        killed.state.workspace.close()
+
+    @rule()
+    def rest(self) -> None:
+        """With nothing going on, both pages show the same, and the plan is that of the drawing."""
+        self.run(self.until_idle())
+        one, other = self.pages
+        assert one.last["document"] == other.last["document"] == self.state
+        assert one.last["plan"] == other.last["plan"]
+        assert one.last["playback"] == other.last["playback"]
+        plan = one.last["plan"]
+        assert plan["version"] == self.state["version"]
+        self.look_back(one)
+        if self.state["problems"]:
+            assert (plan["status"], plan["plan"]) == ("illegal", None)
+            return
+        assert (plan["plan"]["version"], plan["plan"]["is_stale"]) == (plan["version"], False)
+        assert self.ask_at("GET", f"/api/plans/{plan['plan']['id']}").json()["status"] == plan["status"]
+
+    @invariant()
+    def nothing_is_lost(self) -> None:
+        assert self.state["history"]["can_undo"] == (self.past[-1][0] if self.past else None)
+        assert self.state["history"]["can_redo"] == (self.future[-1][0] if self.future else None)
+        assert self.state["gesture"] == (self.gesture[1] if self.gesture else None)
+        assert self.ask("GET", "").json() == self.state
+
+    # the model
+
+    def look_back(self, page: Listener) -> None:
+        """Of all the plans that were shown as that of their version, none was another's."""
+        garments = {one["version"]: one["garment"] for one in page.heard if one["kind"] == "document"}
+        layers: dict[int, object] = {}
+        for shown in (one for one in page.heard if one["kind"] == "plan" and one["plan"]):
+            version = shown["plan"]["version"]
+            if version not in garments:
+                continue  # the page was told of a later version before it could be told of this one
+            if version not in layers:
+                layers[version] = self.ask_at("POST", "/api/dag", {"garment": garments[version]}).json()["layers"]
+            assert shown["plan"]["final_layers"] == layers[version]
+            assert shown["plan"]["is_stale"] == (version != shown["version"])
+        page.heard = [one for one in page.heard if one["kind"] == "document"]
+
+    def drag_on(self, in_the_middle: bool) -> None:
+        """Perhaps there is a gesture going on when it happens."""
+        if in_the_middle:
+            self.steps += 1
+            self.edit("preview", f"Drag {self.steps}", self.pulled(self.steps % 4, 2, self.steps % 3), "middle")
+
+    def edit(self, phase: str, label: str, drawing: dict[str, Any], key: str) -> None:
+        self.steps += 1
+        body = {"base_version": self.state["version"], "label": label, "phase": phase, "drawing": drawing}
+        answer = self.ask("PUT", "/drawing", {**body, "gesture": key})
+        assert answer.status_code == 200, answer.text
+        after = answer.json()["drawing"]
+        if self.gesture is not None and self.gesture[0] != key:
+            self.close_gesture()
+        before = self.gesture[2] if self.gesture else self.state["drawing"]
+        if phase == "preview":
+            if after != self.state["drawing"] and self.gesture is None:
+                self.gesture = (key, label, before)
+        else:
+            self.gesture = None
+            if after != before:
+                self.past.append((label, before))
+                self.future = []
+        self.changed(answer, after)
+
+    def close_gesture(self) -> None:
+        if self.gesture is not None and self.gesture[2] != self.state["drawing"]:
+            self.past.append((self.gesture[1], self.gesture[2]))
+            self.future = []
+        self.gesture = None
+
+    def changed(self, answer: httpx.Response, drawing: object) -> None:
+        """Take the new state; its version has grown exactly when something in it has changed."""
+        assert answer.status_code == 200, answer.text
+        state = answer.json()
+        assert state["drawing"] == drawing
+        is_same = {**state, "version": 0} == {**self.state, "version": 0}
+        assert state["version"] >= self.state["version"] + (not is_same)
+        self.state = state
+
+    def pulled(self, corner: int, x: int, y: int) -> dict[str, Any]:
+        """The drawing with a corner so many centimetres from where the towel has it."""
+        outline = list(self.state["drawing"]["outline"])
+        home = towel()["outline"][corner]
+        outline[corner] = {**outline[corner], "point": [home[0] + 0.01 * x, home[1] + 0.01 * y]}
+        return {**self.state["drawing"], "outline": outline}
+
+    # the server
+
+    def serve(self) -> None:
+        self.app: Any = create_app(Settings(data=self.data))
+        transport = httpx.ASGITransport(app=self.app)
+        self.client = httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0)
+
+    def listen(self) -> None:
+        async def connected() -> list[Listener]:
+            pages = [Listener(self.app, f"/api/documents/{self.state['id']}/live") for _ in range(2)]
+            pages[0].keep_all = True
+            return pages
+
+        self.pages = self.run(connected())
+
+    def ask(self, method: str, path: str, body: object = None) -> httpx.Response:
+        document = f"/{self.state['id']}" if hasattr(self, "state") else ""
+        return self.ask_at(method, f"/api/documents{document}{path}", body)
+
+    def ask_at(self, method: str, path: str, body: object = None) -> httpx.Response:
+        answer: httpx.Response = self.run(self.client.request(method, path, json=body))
+        return answer
+
+    async def until_idle(self) -> None:
+        async with asyncio.timeout(60.0):
+            while not all(self.is_idle(page) for page in self.pages):
+                await asyncio.sleep(0.005)
+            await asyncio.sleep(0.05)
+
+    def is_idle(self, page: Listener) -> bool:
+        versions = [page.last.get(kind, {}).get("version") for kind in ("document", "plan")]
+        if versions != [self.state["version"]] * 2:
+            return False
+        plan, playback = page.last["plan"], page.last.get("playback", {})
+        has_checks = plan["checks"] is not None and plan["checks"]["version"] == plan["version"]
+        has_film = playback.get("version") == (plan["version"] if plan["status"] == "solved" else None)
+        return plan["status"] != "planning" and has_checks and has_film
+
+    def run(self, work: Any) -> Any:
+        return self.loop.run_until_complete(work)
+
+    async def hang_up(self) -> None:
+        for page in self.pages:
+            await page.hang_up()
+
+    def teardown(self) -> None:
+        if hasattr(self, "pages"):
+            self.run(self.hang_up())
+        if getattr(self, "app", None) is not None:
+            self.app.state.workspace.close()
+        self.loop.run_until_complete(self.loop.shutdown_default_executor())
+        self.loop.close()
+        shutil.rmtree(self.data)
+
+
+DocumentMachine.TestCase.settings = settings(
+    max_examples=max(8, settings.default.max_examples // 10) if settings.default else 8, stateful_step_count=15
+)
+TestDocument = DocumentMachine.TestCase

@@ -1,0 +1,122 @@
+"""What several pages on one document are told."""
+
+import asyncio
+import time
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.samples import towel
+from tests.app.websocket import Listener
+
+pytestmark = pytest.mark.anyio
+
+
+async def created(client: httpx.AsyncClient, garment: object = None) -> dict[str, Any]:
+    state: dict[str, Any] = (await client.post("/api/documents", json={"garment": garment or towel()})).json()
+    return state
+
+
+def listening(client: httpx.AsyncClient, document_id: str) -> Listener:
+    app = client._transport.app  # type: ignore[attr-defined]
+    return Listener(app, f"/api/documents/{document_id}/live")
+
+
+async def move(client: httpx.AsyncClient, state: dict[str, Any], x_m: float, **request: Any) -> dict[str, Any]:
+    first, *others = state["drawing"]["outline"]
+    drawing = {**state["drawing"], "outline": [{**first, "point": [x_m, first["point"][1]]}, *others]}
+    body = {"base_version": state["version"], "label": "Move", "drawing": drawing, **request}
+    answer = await client.put(f"/api/documents/{state['id']}/drawing", json=body)
+    assert answer.status_code == 200, answer.text
+    moved: dict[str, Any] = answer.json()
+    return moved
+
+
+async def test_a_page_is_told_everything_when_it_comes(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    page = listening(client, state["id"])
+    assert await page.until("document") == state
+    plan = await page.until("plan", status="solved", version=1)
+    assert plan["text"].startswith("Planned: ")
+    assert (plan["plan"]["version"], plan["plan"]["is_stale"]) == (1, False)
+    assert plan["checks"]["folds"][0]["grips_needed"] == 2
+    assert plan["before"] is None
+    playback = await page.until("playback", duration_s=plan["plan"]["cost_s"])
+    assert playback["version"] == 1
+    await page.hang_up()
+
+
+async def test_two_pages_are_told_the_same(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    pages = [listening(client, state["id"]) for _ in range(2)]
+    moved = await move(client, state, -0.02)
+    for page in pages:
+        assert await page.until("document", version=moved["version"]) == moved
+        plan = await page.until("plan", version=moved["version"], status="solved")
+        assert plan["plan"]["version"] == moved["version"]
+        await page.until("playback", version=moved["version"])
+    assert pages[0].last == pages[1].last
+    for page in pages:
+        await page.hang_up()
+
+
+async def test_another_page_follows_a_drag_within_a_moment(client: httpx.AsyncClient) -> None:
+    """Every preview is on the other page before the hand has gone on; here with room for a busy machine."""
+    state = await created(client)
+    page = listening(client, state["id"])
+    await page.until("plan", status="solved")
+    delays = []
+    for number in range(1, 11):
+        began = time.monotonic()
+        state = await move(client, state, -0.001 * number, phase="preview", gesture="drag")
+        await page.until("document", version=state["version"])
+        delays.append(time.monotonic() - began)
+        await asyncio.sleep(0.03)
+    assert sorted(delays)[5] < 0.25
+    assert page.last["document"]["gesture"] == "Move"
+    await page.hang_up()
+
+
+async def test_the_plan_before_stays_in_sight_and_says_that_it_is_old(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    page = listening(client, state["id"])
+    await page.until("plan", status="solved")
+    page.keep_all = True
+    moved = await move(client, state, -0.02)
+    await page.until("plan", status="solved", version=moved["version"])
+    planning = [one for one in page.heard if one["kind"] == "plan" and one["status"] == "planning"]
+    assert planning
+    assert all(one["plan"]["version"] == 1 and one["plan"]["is_stale"] for one in planning)
+    await page.hang_up()
+
+
+async def test_commands_come_by_websocket_too_and_bad_ones_are_told_of(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    page = listening(client, state["id"])
+    page.say({"do": "dance"})
+    assert "dance" in (await page.until("problem"))["detail"]
+    page.say({"do": "choose", "garment": "hand-towel"})
+    document = await page.until("document", version=2)
+    assert document["drawing"]["name"] == "hand-towel"
+    assert document["history"]["can_undo"] == "Open Hand towel"
+    await page.until("plan", status="solved", version=2)
+    page.say({"do": "speed", "speed": 4.0})
+    await page.until("playback", speed=4.0)
+    await page.hang_up()
+
+
+async def test_a_page_on_a_document_that_is_not_there_or_goes_away_is_sent_away(client: httpx.AsyncClient) -> None:
+    nowhere = listening(client, "nothing")
+    async with asyncio.timeout(10.0):
+        while nowhere.closed_with is None:
+            await asyncio.sleep(0.002)
+    assert nowhere.closed_with == 4404
+    state = await created(client)
+    page = listening(client, state["id"])
+    await page.until("document")
+    assert (await client.delete(f"/api/documents/{state['id']}")).status_code == 204
+    async with asyncio.timeout(10.0):
+        while page.closed_with is None:
+            await asyncio.sleep(0.002)
+    assert page.closed_with == 4404

@@ -1,0 +1,107 @@
+"""Red folds on the stage: told from blue ones by colour and by dashes, drawn on the cloth that they will fold."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from app.ui.colours import DARK, LIGHT
+from app.ui.lighting import ink
+from app.ui.stage import Stage
+from planner import Plan, Scene, load_garment, make_plan
+from planner.plan.cloth_surface import LAYER_GAP_M
+from planner.plan.plan import PlannedPrimitive
+from planner.primitives.g_fold import FoldStep
+from planner.robot.pr2 import load_robot
+
+CARD = load_robot("pr2").card
+ABOVE_M = 0.003
+BLUE, RED = 0, 1
+
+
+@pytest.fixture(scope="module")
+def letter() -> Plan:
+    """A towel 0.4 x 0.5 m: its near half comes over y = 0.25, then the free edge back over y = 0.39."""
+    return make_plan(load_garment("letter-towel"), time_limit_s=60.0)
+
+
+@pytest.fixture
+def stage(letter: Plan) -> Iterator[Stage]:
+    made = Stage(CARD, Scene())
+    made.show_plan(letter)
+    yield made
+    made.close()
+
+
+def performed(plan: Plan, index: int) -> PlannedPrimitive:
+    """The primitive that performs a fold."""
+    return next(p for p in plan.primitives if isinstance(p.step, FoldStep) and p.step.way.trial.fold == index)
+
+
+def line(stage: Stage, index: int) -> NDArray[np.float64]:
+    """A fold's line as drawn: segments, shape (n, 2, 3), m; none when it is not shown."""
+    handle = stage._server.scene.get_handle_by_name(f"/folds/{index}")
+    assert handle is not None
+    return np.asarray(handle.points, dtype=float) if handle.visible else np.zeros((0, 2, 3))
+
+
+def length_m(segments: NDArray[np.float64]) -> float:
+    return float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).sum())
+
+
+def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(stage: Stage, letter: Plan):
+    stage.show(letter.timeline().at(0.0))
+    assert length_m(line(stage, BLUE)) == pytest.approx(0.4)
+    # Dash 0.045, gap 0.012, dot 0.006, gap 0.012: of 0.075 m 0.051 are drawn. 0.4 m are five times that and a
+    # last dash of 0.025 m.
+    assert length_m(line(stage, RED)) == pytest.approx(5 * 0.051 + 0.025)
+
+
+def test_the_two_kinds_have_the_two_colours_of_the_theme(stage: Stage):
+    for is_dark, palette in ((False, LIGHT), (True, DARK)):
+        stage.set_theme(is_dark=is_dark)
+        for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
+            handle = stage._server.scene.get_handle_by_name(f"/folds/{index}")
+            assert handle is not None
+            assert tuple(handle.colors) == tuple(ink(wanted))
+
+
+def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(stage: Stage, letter: Plan):
+    # 0.39 m from the near edge. One layer lies there before the blue fold, two after it.
+    blue = performed(letter, BLUE)
+    moments = ((0.0, letter.start.offset, 1), (blue.start_s + blue.duration_s - 1e-6, blue.step.after.offset, 2))
+    for t_s, offset, layers in moments:
+        stage.show(letter.timeline().at(t_s))
+        drawn = line(stage, RED)
+        near = letter.work.placed(offset).x_m
+        assert drawn[..., 0] == pytest.approx(np.full(drawn.shape[:2], near + 0.39), abs=1e-6)
+        assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_GAP_M + ABOVE_M), abs=1e-6)
+
+
+def test_once_folded_a_line_is_gone(stage: Stage, letter: Plan):
+    red = performed(letter, RED)
+    stage.show(letter.timeline().at(red.start_s + red.duration_s / 2))
+    assert len(line(stage, BLUE)) == 0 and len(line(stage, RED)) > 0
+    stage.show(letter.timeline().at(letter.timeline().duration_s))
+    assert len(line(stage, RED)) == 0
+
+
+def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(stage: Stage, letter: Plan):
+    red = performed(letter, RED)
+    shown = []
+    # At first the wrists may turn in their grips: then nothing has been folded yet.
+    for share in np.linspace(0.2, 0.98, 15):
+        stage.show(letter.timeline().at(red.start_s + float(share) * red.duration_s))
+        handle = stage._server.scene.get_handle_by_name("/cloth/front")
+        assert handle is not None
+        corners = np.asarray(handle.vertices, dtype=float)
+        # Layer 0 lies at one gap over the table; what of the flap stays, layer 1, at two.
+        shown.append(
+            [
+                {tuple(c) for c in np.round(corners[np.isclose(corners[:, 2], z, atol=1e-5)], 5).tolist()}
+                for z in (LAYER_GAP_M, 2 * LAYER_GAP_M)
+            ]
+        )
+    assert all(len(layer) >= 4 for layer in shown[0])
+    assert all(still == shown[0] for still in shown)

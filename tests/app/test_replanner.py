@@ -1,0 +1,253 @@
+"""Plans follow the drawing: the latest wins, and what is shown says what it belongs to."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pytest
+
+from app.api.live_messages import status_text
+from app.document import Document
+from app.document_state import DocumentState
+from app.drawing.draft import draft_of
+from app.drawing.drawing import Drawing
+from app.drawing.edit import Edit, Phase
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.solve import solve
+from app.job_pool import JobPool
+from app.plan_store import PlanStore, UnknownPlanError
+from app.replanner import Replanner
+from planner import make_plan
+from planner.cloth.garment import Garment
+from tests.app.drawing.drawings import crease, outlined, pulled
+from tests.app.samples import towel
+
+TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
+PATIENCE_S = 60.0
+
+
+class Desk:
+    """A document with its planner."""
+
+    def __init__(self) -> None:
+        self.pool = JobPool()
+        self.plans = PlanStore()
+        self.document = Document(draft_of(TOWEL))
+        self.replanner = Replanner(self.document, self.pool, self.plans, arms=2)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < deadline
+            time.sleep(0.002)
+
+    def rest(self) -> None:
+        """Wait until everything that belongs to the drawing is there."""
+        self.until(lambda: self.is_answered and self.has_film)
+
+    @property
+    def is_answered(self) -> bool:
+        return self.document.state.is_answered
+
+    @property
+    def has_film(self) -> bool:
+        state = self.document.state
+        return state.film is not None and state.answer is not None and state.film.plan is state.answer.plan
+
+
+@pytest.fixture
+def desk() -> Iterator[Desk]:
+    made = Desk()
+    yield made
+    made.replanner.close()
+    made.pool.close()
+
+
+def moved(millimetres: float) -> Drawing:
+    return solve(pulled(TOWEL, 0, -0.001 * millimetres, 0.0)).drawing
+
+
+def test_the_first_plan_comes_by_itself_with_checks_and_film(desk: Desk) -> None:
+    desk.rest()
+    state = desk.document.state
+    assert state.answer is not None and state.answer.version == 1
+    assert desk.plans.plan(state.answer.plan_id) is state.answer.plan
+    assert state.checks is not None
+    (held,) = state.checks.folds
+    assert sorted(held.must_hold) == [pytest.approx((0.0, 0.0)), pytest.approx((0.4, 0.0))]
+    assert held.grips_needed == 2
+
+
+def test_an_edit_is_planned_and_the_plan_is_of_what_is_drawn(desk: Desk) -> None:
+    desk.rest()
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.rest()
+    answer = desk.document.state.answer
+    assert answer is not None and answer.version == 2
+    assert answer.plan.garment.outline[0] == (-0.02, 0.0)
+
+
+def test_of_many_edits_the_last_is_planned(desk: Desk) -> None:
+    for number in range(1, 8):
+        desk.document.edit(Edit("Move", moved(number)))
+    desk.rest()
+    answer = desk.document.state.answer
+    assert answer is not None and answer.version == 8
+    assert answer.plan.garment.outline[0] == (pytest.approx(-0.007), 0.0)
+
+
+def test_while_somebody_drags_plans_of_older_previews_are_shown(desk: Desk) -> None:
+    """Previews come faster than plans; each search is given a little time to end all the same."""
+    desk.rest()
+    shown = set()
+    deadline = time.monotonic() + 3.0
+    number = 0
+    while time.monotonic() < deadline and len(shown) < 3:
+        number += 1
+        desk.document.edit(Edit("Drag", moved(0.1 * number), Phase.PREVIEW))
+        state = desk.document.state
+        assert state.answer is not None
+        shown.add(state.answer.version)
+        time.sleep(0.02)
+    assert len(shown) >= 3
+    desk.document.edit(Edit("Drag", moved(30), Phase.COMMIT))
+    desk.rest()
+    assert desk.document.state.answer is not None
+    assert desk.document.state.answer.plan.garment.outline[0] == (pytest.approx(-0.03), 0.0)
+
+
+def test_undo_finds_its_plan_again_at_once(desk: Desk) -> None:
+    desk.rest()
+    assert desk.document.state.answer is not None
+    first = desk.document.state.answer.plan
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.rest()
+    desk.document.undo()
+    desk.rest()
+    assert desk.document.state.answer.plan is first
+
+
+def test_plans_of_previews_are_not_kept_and_those_of_commits_are(desk: Desk) -> None:
+    desk.rest()
+    ids = []
+    for number in (1, 2, 3):
+        desk.document.edit(Edit("Drag", moved(number), Phase.PREVIEW))
+        desk.rest()
+        assert desk.document.state.answer is not None
+        ids.append(desk.document.state.answer.plan_id)
+    desk.document.edit(Edit("Drag", moved(3), Phase.COMMIT))
+    for plan_id in ids[:2]:
+        with pytest.raises(UnknownPlanError):
+            desk.plans.plan(plan_id)
+    assert desk.document.state.answer.plan is desk.plans.plan(ids[2])
+    desk.document.edit(Edit("Move", moved(4)))
+    desk.rest()
+    assert desk.plans.plan(ids[2]).is_solved
+
+
+def test_what_folds_need_is_told_of_those_before_an_illegal_one_too(desk: Desk) -> None:
+    off = crease("off", (0.2, 0.2), (0.3, 0.2))
+    state = desk.document.edit(Edit("Draw", replace(TOWEL, folds=(*TOWEL.folds, off))))
+    desk.until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
+    assert desk.document.state.checks is not None
+    assert len(desk.document.state.checks.folds) == 1
+    assert not desk.document.state.is_planning
+
+
+def test_with_nothing_drawn_there_is_nothing_to_plan(desk: Desk) -> None:
+    state = desk.document.edit(Edit("Clear", outlined(TOWEL)))
+    desk.until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
+    assert not desk.document.state.is_answered
+
+
+def test_a_torso_that_cannot_be_raised_so_far_is_told_of_by_its_field(desk: Desk) -> None:
+    desk.document.edit(Edit("Torso", replace(TOWEL, scene=replace(TOWEL.scene, torso_m=0.9))))
+    desk.until(lambda: desk.document.state.failure is not None)
+    assert status_text(desk.document.state).startswith("No plan: scene.torso_m: 0.9 m")
+
+
+def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    desk.rest()
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("a bug")
+
+    monkeypatch.setattr("app.replanner.make_plan", fail)
+    desk.document.edit(Edit("Move", moved(1)))
+    desk.until(lambda: desk.document.state.failure is not None)
+    assert status_text(desk.document.state) == "No plan: the planner failed"
+    assert "a bug" in caplog.text
+    monkeypatch.undo()
+    desk.document.edit(Edit("Move", moved(2)))
+    desk.rest()
+
+
+def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk.rest()
+    begun, stopped = threading.Event(), threading.Event()
+
+    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        if not begun.is_set():
+            begun.set()
+            while not should_stop():
+                time.sleep(0.001)
+            stopped.set()
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("app.replanner.make_plan", endless)
+    desk.document.edit(Edit("Move", moved(1)))
+    assert begun.wait(PATIENCE_S)
+    desk.document.edit(Edit("Move", moved(2)))
+    assert stopped.wait(PATIENCE_S)
+    desk.rest()
+
+
+def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk.rest()
+    begun = threading.Event()
+
+    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        if not begun.is_set():
+            begun.set()
+            while not should_stop():
+                time.sleep(0.001)
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("app.replanner.make_plan", endless)
+    desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
+    assert begun.wait(PATIENCE_S)
+    desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
+    desk.rest()
+    assert desk.document.state.answer is not None
+    assert desk.document.state.answer.version == 3
+
+
+def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The search for the first preview gives way to the second; before it ends, the first is what is drawn again."""
+    desk.rest()
+    given_up, go = threading.Event(), threading.Event()
+    planned = Replanner._planned
+
+    def gives_up(self: Replanner, state: DocumentState, is_unwanted: Callable[[], bool]) -> object:
+        if given_up.is_set():
+            return planned(self, state, is_unwanted)
+        while not is_unwanted():
+            time.sleep(0.001)
+        given_up.set()
+        assert go.wait(PATIENCE_S)
+        return None
+
+    monkeypatch.setattr(Replanner, "_planned", gives_up)
+    desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
+    desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
+    assert given_up.wait(PATIENCE_S)
+    desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
+    go.set()
+    desk.rest()
+    assert desk.document.state.answer is not None
+    assert desk.document.state.answer.version == 4

@@ -1,0 +1,145 @@
+"""The cheapest way by trying everything: plainly right rather than quick, and apart from `planner.search`.
+
+What a fold or a drag must hold, which arm may take it and along which path is asked of the planner; whether the cloth
+stays where it is, too. What makes the planner quick is left out: every approach of every arm is combined with every
+other, the base may stand at every waypoint wherever the hands allow, every back-off is an end, hands may hold on after
+every drag, and no state is ever passed over.
+"""
+
+import heapq
+import math
+from collections.abc import Iterator
+from itertools import count
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray
+from planner.primitives.base_move import BaseMove
+from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, nearest_pair_m
+from planner.primitives.state import Held, State
+from planner.primitives.work import BACK_OFF_STEP_M, Work
+
+Way = tuple[float, State]
+
+
+class Exhaustive:
+    """Tries all that a robot may do in one planning problem."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._moves = BaseMove(work)
+        self._masks: dict[tuple[object, ...], NDArray[np.uint32]] = {}
+        self._strips: dict[tuple[object, ...], list[tuple[int, ...]]] = {}
+
+    def cost_s(self, start: State) -> float:
+        """The least time until every fold is done (s), by Dijkstra's algorithm; infinite if it cannot be."""
+        everything = (1 << len(self._work.sequence.folds)) - 1
+        if self._work.unrest(start.done, start.offset) is not None:
+            return math.inf
+        numbers, left = count(), set()
+        queue = [(0.0, next(numbers), start)]
+        while queue:
+            cost, _, state = heapq.heappop(queue)
+            if state.done == everything:
+                return cost
+            if state not in left:
+                left.add(state)
+                for seconds, after in (*self._folds(state), *self._drags(state), *self._drives(state)):
+                    heapq.heappush(queue, (cost + seconds, next(numbers), after))
+        return math.inf
+
+    def _drives(self, state: State) -> Iterator[Way]:
+        for step in self._moves.successors(state):
+            yield step.duration_s, step.after
+
+    def _folds(self, state: State) -> Iterator[Way]:
+        work = self._work
+        for fold in work.sequence.dag.available(state.done):
+            if geometric_obstacle(work, state, fold) is not None:
+                continue
+            for trial in fold_trials(work, state, fold):
+                held = self._held_after(trial) if work.sequence.dag.follows_at_once(fold) else ()
+                motions = 2 if state.held else 3
+                for strip in self._strips_of(state, trial):
+                    for end, steps in enumerate(self._travel(strip, state)):
+                        if math.isfinite(steps):
+                            after = State(state.done | 1 << fold, state.offset, state.station, end, held)
+                            yield motions * work.scene.arm_motion_s + work.drive_s(steps), after
+
+    def _held_after(self, trial: FoldTrial) -> tuple[Held, ...]:
+        over = Isometry.reflection(self._work.sequence.folds[trial.fold].line)
+        pairs = sorted(zip(trial.arms, trial.cover, strict=True))
+        return tuple(Held(arm, over.apply_point(grip)) for arm, grip in pairs)
+
+    def _strips_of(self, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
+        """For each combination of approaches the back-offs that suit all hands at each waypoint, as bits."""
+        key = (state.done, state.offset, state.station, state.held, trial.fold, trial.cover, trial.arms)
+        if key not in self._strips:
+            whole = np.full((1, len(trial.sweeps)), (1 << self._work.back_offs) - 1, dtype=np.uint32)
+            for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
+                rows = np.array([self._able(state.station, arm, tool, approaches) for tool in tools]).T
+                both = whole[:, None, :] & rows[None, :, :]
+                whole = np.unique(both[both.all(axis=2)], axis=0)
+            self._strips[key] = [tuple(int(mask) for mask in row) for row in whole]
+        return self._strips[key]
+
+    def _able(self, station: int, arm: int, tool: FloatArray, approaches: NDArray[np.int64]) -> NDArray[np.uint32]:
+        """For each approach the back-offs from which one tool point is in comfort, as bits."""
+        key = (station, arm, tool.tobytes(), approaches.tobytes())
+        if key not in self._masks:
+            work = self._work
+            point = work.in_base(station, tool[None])
+            self._masks[key] = work.reach.back_offs(arm, point, approaches, work.back_offs, BACK_OFF_STEP_M)[:, 0]
+        return self._masks[key]
+
+    def _travel(self, strip: tuple[int, ...], state: State) -> list[float]:
+        """The fewest steps of the base until it stands at each back-off at the end of a path."""
+        stands = range(self._work.back_offs)
+        if state.held:
+            steps = [0.0 if stand == state.back_off else math.inf for stand in stands]
+        else:
+            steps = [float(abs(stand - state.back_off)) for stand in stands]
+        for mask in strip:
+            steps = [s if mask >> stand & 1 else math.inf for stand, s in enumerate(steps)]
+            for _ in stands:
+                beside = [min(steps[max(j - 1, 0)], steps[min(j + 1, len(steps) - 1)]) + 1.0 for j in stands]
+                steps = [
+                    min(s, b) if mask >> j & 1 else math.inf for j, (s, b) in enumerate(zip(steps, beside, strict=True))
+                ]
+        return steps
+
+    def _drags(self, state: State) -> Iterator[Way]:
+        work = self._work
+        towards = towards_robot(work, state.station)
+        if state.held or hangs_ahead(work, state.done, state.offset, towards):
+            return
+        placement = work.placed(state.offset)
+        turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
+        for cover in drag_covers(work, state.done, state.offset, towards).covers:
+            points = placement.to_outer(np.array(cover).reshape(-1, 2))
+            if not cover or nearest_pair_m(points) < GRIPS_APART_M - 1e-5:
+                continue
+            picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
+            allowed = [approaches_from_outside(work, state.done, turn, grip) for grip in cover]
+            for arms in assignments(work, state.station, points):
+                hands = zip(arms, picks, allowed, strict=True)
+                able = [self._able(state.station, *hand) for hand in hands]
+                held = tuple(Held(arm, grip) for arm, grip in sorted(zip(arms, cover, strict=True)))
+                for stand in range(work.back_offs):
+                    if all(any(int(mask) >> stand & 1 for mask in masks) for masks in able):
+                        yield from self._carried(state, stand, held)
+
+    def _carried(self, state: State, stand: int, held: tuple[Held, ...]) -> Iterator[Way]:
+        """The drags of every length that begin at a back-off, hands holding on or letting go."""
+        work = self._work
+        for tenths in range(1, longest_drag(work) + 1):
+            end, offset = stand + 2 * tenths, dragged(work, state.offset, state.station, tenths)
+            if end < work.back_offs and work.unrest(state.done, offset) is None:
+                seconds = work.scene.arm_motion_s + work.drive_s(abs(stand - state.back_off) + end - stand)
+                yield seconds, State(state.done, offset, state.station, end)
+                yield seconds, State(state.done, offset, state.station, end, held, is_dragged=True)

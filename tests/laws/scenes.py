@@ -1,0 +1,118 @@
+"""Random planning problems that are small enough to be searched to the end many times over."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from hypothesis import assume
+from hypothesis import strategies as st
+
+from planner import Plan, make_plan
+from planner.cloth.garment import Garment
+from planner.cloth.garment_files import load_garment
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import Pose2
+from planner.plan.heuristic import HEURISTICS
+from planner.primitives.primitive import Primitive, Step
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.scene import DEFAULT_STATIONS, Scene
+from planner.primitives.state import State
+from planner.primitives.work import Work
+from planner.robot.pr2 import load_robot
+from planner.search.a_star import Edge, Outcome, a_star
+from tests.builders import rectangle_points
+from tests.laws.drawings import folded
+from tests.laws.outlines import Outline, outlines
+
+MOST_STATES = 100_000
+"""No search of a small scene needs to expand more: the laws are about costs, and a budget has none."""
+
+Kinds = Sequence[Callable[[Work], Primitive]]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A garment on a table, and a robot at one of the stations.
+
+    Attributes:
+        garment: with the folds wanted; its placement is the article's.
+        scene: the scene.
+        start: where the robot stands at the start.
+        comfort_m: the comfort radius (m).
+    """
+
+    garment: Garment
+    scene: Scene
+    start: str
+    comfort_m: float = 0.0
+
+    @property
+    def work(self) -> Work:
+        """The problem as the primitives see it, nothing remembered yet."""
+        robot = load_robot("pr2")
+        reach = robot.reach(self.scene.torso_m, self.comfort_m)
+        return Work(FoldSequence.of(self.garment), self.scene, reach, self.garment.placement, robot.card.base_radius_m)
+
+    @property
+    def first_state(self) -> State:
+        return State(0, (0.0, 0.0), [name for name, _ in self.scene.stations].index(self.start), 0)
+
+    def plan(self) -> Plan:
+        """The plan that the planner makes, joint paths and all."""
+        return make_plan(
+            self.garment, self.scene, start_station=self.start, comfort_radius_m=self.comfort_m, time_limit_s=60.0
+        )
+
+    def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
+        """What the cheapest sequence of primitives costs (s); infinite when there is none."""
+        work, state = self.work, self.first_state
+        if work.unrest(state.done, state.offset) is not None:
+            return math.inf
+        primitives = [kind(work) for kind in kinds]
+
+        def successors(state: State) -> Iterator[Edge[State, Step]]:
+            for primitive in primitives:
+                for step in primitive.successors(state):
+                    yield Edge(step, step.duration_s, step.after)
+
+        everything = (1 << len(self.garment.folds)) - 1
+        bound = HEURISTICS[heuristic](work)
+        found = a_star(state, successors, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
+        assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
+        return found.cost
+
+
+@st.composite
+def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_offs: int = 9) -> Problem:
+    """A small garment in front of the first station, one to a few folds, some of the five stations."""
+    wanted = draw(st.sampled_from(range(1, most_folds + 1)))
+    cloth = draw(folded(draw(_small_outlines()), wanted, least_folds=wanted))
+    assume(cloth.folds)
+    cloth = replace(cloth, placement=draw(_placements(cloth.outline)))
+    count = draw(st.sampled_from(range(most_stations)))
+    others = draw(st.lists(st.sampled_from(list(DEFAULT_STATIONS)[1:]), min_size=count, max_size=count, unique=True))
+    stations = tuple((name, DEFAULT_STATIONS[name]) for name in ("front", *others))
+    scene = Scene(
+        stations=stations,
+        friction=draw(st.sampled_from((0.2, 0.5, 1.0))),
+        support_angle_rad=draw(st.sampled_from((0.0, math.radians(5.0), math.radians(60.0)))),
+        approach_cone_rad=draw(st.sampled_from((math.radians(75.0), math.pi))),
+        back_off_max_m=0.05 * draw(st.sampled_from(range(back_offs))),
+    )
+    return Problem(cloth, scene, draw(st.sampled_from(stations))[0], draw(st.sampled_from((0.0, 0.03))))
+
+
+def _small_outlines() -> st.SearchStrategy[Outline]:
+    side = st.integers(4, 14).map(lambda n: n * 0.05)
+    t_shirt = tuple((0.7 * x, 0.7 * y) for x, y in load_garment("t-shirt").outline)
+    return st.one_of(st.builds(rectangle_points, side, side), st.just(t_shirt), outlines(most=8, largest_m=0.6))
+
+
+@st.composite
+def _placements(draw: st.DrawFn, outline: Outline) -> Pose2:
+    """A pose whose outline's middle lies within reach of the front, upright or askew, maybe over an edge."""
+    middle = [(min(c) + max(c)) / 2 for c in zip(*outline, strict=True)]
+    yaw = draw(st.one_of(st.sampled_from([i * math.pi / 2 for i in range(4)]), st.floats(-math.pi, math.pi)))
+    x, y = draw(st.floats(-0.6, -0.1)), draw(st.floats(-0.25, 0.25))
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return Pose2(x - cos * middle[0] + sin * middle[1], y - sin * middle[0] - cos * middle[1], yaw)

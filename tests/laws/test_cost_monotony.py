@@ -1,0 +1,48 @@
+"""Whoever may do more never pays more."""
+
+from dataclasses import replace
+from itertools import combinations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.scene import DEFAULT_STATIONS
+from tests.laws.law import law
+from tests.laws.scenes import Problem, problems
+
+SECOND = 1e-6
+PROPER_SUBSETS = tuple(some for n in range(len(PRIMITIVES)) for some in combinations(PRIMITIVES, n))
+
+
+@given(problems(), st.floats(0.0, 1.5), st.floats(0.0, 1.5))
+@law("planning", short=8, long=40)
+def test_more_friction_never_costs_more(problem: Problem, one: float, other: float):
+    rough, smooth = (
+        replace(problem, scene=replace(problem.scene, friction=mu)) for mu in (max(one, other), min(one, other))
+    )
+    assert rough.cost_s() <= smooth.cost_s() + SECOND
+
+
+@given(problems(most_stations=2), st.sampled_from(sorted(DEFAULT_STATIONS)))
+@law("planning", short=8, long=40)
+def test_one_more_station_never_costs_more(problem: Problem, name: str):
+    before = problem.scene.stations
+    after = before if name in dict(before) else (*before, (name, DEFAULT_STATIONS[name]))
+    more = replace(problem, scene=replace(problem.scene, stations=after))
+    assert more.cost_s() <= problem.cost_s() + SECOND
+
+
+@given(problems(), st.sampled_from(PROPER_SUBSETS), st.sampled_from(PRIMITIVES))
+@law("planning", short=8, long=40)
+def test_one_more_primitive_never_costs_more(problem: Problem, some, another):
+    more = (*some, another)
+    assert problem.cost_s(kinds=more) <= problem.cost_s(kinds=some) + SECOND
+
+
+@given(problems(back_offs=7), st.integers(1, 3))
+@law("planning", short=8, long=30)
+def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
+    scene = problem.scene
+    roomy = replace(problem, scene=replace(scene, back_off_max_m=scene.back_off_max_m + 0.05 * steps))
+    assert roomy.cost_s() <= problem.cost_s() + SECOND

@@ -1,0 +1,97 @@
+"""The law of the Fold-DAG: every order that it allows leaves the same stack."""
+
+from dataclasses import replace
+from itertools import islice
+from random import Random
+
+import networkx as nx
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.cloth.garment import Garment
+from planner.cloth.garment_files import load_garment, shipped_garment_names
+from planner.errors import FieldError
+from planner.folds.fold_sequence import FoldSequence
+from tests.builders import fold, garment, is_same_stack, rectangle_points
+from tests.laws.drawings import folded
+from tests.laws.fold_orders import orders, replayed
+from tests.laws.law import law
+from tests.laws.outlines import outlines
+
+T_SHIRT = load_garment("t-shirt").outline
+MOST_ORDERS = 24
+
+
+def leads_elsewhere(sequence: FoldSequence, order: list[int]) -> bool:
+    """Whether an order ends in another stack, or cannot be folded at all."""
+    try:
+        return not is_same_stack(replayed(sequence, order), sequence.final)
+    except FieldError:
+        return True
+
+
+@pytest.mark.parametrize("name", shipped_garment_names())
+def test_every_allowed_order_of_a_shipped_garment_leaves_the_same_stack(name: str):
+    sequence = FoldSequence.of(load_garment(name))
+    for order in orders(sequence.dag):
+        assert is_same_stack(replayed(sequence, order), sequence.final), order
+
+
+@pytest.mark.parametrize("name", shipped_garment_names())
+def test_no_edge_of_a_shipped_garment_is_needless(name: str):
+    sequence = FoldSequence.of(load_garment(name))
+    for edge in sequence.dag.edges:
+        if any({*edge} <= {*chain} for chain in sequence.dag.chains):
+            continue
+        # Without this edge alone: what it implied by way of others stays.
+        whole = nx.transitive_closure_dag(nx.DiGraph(sequence.dag.edges))
+        rest = [pair for pair in whole.edges if pair != edge]
+        others = orders(sequence.dag, rest)
+        assert any(leads_elsewhere(sequence, order) for order in others), f"{edge} could go"
+
+
+@pytest.mark.parametrize("name", shipped_garment_names())
+def test_the_cloth_after_a_set_of_folds_is_the_same_whatever_their_order(name: str):
+    sequence = FoldSequence.of(load_garment(name))
+    for order in islice(orders(sequence.dag), 12):
+        done = 0
+        for count, index in enumerate(order, start=1):
+            done |= 1 << index
+            assert is_same_stack(replayed(sequence, order[:count]), sequence.cloth(done)), order[:count]
+
+
+OUTLINES = st.one_of(st.just(T_SHIRT), st.just(rectangle_points(0.6, 0.4)), outlines(most=12))
+GARMENTS = OUTLINES.flatmap(lambda outline: folded(outline, most_folds=5, least_folds=2))
+
+
+@given(GARMENTS)
+@law("geometry", short=40, long=2000)
+def test_every_allowed_order_of_random_folds_leaves_the_same_stack(cloth: Garment):
+    sequence = FoldSequence.of(cloth)
+    for order in islice(orders(sequence.dag), MOST_ORDERS):
+        assert is_same_stack(replayed(sequence, order), sequence.final), order
+
+
+@given(GARMENTS, st.randoms(use_true_random=False))
+@law("geometry", short=20, long=1000)
+def test_folds_given_in_another_order_wait_for_the_same_ones(cloth: Garment, rng: Random):
+    sequence = FoldSequence.of(cloth)
+    order = rng.choice(list(islice(orders(sequence.dag), MOST_ORDERS)))
+    lines = {fold.index: fold.line for fold in sequence.folds}
+    drawn = [replace(cloth.folds[i], start=lines[i].start, end=lines[i].end) for i in order]
+    other = FoldSequence.of(replace(cloth, folds=tuple(drawn)))
+    renumbered = nx.DiGraph([(order[a], order[b]) for a, b in other.dag.edges])
+    assert set(nx.transitive_closure(renumbered).edges) == set(
+        nx.transitive_closure(nx.DiGraph(sequence.dag.edges)).edges
+    )
+    assert is_same_stack(other.final, sequence.final)
+
+
+def test_a_fold_whose_line_ends_on_an_earlier_crease_waits_for_it():
+    # The brim's crease ends on the upper edge at x = 0.4. The ear's line begins on it 1 cm before that, 0.25 mm below
+    # the upper edge. Before the brim is folded it would begin inside the cloth and part nothing.
+    brim, ear = fold((0.0, 0.39), (0.4, 0.4)), fold((0.39, 0.4), (0.6, 0.3))
+    sequence = FoldSequence.of(garment(rectangle_points(0.6, 0.4), brim, ear))
+    for order in orders(sequence.dag):
+        assert is_same_stack(replayed(sequence, order), sequence.final), order

@@ -1,0 +1,70 @@
+"""A* finds what trying everything finds, and its bounds never promise too little."""
+
+import math
+
+import pytest
+from hypothesis import given
+
+from planner.plan.alone import Alone
+from planner.plan.heuristic import HEURISTICS
+from planner.primitives.primitive_set import PRIMITIVES
+from tests.laws.exhaustive import Exhaustive
+from tests.laws.law import law
+from tests.laws.scenes import Problem, problems
+
+SECOND = 1e-6
+
+
+@given(problems(most_folds=3, most_stations=2, back_offs=6))
+@law("planning", short=12, long=50)
+def test_the_search_finds_what_trying_everything_finds(problem: Problem):
+    found, tried = problem.cost_s(), Exhaustive(problem.work).cost_s(problem.first_state)
+    assert found == pytest.approx(tried, abs=SECOND)
+
+
+@given(problems())
+@law("planning", short=12, long=50)
+def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primitives(problem: Problem):
+    alone = Alone(problem.work, problem.first_state.station, lambda: False)
+    folds = range(len(problem.garment.folds))
+    assert not any(alone.is_impossible(fold) for fold in folds) or problem.cost_s() == math.inf
+
+
+@given(problems())
+@law("planning", short=4, long=30)
+def test_a_plan_is_never_cheaper_than_the_cheapest_primitives_nor_is_there_one_without_them(problem: Problem):
+    # Joint paths may take longer than the model's motions, and some cannot be had; they never make anything quicker.
+    plan = problem.plan()
+    cheapest = problem.cost_s()
+    assert plan.status != "solved" or plan.cost_s >= cheapest - SECOND
+    assert plan.status != "infeasible" or plan.reasons
+    assert math.isfinite(cheapest) or plan.status != "solved"
+
+
+@given(problems())
+@law("planning", short=12, long=50)
+def test_every_heuristic_finds_the_same_cost(problem: Problem):
+    costs = [problem.cost_s(name) for name in HEURISTICS]
+    assert costs == pytest.approx([costs[0]] * len(costs), abs=SECOND)
+
+
+@given(problems())
+@law("planning", short=12, long=50)
+def test_no_heuristic_falls_by_more_than_a_step_costs_and_each_is_nothing_at_the_goal(problem: Problem):
+    work = problem.work
+    everything = (1 << len(problem.garment.folds)) - 1
+    kinds = [kind(work) for kind in PRIMITIVES]
+    bounds = [make(work) for make in HEURISTICS.values()]
+    front, seen = [problem.first_state], {problem.first_state}
+    while front and len(seen) < 2000:
+        state = front.pop()
+        if state.done == everything:
+            assert all(bound(state) == 0.0 for bound in bounds)
+            continue
+        for step in (step for kind in kinds for step in kind.successors(state)):
+            for bound in bounds:
+                falls_by = bound(state) - bound(step.after)
+                assert falls_by <= step.duration_s + SECOND or math.isinf(bound(state))
+            if step.after not in seen:
+                seen.add(step.after)
+                front.append(step.after)

@@ -1,0 +1,131 @@
+"""The joints of films between runs, where hands are free and the base drives: clear of everything, without a gap."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from planner import Plan
+from planner.plan.cue import Cue
+from planner.plan.film import Film, FilmMaker
+from planner.plan.joint_track import CLOSED_M, OPEN_M, JointTrack
+from planner.plan.timeline import standing
+from planner.robot.pr2 import load_robot
+from tests.replay.planned import planned
+
+RATE_HZ = 25.0
+OPENING_S = 0.2
+"""Fingers begin to open so long before they are open, which is when the cloth has been laid down."""
+
+ROBOT = load_robot("pr2")
+HOME = np.array([ROBOT.home(0), ROBOT.home(1)])
+NAMES = ("hand-towel", "t-shirt", "jeans")
+
+each_name = pytest.mark.parametrize("name", NAMES)
+
+
+def film_of(plan: Plan) -> Film:
+    maker = FilmMaker(plan.maker.transits, plan.maker.collisions)
+    return maker.film(plan.acts, standing(plan.work, plan.start))
+
+
+def is_holding(cue: Cue, arm: int) -> bool:
+    hand = cue.phase.hands[arm]
+    return hand is not None and not hand.is_reaching
+
+
+def base_at(film: Film, t_s: float):
+    number = max(0, int(np.searchsorted(film.starts_s, t_s, side="right")) - 1)
+    return film.cues[number].base_at(t_s - film.starts_s[number])
+
+
+@pytest.mark.parametrize("name", NAMES[1:])
+def test_between_some_runs_the_base_drives(name):
+    # Else the tests that follow say little.
+    plan = planned(name).answer
+    assert any(cue.phase.motion is None and cue.phase.base[0] != cue.phase.base[1] for cue in film_of(plan).cues)
+
+
+@each_name
+def test_the_arms_touch_nothing_while_the_film_runs(name):
+    plan = planned(name).answer
+    film = film_of(plan)
+    collisions = ROBOT.collisions(plan.scene.table, plan.scene.torso_m)
+    times = np.arange(0.0, plan.cost_s, 1.0 / RATE_HZ)
+    bases = [base_at(film, t) for t in times]
+    joints = np.array([film.track.joints_at(t) for t in times])
+    start = 0
+    for end in range(1, len(times) + 1):
+        if end == len(times) or bases[end] != bases[start]:
+            is_free = collisions.free(bases[start], joints[start:end])
+            assert is_free.all(), f"at {times[start + int(np.argmin(is_free))]:.2f} s"
+            start = end
+
+
+@each_name
+def test_cues_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(name):
+    plan = planned(name).answer
+    film = film_of(plan)
+    for (cue, start), (after, begins) in pairwise(zip(film.cues, film.starts_s, strict=True)):
+        assert begins == pytest.approx(start + cue.duration_s)
+        assert after.primitive >= cue.primitive
+        one, other = cue.base_at(cue.duration_s), after.base_at(0.0)
+        assert (one.x_m, one.y_m) == pytest.approx((other.x_m, other.y_m), abs=1e-6)
+    assert film.starts_s[-1] + film.cues[-1].duration_s == pytest.approx(plan.cost_s)
+    assert film.track.times_s[-1] <= plan.cost_s + 1e-9
+
+
+@each_name
+def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name):
+    track = film_of(planned(name).answer).track
+    limits = np.array([arm.speeds_rad_s for arm in ROBOT.card.arms])
+    speeds = np.abs(np.diff(track.joints, axis=0)) / np.diff(track.times_s)[:, None, None]
+    assert (speeds / limits).max() <= 1.0 + 1e-6
+
+
+@each_name
+def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_end(name):
+    plan = planned(name).answer
+    film = film_of(plan)
+    for arm in (0, 1):
+        ends = [film.track.opening_at(arm, t) for t in (0.0, plan.cost_s)]
+        assert ends == pytest.approx([OPEN_M, OPEN_M])
+    held = 0
+    for (cue, after), start in zip(pairwise((*film.cues, None)), film.starts_s, strict=True):
+        for arm in (0, 1):
+            if is_holding(cue, arm):
+                held += 1
+                lasts = cue.duration_s if after is not None and is_holding(after, arm) else cue.duration_s - OPENING_S
+                for t in np.linspace(start, start + lasts, 5):
+                    assert film.track.opening_at(arm, t) == pytest.approx(CLOSED_M)
+    assert held >= len(plan.garment.folds)
+
+
+@each_name
+def test_arms_begin_at_home(name):
+    assert film_of(planned(name).answer).track.joints_at(0.0) == pytest.approx(HOME)
+
+
+def test_a_track_goes_evenly_from_keyframe_to_keyframe_and_rests_at_its_ends():
+    track = JointTrack.at_rest(HOME)
+    track.add(np.array([1.0, 2.0]), np.array([HOME + 0.4, HOME]))
+    assert track.joints_at(0.25) == pytest.approx(HOME + 0.1)
+    assert track.joints_at(1.5) == pytest.approx(HOME + 0.2)
+    assert track.joints_at(-1.0) == pytest.approx(HOME) and track.joints_at(9.0) == pytest.approx(HOME)
+
+
+def test_keyframes_that_come_too_late_are_left_out():
+    track = JointTrack.at_rest(HOME)
+    track.add(np.array([1.0, 1.0, 0.5]), np.array([HOME + 0.4, HOME + 0.8, HOME]))
+    assert track.times_s == [0.0, 1.0]
+    assert track.joints_at(1.0) == pytest.approx(HOME + 0.4)
+
+
+def test_fingers_take_a_fifth_of_a_second_to_close_and_to_open():
+    track = JointTrack.at_rest(HOME)
+    track.close(1, 2.0)
+    track.open(1, 3.0)
+    found = [track.opening_at(1, t) for t in (1.8, 1.9, 2.0, 2.8, 2.9, 3.0)]
+    middle = (OPEN_M + CLOSED_M) / 2
+    assert found == pytest.approx([OPEN_M, middle, CLOSED_M, CLOSED_M, middle, OPEN_M])
+    assert track.opening_at(0, 2.5) == OPEN_M

@@ -1,0 +1,87 @@
+"""The attempt that a reason is about is the one that came closest, and one that could really be made."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planner import Scene, load_garment, make_plan
+from planner.plan.reason_attempt import miss_of
+from planner.plan.reason_places import Places
+from planner.plan.reason_reach import nearest_miss
+from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.g_drag import GDrag
+from planner.primitives.state import State
+from planner.primitives.work import Work
+from planner.robot.shortfall import DIRECTIONS
+from tests.builders import fold, garment, rectangle_points
+from tests.plan.provoked import refused
+
+PROBLEMS = {
+    "scarf": (load_garment("scarf-halved"), Scene()),
+    "sheet": (garment(rectangle_points(0.9, 1.5), fold((0.9, 0.75), (0.0, 0.75))), Scene()),
+    "low": (
+        garment(rectangle_points(0.4, 0.4), fold((0.4, 0.2), (0.0, 0.2))),
+        Scene.from_dict({"table": {"height_m": 0.3}}),
+    ),
+}
+START = (0.0, 0.0)
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_no_attempt_came_closer(name):
+    work = _met(name)
+    places = Places(work, ())
+    nearest = nearest_miss(work, 0, {0}, places)
+    assert nearest is not None
+    others = []
+    for attempt in work.obstacles.attempts(0):
+        for index in range(len(attempt.places)):
+            state = attempt.at(index)
+            if places.stands(state) and geometric_obstacle(work, state, 0) is None:
+                trials = (t for t in fold_trials(work, state, 0) if (t.cover, t.arms) == (attempt.cover, attempt.arms))
+                others += [miss_of(work, state, trial, places.stands(state), math.inf) for trial in trials]
+    assert len(others) > 10
+    assert nearest.short_by_m == pytest.approx(min(o.short_by_m for o in others if o is not None), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
+    work = _met(name)
+    nearest = nearest_miss(work, 0, {0}, Places(work, ()))
+    assert nearest is not None
+    state = nearest.state
+    stations = [state.station] if state.held else range(len(work.scene.stations))
+    drags = [s.after for station in stations for s in GDrag(work).successors(State(0, START, station, 0))]
+    led_to = [after for after in drags if math.dist(after.offset, state.offset) < 1e-6]
+    held = {(h.arm, h.point) for h in state.held}
+    is_at_start = math.dist(state.offset, START) < 1e-6 and not held
+    assert is_at_start or any({(h.arm, h.point) for h in after.held} == held for after in led_to)
+
+
+def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere():
+    # What is held may be held in any approach, so the reason's point must not be in reach in any.
+    reason = refused(*PROBLEMS["sheet"]).reasons[0]
+    assert "and held on to" in reason.message and "orientation" not in reason.message
+    work = _met("sheet")
+    station = [name for name, _ in work.scene.stations].index(reason.station)
+    arm, every = work.reach.arm_names.index(reason.arm), np.arange(len(work.reach.approaches))
+    there = work.in_base(station, np.array([reason.point]))
+    pose = work.station_pose(station)
+    towards = pose.to_inner(np.array(reason.towards) + np.array([pose.x_m, pose.y_m, 0.0]))
+    back = np.array([reason.back_off_m, 0.0, 0.0])
+    assert work.reach.from_anywhere(arm, there + back + (reason.short_by_m + 0.001) * towards, every, 1, 0.0).any()
+    for distance in np.arange(0.0, reason.short_by_m - 0.002, 0.004):
+        assert not work.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, work.back_offs, 0.05).any()
+
+
+def test_a_reason_is_the_same_every_time():
+    first, second = (refused(*PROBLEMS["scarf"]).to_dict()["reasons"] for _ in range(2))
+    assert first == second
+
+
+def _met(name: str) -> Work:
+    """A problem with all that was met before it was known to have no plan."""
+    answer = make_plan(*PROBLEMS[name], time_limit_s=60.0)
+    assert answer.status == "infeasible"
+    return answer.work

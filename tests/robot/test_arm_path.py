@@ -1,0 +1,158 @@
+"""Joints along a tool's path: exactly on it, within their limits, without a leap, round what is forbidden."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray
+from planner.robot.arm import MIRROR
+from planner.robot.arm_path import ToolPath
+from planner.robot.pr2 import load_robot
+from tests.robot.model import limits, pin_tool_pose
+
+ROBOT = load_robot("pr2")
+CARD = ROBOT.card
+TORSO_M, TABLE_M = 0.29, 0.79
+PITCHES_DEG = (30, 45, 60, 90)
+LEAP_RAD = 0.4
+FREE_M = 0.15
+"""A left tool may come nearer to the base's middle line than its shoulder is."""
+
+SIDEWAYS = np.array([1.0, -1.0, 1.0])
+
+
+def line(start: tuple[float, float, float], end: tuple[float, float, float], pitch_deg: float) -> ToolPath:
+    """A straight way in steps of a centimetre, in one orientation, on which time does not press."""
+    count = math.ceil(math.dist(start, end) / 0.01) + 1
+    rotation = Approach(0.0, math.radians(pitch_deg)).rotation
+    return ToolPath(
+        np.linspace(start, end, count), np.broadcast_to(rotation, (count, 3, 3)), np.full(count - 1, np.inf)
+    )
+
+
+def across(pitch_deg: float) -> ToolPath:
+    """Over the table, from the left arm's side to the middle, 0.28 m."""
+    return line((0.55, 0.35, 0.9), (0.75, FREE_M, 0.9), pitch_deg)
+
+
+def mirrored(path: ToolPath) -> ToolPath:
+    """The path that the other arm sees: y is turned round, and so is the side of the hand."""
+    rotations = path.rotations * np.outer(SIDEWAYS, SIDEWAYS)
+    return ToolPath(path.positions * SIDEWAYS, rotations, path.spans_s)
+
+
+def everywhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    return np.ones(len(joints), dtype=bool)
+
+
+def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    return np.zeros(len(joints), dtype=bool)
+
+
+def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | None:
+    return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free)
+
+
+def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
+    """The tool is where it must be at every pose, joints are within their limits, and none leaps."""
+    low, high = limits(CARD, arm)
+    assert joints.shape == (len(path.positions), 7)
+    for at, position, rotation in zip(joints, path.positions, path.rotations, strict=True):
+        for pose in (ROBOT.tool_pose(arm, at, TORSO_M), pin_tool_pose(CARD, arm, at, TORSO_M)):
+            np.testing.assert_allclose(pose[0], position, atol=1e-6)
+            np.testing.assert_allclose(pose[1], rotation, atol=1e-6)
+    assert (joints >= low - 1e-9).all() and (joints <= high + 1e-9).all()
+    assert np.abs(np.diff(joints, axis=0)).max() < LEAP_RAD
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+@pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
+def test_the_tool_is_on_its_path_at_every_pose(pitch_deg, arm):
+    path = across(pitch_deg) if arm == 0 else mirrored(across(pitch_deg))
+    require_followed(path, found(path, arm=arm), arm)
+
+
+def test_so_it_is_on_random_lines():
+    rng, followed = np.random.default_rng(11), 0
+    for _ in range(30):
+        start, end = rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2)), rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2))
+        path = line(tuple(start), tuple(end), rng.choice(PITCHES_DEG))
+        joints = found(path)
+        if joints is not None:
+            require_followed(path, joints)
+            followed += 1
+        assert joints is not None or not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
+    assert followed > 15
+
+
+def test_a_hand_that_turns_over_is_followed_too():
+    path = line((0.6, 0.3, 0.9), (0.6, 0.3, 1.1), 30)
+    turns = np.linspace(0.0, math.pi, len(path.positions))
+    about_x = np.array([[[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]] for a in turns])
+    rolled = ToolPath(path.positions, path.rotations @ about_x, path.spans_s)
+    require_followed(rolled, found(rolled))
+
+
+def test_a_path_that_leaves_the_reach_has_no_joints():
+    # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead.
+    assert found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)) is None
+
+
+def test_where_everything_collides_there_are_no_joints():
+    assert found(across(45), nowhere) is None
+
+
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
+    path = across(45)
+    wall_rad = 0.6
+
+    def beside(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return joints[:, 0] < wall_rad
+
+    calm, other = found(path), found(path, beside)
+    assert calm[:, 0].max() > wall_rad, "else the wall is in nobody's way"
+    require_followed(path, other)
+    assert other[:, 0].max() < wall_rad
+
+
+def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
+    path = across(45)
+    middle = len(path.positions) // 2
+
+    def gate(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return (np.abs(poses - middle) > 2) | (joints[:, 0] < 0.5)
+
+    calm, other = found(path), found(path, gate)
+    assert calm[middle, 0] > 0.5, "else the gate is wide enough"
+    require_followed(path, other)
+    assert other[middle - 2 : middle + 3, 0].max() < 0.5
+
+
+def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
+    # Asked for certainty nothing is free: samples may be struck out for that only where the path found collides.
+    path = across(45)
+
+    def doubtful(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return np.full(len(joints), not is_certain)
+
+    np.testing.assert_array_equal(found(path, doubtful), found(path))
+
+
+@pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
+def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg):
+    path = across(pitch_deg)
+    np.testing.assert_allclose(found(mirrored(path), arm=1), found(path) * MIRROR, atol=1e-9)
+
+
+def test_so_has_what_goes_round_a_wall():
+    path = across(45)
+    left = found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6)
+    right = found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1)
+    np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
+
+
+def test_elbows_stay_above_the_table_where_they_can():
+    for pitch_deg in PITCHES_DEG:
+        joints = found(across(pitch_deg))
+        assert min(ROBOT.elbow_height(0, at, TORSO_M) for at in joints) > TABLE_M
