@@ -35,10 +35,10 @@ types: $(READY_DEV)
 	$(BIN)/mypy
 
 test-quick: $(READY_DEV)
-	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow"
+	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow" --ignore=tests/laws
 
-test: $(READY_DEV) browser ## every test
-	$(PYTEST) -n $(JOBS) --dist loadfile
+test: $(READY_DEV) browser ## every test but the property laws, which `make test-long` runs
+	$(PYTEST) -n $(JOBS) --dist loadfile --ignore=tests/laws
 
 test-long: $(READY_DEV) browser ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long
