@@ -5,7 +5,6 @@ part of the path, so that the joints with which the cloth is taken are ones with
 Arms are led one after the other, the second round the first; if that fails, in the other order.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise, permutations, product
 
@@ -15,8 +14,8 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import grid_key
 from planner.plan.machine import Collisions, Machine
-from planner.plan.moments import Moments
-from planner.robot.arm_path import ToolPath
+from planner.plan.moments import Moments, about_x
+from planner.robot.arm_path import NoPath, ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12
 """How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""
@@ -107,31 +106,40 @@ class Carrier:
             return None
         is_steep = all(moments.rotations[arm, 0, 2, 0] < -_STEEP for arm in arms)
         for roll in (_OVER, _BESIDE) if is_steep else (_BESIDE,):
-            near = self._with_lines(arms, moments, roll, _NEAR)
-            if near is not None:
-                return self._with_lines(arms, moments, roll, _FAR) or near
+            for shares in (_FAR, _NEAR):
+                found = self._with_lines(arms, moments, roll, shares)
+                if isinstance(found, Carried):
+                    return found
+                if len(found.blocked):
+                    break
         return None
 
-    def _with_lines(self, arms: list[int], moments: Moments, roll_rad: float, shares: Shares) -> Carried | None:
-        """The joints of a run whose hands come and leave along the first of some lines that there is room for."""
+    def _with_lines(self, arms: list[int], moments: Moments, roll_rad: float, shares: Shares) -> Carried | NoPath:
+        """The joints of a run whose hands come and leave along the first of some lines that there is room for.
+
+        Where there are none, the moments are told at which an arm collides whatever it does, or cannot pass the other.
+        """
         ways = [self._way(arm, moments, roll_rad, shares) for arm in arms]
         before = max(len(way.coming) for way in ways) - 1
         after = max(len(way.leaving) for way in ways) - 1
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
         bases = np.concatenate([start, moments.bases, end])
         leads = [way.lead(before, after) for way in ways]
-        alone = {lead.arm: self._alone(lead, bases) for lead in leads}
-        if any(joints is None for joints in alone.values()):
-            return None
+        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in leads}
+        for found in alone.values():
+            if isinstance(found, NoPath):
+                return found.within(before, before + len(moments))
+        none = []
         for order in permutations(leads):
             joints = self._led(order, bases, alone[order[0].arm])
-            if joints is not None:
+            if not isinstance(joints, NoPath):
                 return Carried(moments, bases, joints, before, np.asarray(moments.is_held.any(axis=1)))
-        return None
+            none.append(joints.within(before, before + len(moments)))
+        return min(none, key=lambda one: len(one.blocked))
 
-    def _alone(self, lead: _Lead, bases: FloatArray) -> FloatArray | None:
-        """One arm's joints, the others out of the way."""
-        question = _Question(self._collisions, lead.arm, bases, None)
+    def _arm_path(self, lead: _Lead, bases: FloatArray, others: FloatArray | None) -> FloatArray | NoPath:
+        """One arm's joints, the others as they are at each step; None: out of the way."""
+        question = _Question(self._collisions, lead.arm, bases, others)
         return self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, question.is_free)
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int) -> bool:
@@ -164,17 +172,14 @@ class Carrier:
             )
         return self._places[key]
 
-    def _led(self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | None) -> FloatArray | None:
+    def _led(self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | NoPath) -> FloatArray | NoPath:
         """All arms' joints, one arm led after the other, the first as it would go alone if there are more."""
         homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
         joints = np.broadcast_to(homes, (len(bases), *homes.shape)).copy()
         for number, lead in enumerate(order):
-            found = first
-            if number > 0 or len(order) == 1:
-                question = _Question(self._collisions, lead.arm, bases, joints)
-                found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, question.is_free)
-            if found is None:
-                return None
+            found = first if number == 0 and len(order) > 1 else self._arm_path(lead, bases, joints)
+            if isinstance(found, NoPath):
+                return found
             joints[: lead.last, lead.arm] = found
             joints[lead.last :, lead.arm] = found[-1]
         return joints
@@ -182,7 +187,7 @@ class Carrier:
     def _way(self, arm: int, moments: Moments, roll_rad: float, shares: Shares) -> "_Way":
         held = np.flatnonzero(moments.is_held[arm])
         positions = moments.positions[arm, held]
-        rotations = moments.rotations[arm, held] @ _about_x(roll_rad)
+        rotations = moments.rotations[arm, held] @ about_x(np.array([roll_rad]))[0]
         upwards = np.array([0.0, 0.0, 1.0])
         coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
         leaving *= RETREAT_M / np.linalg.norm(leaving)
@@ -260,8 +265,6 @@ class _Question:
         self._arm = arm
         self._bases = bases
         self._others = others
-        moved = np.any(np.diff(bases, axis=0) != 0.0, axis=1)
-        self._stands = np.append(0, np.cumsum(moved))
 
     def is_free(self, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
         """For joints of the arm at some steps, shape (m,) and (m, 7)."""
@@ -270,22 +273,8 @@ class _Question:
             both = self._others[steps].copy()
             both[:, self._arm] = joints
             answers = self._collisions.arms_apart(both, is_certain=is_certain)
-        for rows in self._by_stand(steps):
-            asked = rows[answers[rows]]
-            if len(asked):
-                x, y, yaw = self._bases[steps[asked[0]]]
-                answers[asked] = self._collisions.arm_free(
-                    self._arm, Pose2(x, y, yaw), joints[asked], is_certain=is_certain
-                )
+        asked = np.flatnonzero(answers)
+        answers[asked] = self._collisions.arm_free(
+            self._arm, self._bases[steps[asked]], joints[asked], is_certain=is_certain
+        )
         return answers
-
-    def _by_stand(self, steps: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
-        """The rows of steps at which the base stands in the same place."""
-        stands = self._stands[steps]
-        order = np.argsort(stands, kind="stable")
-        yield from np.split(order, np.flatnonzero(np.diff(stands[order])) + 1)
-
-
-def _about_x(angle_rad: float) -> FloatArray:
-    cos, sin = np.cos(angle_rad), np.sin(angle_rad)
-    return np.array([[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]])

@@ -205,11 +205,7 @@ class FilmMaker:
         moments = np.linspace(window.start_s, window.end_s, count + 1)
         bases = np.array([window.base_at(t) for t in moments])
         there = np.array([track.joints_at(t) for t in moments])
-        stands, group = np.unique(bases, axis=0, return_inverse=True)
-        return all(
-            self._collisions.free(pose_of(stand), there[group.ravel() == number]).all()
-            for number, stand in enumerate(stands)
-        )
+        return bool(self._collisions.free(bases, there).all())
 
     def _waiting(
         self, window: _Window, lead: FloatArray, run: RealRun

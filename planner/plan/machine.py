@@ -6,19 +6,24 @@ from typing import Protocol
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.primitives.reach import Reach
-from planner.robot.arm_path import IsFree, ToolPath
+from planner.robot.arm_path import IsFree, NoPath, ToolPath
 from planner.robot.card import RobotCard
 from planner.robot.collision.contact import Contact
 
 
 class Collisions(Protocol):
-    """What of a robot is in whose way. Joints are in rad, bases are poses of the table frame."""
+    """What of a robot is in whose way.
 
-    def free(self, base_in_table: Pose2, joints: FloatArray) -> BoolArray:
+    Joints are in rad. Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, (n, 3).
+    """
+
+    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         """Which configurations of all arms, shape (n, arms, 7), touch nothing; shape (n,)."""
         ...
 
-    def arm_free(self, arm: int, base_in_table: Pose2, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+    def arm_free(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
         """At which joints of one arm, shape (n, 7), it touches neither body nor table; shape (n,).
 
         Only what is certainly so counts if that is asked for, which is quicker.
@@ -60,8 +65,10 @@ class Machine(Protocol):
         """Which tool poses of the base frame, shapes (n, 3) and (n, 3, 3), an arm can take; shape (n,)."""
         ...
 
-    def arm_path(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> FloatArray | None:
-        """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; None without any.
+    def arm_path(
+        self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+    ) -> FloatArray | NoPath:
+        """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; or that there are none.
 
         Args:
             arm: which arm.

@@ -148,7 +148,7 @@ class _Sampler:
             if hand is not None:
                 positions[arm] = self._in_base(bases, _along(np.array(hand.points), shares))
                 rolls = self._rolls[arm] + _along(_rolls(hand)[:, None], shares)[:, 0]
-                rotations[arm] = hand.approach.rotation @ _about_x(rolls)
+                rotations[arm] = hand.approach.rotation @ about_x(rolls)
         nominal_s = phase.duration_s * np.diff(shares, prepend=0.0)
         is_driving = np.full(count, phase.motion is None)
         return Moments(np.full(count, number), shares, bases, positions, rotations, nominal_s, is_driving)
@@ -160,9 +160,14 @@ class _Sampler:
         return np.column_stack([cos * dx + sin * dy, cos * dy - sin * dx, points[:, 2] + self._height_m])
 
 
-def _about_x(angles_rad: FloatArray) -> FloatArray:
+def about_x(angles_rad: FloatArray) -> FloatArray:
     """The rotations about the x axis, shape (n,) -> (n, 3, 3)."""
-    return np.asarray(Rotation.from_euler("x", np.asarray(angles_rad)[:, None]).as_matrix())
+    turns = np.zeros((len(angles_rad), 3, 3))
+    turns[:, 0, 0] = 1.0
+    turns[:, 1, 1] = turns[:, 2, 2] = np.cos(angles_rad)
+    turns[:, 2, 1] = np.sin(angles_rad)
+    turns[:, 1, 2] = -turns[:, 2, 1]
+    return turns
 
 
 def _rotations(headings_rad: FloatArray, pitches_rad: FloatArray, rolls_rad: FloatArray) -> FloatArray:

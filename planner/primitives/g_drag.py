@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import product
 from typing import Any
 
@@ -116,6 +116,10 @@ class DragStep:
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, back off with the cloth."""
+        return self._phases
+
+    @cached_property
+    def _phases(self) -> tuple[Phase, ...]:
         work = self.work
         begin, stand, end = (
             work.base_pose(self.before.station, b)

@@ -77,6 +77,10 @@ class FoldStep:
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, and follow the path with the base's legs in between."""
+        return self._phases
+
+    @cached_property
+    def _phases(self) -> tuple[Phase, ...]:
         begin = () if self.before.held else self._begin()
         return (*begin, *self._follow())
 

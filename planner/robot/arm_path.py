@@ -46,9 +46,24 @@ class ToolPath:
     spans_s: FloatArray
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class NoPath:
+    """There is no path for an arm.
+
+    Attributes:
+        blocked: poses at which it collides whatever it does; none where it is only cut off, shape (k,).
+    """
+
+    blocked: NDArray[np.int64]
+
+    def within(self, first: int, last: int) -> "NoPath":
+        """The same of a part of the path, counted from its first pose."""
+        return NoPath(self.blocked[(self.blocked >= first) & (self.blocked < last)] - first)
+
+
 def arm_path(
     arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
-) -> FloatArray | None:
+) -> FloatArray | NoPath:
     """The calmest joints that keep the tool on a path.
 
     Args:
@@ -60,7 +75,7 @@ def arm_path(
         is_free: which joints do not collide.
 
     Returns:
-        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None if there are none.
+        Joints (rad), shape (n, 7), forearm and wrist roll unwound; or that there are none.
     """
     return _ArmPath(arm, speeds, path, torso_m, floor_m, is_free).found()
 
@@ -107,11 +122,11 @@ class _ArmPath:
         self._spans = np.add.reduceat(np.append(path.spans_s, 0.0), self._links)[:-1]
         self._is_asked = np.zeros(len(self._links), dtype=bool)
 
-    def found(self) -> FloatArray | None:
+    def found(self) -> FloatArray | NoPath:
         for number in range(_TRIES_MAX):
             chain = cheapest_chain(self._samples, self._costs, self._speeds, self._spans)
             if not len(chain):
-                return None
+                break
             guides = self._guides(chain)
             bad = self._links[~self._is_free(self._links, self._arm.mirrored_joints(guides), False)]
             if not len(bad):
@@ -119,7 +134,7 @@ class _ArmPath:
             if not len(bad):
                 return self._smoothed(guides, joints)
             self._strike(chain, self._links if number == 1 else bad)
-        return None
+        return NoPath(self._links[np.isinf(self._costs).all(axis=1)])
 
     def _guides(self, chain: NDArray[np.int64]) -> FloatArray:
         """The chain's joints, continuous ones unwound, shape (links, 7)."""

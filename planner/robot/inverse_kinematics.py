@@ -25,8 +25,9 @@ SAMPLES = 16
 FINEST = 1e-7
 """Settling ends when its step along the curve is smaller than this (rad)."""
 
-NEARBY, SETTLED = 0.2, 1e-4
-"""How far along the curve neighbouring poses of a path may be apart, and how finely they are settled (rad)."""
+NEARBY, SETTLED, PROBE = 0.2, 1e-4, 1e-5
+"""How far along the curve neighbouring poses of a path may be apart, how finely they are settled, and how far on it is
+looked which way to go (rad)."""
 
 X, Y, Z = 0, 1, 2
 
@@ -183,7 +184,7 @@ def nearby_joints(
 ) -> tuple[bool, FloatArray]:
     """Joints that bring the tool to a pose, settled from where the pan is now; and whether there are any there.
 
-    As `nearest_joints`, but blind to what is far away, and in a third of the time: for neighbouring poses of a path.
+    As `nearest_joints`, but blind to what is far away, and by Gauss-Newton steps: for neighbouring poses of a path.
     """
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
     arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
@@ -196,12 +197,48 @@ def nearby_joints(
                 best, best_arc, best_theta = distance, arc, theta
     if best_arc < 0:
         return False, joints
-    step = NEARBY
-    while step > SETTLED:
-        step *= 0.5
-        for theta in (best_theta - step, best_theta + step):
-            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)
-            if distance < best:
-                best, best_theta = distance, theta
+    ahead = np.empty(7)
     _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
-    return True, joints
+    while True:
+        step = _step_towards(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, ahead, frame)
+        is_nearer = False
+        while abs(step) > SETTLED and not is_nearer:
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta + step, ahead, frame)
+            is_nearer = distance < best
+            if is_nearer:
+                best, best_theta = distance, best_theta + step
+                joints[:] = ahead
+            step *= 0.5
+        if not is_nearer:
+            return True, joints
+
+
+@njit(cache=True, nogil=True)
+def _step_towards(
+    shape: ArmShape,
+    aim: Aim,
+    rotation: FloatArray,
+    near: FloatArray,
+    arc: FloatArray,
+    theta: float,
+    joints: FloatArray,
+    ahead: FloatArray,
+    frame: FloatArray,
+) -> float:
+    """How far along an arc's curve the joints would be nearest to `near` if they went on straight (rad).
+
+    `ahead` and `frame` are scratch space, shapes (7,) and (3, 3).
+    """
+    probe = PROBE
+    if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+        probe = -PROBE
+        if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+            return 0.0
+    along, squared = 0.0, 0.0
+    for i in range(7):
+        rate = (ahead[i] - joints[i]) / probe
+        along += rate * (near[i] - joints[i])
+        squared += rate * rate
+    if squared == 0.0:
+        return 0.0
+    return min(max(along / squared, -NEARBY), NEARBY)

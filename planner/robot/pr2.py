@@ -10,7 +10,7 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
-from planner.robot.arm_path import IsFree, ToolPath, arm_path, free_postures
+from planner.robot.arm_path import IsFree, NoPath, ToolPath, arm_path, free_postures
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -119,8 +119,10 @@ class Pr2:
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 
-    def arm_path(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> FloatArray | None:
-        """The calmest joints that keep an arm's tool on a path; None if there are none (see `arm_path`).
+    def arm_path(
+        self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+    ) -> FloatArray | NoPath:
+        """The calmest joints that keep an arm's tool on a path, or that there are none (see `arm_path`).
 
         Args:
             arm: which arm.

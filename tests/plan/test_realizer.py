@@ -111,13 +111,15 @@ class BarredCollisions:
         self._real = real
         self._is_barred = is_barred
 
-    def free(self, base_in_table: Pose2, joints: FloatArray) -> BoolArray:
-        return self._real.free(base_in_table, joints)
+    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+        return self._real.free(bases, joints)
 
-    def arm_free(self, arm: int, base_in_table: Pose2, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        if self._is_barred(arm, base_in_table):
-            return np.zeros(len(joints), dtype=bool)
-        return self._real.arm_free(arm, base_in_table, joints, is_certain=is_certain)
+    def arm_free(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
+        stands = [bases] * len(joints) if isinstance(bases, Pose2) else [Pose2(*base) for base in bases]
+        is_open = np.array([not self._is_barred(arm, stand) for stand in stands], dtype=bool)
+        return is_open & self._real.arm_free(arm, bases, joints, is_certain=is_certain)
 
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         return self._real.arms_apart(joints, is_certain=is_certain)

@@ -7,7 +7,7 @@ import pytest
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robot.arm import MIRROR
-from planner.robot.arm_path import ToolPath
+from planner.robot.arm_path import NoPath, ToolPath
 from planner.robot.pr2 import load_robot
 from tests.robot.model import limits, pin_tool_pose
 
@@ -50,7 +50,7 @@ def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
     return np.zeros(len(joints), dtype=bool)
 
 
-def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | None:
+def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | NoPath:
     return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free)
 
 
@@ -79,10 +79,11 @@ def test_so_it_is_on_random_lines():
         start, end = rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2)), rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2))
         path = line(tuple(start), tuple(end), rng.choice(PITCHES_DEG))
         joints = found(path)
-        if joints is not None:
+        is_path = not isinstance(joints, NoPath)
+        if is_path:
             require_followed(path, joints)
             followed += 1
-        assert joints is not None or not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
+        assert is_path or not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
     assert followed > 15
 
 
@@ -94,13 +95,21 @@ def test_a_hand_that_turns_over_is_followed_too():
     require_followed(rolled, found(rolled))
 
 
-def test_a_path_that_leaves_the_reach_has_no_joints():
-    # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead.
-    assert found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)) is None
+def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside():
+    # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead. The
+    # path goes on to 1 m; of its 41 poses, 1 cm apart from 0.6 m on, every third and the last are looked at.
+    blocked = found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)).blocked
+    assert {36, 39, 40} <= set(blocked) <= {27, 30, 33, 36, 39, 40}, (
+        "what is nearer than 0.86 m is in reach at any rate"
+    )
 
 
-def test_where_everything_collides_there_are_no_joints():
-    assert found(across(45), nowhere) is None
+def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked():
+    assert found(across(45), nowhere).blocked.tolist() == [*range(0, 29, 3), 29]
+
+
+def test_poses_of_a_part_of_a_path_are_counted_from_its_start():
+    assert NoPath(np.array([0, 3, 6, 9])).within(3, 9).blocked.tolist() == [0, 3]
 
 
 def test_an_arm_goes_round_what_the_calmest_path_would_run_into():

@@ -126,6 +126,26 @@ def test_a_posture_is_answered_alike_alone_and_among_others():
     assert COLLISIONS.free(FRONT, postures[:0]).shape == (0,)
 
 
+def test_each_posture_may_have_a_base_of_its_own():
+    postures, rng = random_postures(60, 19), np.random.default_rng(20)
+    bases = np.column_stack([rng.uniform(-1.5, -0.9, 60), rng.uniform(-0.4, 0.4, 60), rng.uniform(-0.4, 0.4, 60)])
+    alone = [
+        bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, postures, strict=True)
+    ]
+    assert COLLISIONS.free(bases, postures).tolist() == alone
+    assert len(set(alone)) == 2
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm):
+    postures = random_postures(5000, 21)[:, arm]
+    is_free, is_certain = (COLLISIONS.arm_free(arm, FRONT, postures, is_certain=only) for only in (False, True))
+    assert not np.any(is_certain & ~is_free)
+    clear = ROBOT.collisions(Table(), TORSO_M, margin_m=0.01).arm_free(arm, FRONT, postures)
+    assert clear.sum() > 2000
+    assert np.count_nonzero(is_certain[clear]) > 0.998 * clear.sum()
+
+
 def test_the_deepest_contact_is_none_exactly_where_nothing_collides():
     postures = random_postures(100, 16)
     contacts = [COLLISIONS.deepest_contact(FRONT, posture) for posture in postures]

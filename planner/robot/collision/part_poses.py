@@ -1,4 +1,4 @@
-"""Where an arm's parts are at its seven joints, compiled.
+"""Where an arm's parts are at its seven joints, and the table's at a place of the base, compiled.
 
 The parts of the right arm are those of the left one seen in a mirror: their frames are left-handed, and the corners of
 the left one's hulls, put into them, are those of the right one's.
@@ -6,6 +6,8 @@ the left one's hulls, put into them, are those of the right one's.
 A pose is five rows of three: the rotation, the place of the frame's origin, and where the middle of the part's
 bounding box is (m), all in the base frame.
 """
+
+import math
 
 import numpy as np
 from numba import njit
@@ -66,6 +68,25 @@ def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, po
     turn(frame, Y, Z, side * joints[6])
     for part in range(PALM, EACH):
         _set_pose(poses[part], frame, x, y, z, side)
+
+
+@njit(cache=True, nogil=True)
+def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
+    """Set rotation and place of the table's parts in the base frame.
+
+    Args:
+        base: x (m), y (m), yaw (rad), table frame.
+        tables: the parts' places in the table frame but over the floor (m), shape (t, 3).
+        poses: to be set, shape (t, 5, 3).
+    """
+    cos, sin = math.cos(base[2]), math.sin(base[2])
+    for part in range(len(tables)):
+        x, y = tables[part, 0] - base[0], tables[part, 1] - base[1]
+        pose = poses[part]
+        pose[0, 0], pose[0, 1], pose[0, 2] = cos, sin, 0.0
+        pose[1, 0], pose[1, 1], pose[1, 2] = -sin, cos, 0.0
+        pose[2, 0], pose[2, 1], pose[2, 2] = 0.0, 0.0, 1.0
+        pose[PLACE, 0], pose[PLACE, 1], pose[PLACE, 2] = cos * x + sin * y, cos * y - sin * x, tables[part, 2]
 
 
 @njit(cache=True, nogil=True)

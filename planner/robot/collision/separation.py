@@ -7,7 +7,8 @@ algorithm. A pair is certainly apart if
 - the sphere round one does not reach the box round the other, or
 - some plane has one on this side and the other on that. It is looked for as by Chung and Wang (1996): along a
   direction d the two come nearest with the points p and q; if p is beyond q, the plane is found, else the direction
-  is reflected at p - q, which has every plane that is possible on its further side.
+  is reflected at p - q, which has every plane that is possible on its further side. Over the middle of a table that
+  turns round and round, so the axes of one of the two are tried as well.
 
 Arrays are handed on one by one: to take them out of a tuple in the inner loop costs more than the loop does.
 """
@@ -20,7 +21,7 @@ from numba import njit
 
 from planner.geometry.pose import FloatArray
 from planner.robot.arm import ArmShape
-from planner.robot.collision.part_poses import EACH, MIDDLE, PLACE, Index, pose_arm, set_middles
+from planner.robot.collision.part_poses import EACH, MIDDLE, PLACE, Index, pose_arm, pose_table, set_middles
 
 REFLECTIONS = 12
 """So many directions are tried for a pair."""
@@ -84,38 +85,59 @@ def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner:
 
 
 @njit(cache=True, nogil=True)
+def _nearest_along(
+    corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, x: float, y: float, z: float
+) -> tuple[float, float, float]:
+    """From part b, a gap (m) added to it, to part a, between the points that are nearest along a unit direction (m)."""
+    ax = -(r[a, 0, 0] * x + r[a, 1, 0] * y + r[a, 2, 0] * z)
+    ay = -(r[a, 0, 1] * x + r[a, 1, 1] * y + r[a, 2, 1] * z)
+    az = -(r[a, 0, 2] * x + r[a, 1, 2] * y + r[a, 2, 2] * z)
+    p = _furthest(corners, spans[a, 0], spans[a, 1], ax, ay, az)
+    bx = r[b, 0, 0] * x + r[b, 1, 0] * y + r[b, 2, 0] * z
+    by = r[b, 0, 1] * x + r[b, 1, 1] * y + r[b, 2, 1] * z
+    bz = r[b, 0, 2] * x + r[b, 1, 2] * y + r[b, 2, 2] * z
+    q = _furthest(corners, spans[b, 0], spans[b, 1], bx, by, bz)
+    tx, ty, tz = r[a, PLACE, 0] - r[b, PLACE, 0], r[a, PLACE, 1] - r[b, PLACE, 1], r[a, PLACE, 2] - r[b, PLACE, 2]
+    return (
+        tx + _turned(r, a, 0, corners, p) - _turned(r, b, 0, corners, q) - gap * x,
+        ty + _turned(r, a, 1, corners, p) - _turned(r, b, 1, corners, q) - gap * y,
+        tz + _turned(r, a, 2, corners, p) - _turned(r, b, 2, corners, q) - gap * z,
+    )
+
+
+@njit(cache=True, nogil=True)
 def _is_plane_between(
     corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: tuple[float, float, float]
 ) -> bool:
-    """Whether a plane is found with part b, a gap (m), and part a behind each other along a direction like `way`."""
-    tx, ty, tz = r[a, PLACE, 0] - r[b, PLACE, 0], r[a, PLACE, 1] - r[b, PLACE, 1], r[a, PLACE, 2] - r[b, PLACE, 2]
+    """Whether a plane is found with part b, a gap (m), and part a behind each other.
+
+    It is looked for along a direction like `way` at first, and along the axes of part b in the end.
+    """
+    tx, ty, tz = r[a, MIDDLE, 0] - r[b, MIDDLE, 0], r[a, MIDDLE, 1] - r[b, MIDDLE, 1], r[a, MIDDLE, 2] - r[b, MIDDLE, 2]
     dx, dy, dz = way
     if dx == 0.0 and dy == 0.0 and dz == 0.0:
         dx, dy, dz = tx, ty, tz
     for _ in range(REFLECTIONS):
         length = math.sqrt(dx * dx + dy * dy + dz * dz)
         if length == 0.0:
-            return False
+            break
         dx, dy, dz = dx / length, dy / length, dz / length
-        ax = -(r[a, 0, 0] * dx + r[a, 1, 0] * dy + r[a, 2, 0] * dz)
-        ay = -(r[a, 0, 1] * dx + r[a, 1, 1] * dy + r[a, 2, 1] * dz)
-        az = -(r[a, 0, 2] * dx + r[a, 1, 2] * dy + r[a, 2, 2] * dz)
-        p = _furthest(corners, spans[a, 0], spans[a, 1], ax, ay, az)
-        bx = r[b, 0, 0] * dx + r[b, 1, 0] * dy + r[b, 2, 0] * dz
-        by = r[b, 0, 1] * dx + r[b, 1, 1] * dy + r[b, 2, 1] * dz
-        bz = r[b, 0, 2] * dx + r[b, 1, 2] * dy + r[b, 2, 2] * dz
-        q = _furthest(corners, spans[b, 0], spans[b, 1], bx, by, bz)
-        wx = tx + _turned(r, a, 0, corners, p) - _turned(r, b, 0, corners, q) - gap * dx
-        wy = ty + _turned(r, a, 1, corners, p) - _turned(r, b, 1, corners, q) - gap * dy
-        wz = tz + _turned(r, a, 2, corners, p) - _turned(r, b, 2, corners, q) - gap * dz
+        wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
         along = wx * dx + wy * dy + wz * dz
         if along > 0.0:
             return True
         squared = wx * wx + wy * wy + wz * wz
         if squared == 0.0:
-            return False
+            break
         back = 2.0 * along / squared
         dx, dy, dz = dx - back * wx, dy - back * wy, dz - back * wz
+    for axis in range(3):
+        dx, dy, dz = r[b, 0, axis], r[b, 1, axis], r[b, 2, axis]
+        if dx * tx + dy * ty + dz * tz < 0.0:
+            dx, dy, dz = -dx, -dy, -dz
+        wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
+        if wx * dx + wy * dy + wz * dz > 0.0:
+            return True
     return False
 
 
@@ -149,6 +171,8 @@ def first_close(
     pairs: Index,
     joints: FloatArray,
     arms: Index,
+    bases: FloatArray,
+    tables: FloatArray,
     start: Index,
     margin: float,
 ) -> tuple[Index, FloatArray]:
@@ -158,10 +182,12 @@ def first_close(
         shape: the left arm.
         lift_m: how far the torso is raised (m).
         parts: all parts.
-        poses: those of what stands still are set, shape (p, 5, 3); those of the arms become the last posture's.
+        poses: those of the body are set, shape (p, 5, 3); those of arms and table become the last posture's.
         pairs: numbers of the parts to be compared, shape (q, 2).
         joints: of each posture, the joints of each arm that is looked at (rad), shape (n, k, 7).
         arms: those arms, 0 for the left and 1 for the right, shape (k,).
+        bases: where the base stands: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
+        tables: the places of the table's parts, which come last, in the table frame but from the floor (m), (t, 3).
         start: the pair with which to start, shape (n,).
         margin: how far apart they should be (m).
 
@@ -170,7 +196,11 @@ def first_close(
     """
     corners, spans, bounds = parts
     found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    first = len(poses) - len(tables)
     for i in range(len(joints)):
+        if i < len(bases):
+            pose_table(bases[i], tables, poses[first:])
+            set_middles(bounds[first:], poses[first:])
         for k in range(len(arms)):
             low, high = EACH * arms[k], EACH * (arms[k] + 1)
             pose_arm(shape, lift_m, joints[i, k], 1.0 - 2.0 * arms[k], poses[low:high])
