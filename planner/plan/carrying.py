@@ -5,14 +5,14 @@ part of the path, so that the joints with which the cloth is taken are ones with
 Arms are led one after the other, the second round the first; if that fails, in the other order.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise, permutations, product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import BoolArray, FloatArray, Pose2
-from planner.geometry.tolerance import grid_key
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, about_x
 from planner.robot.arm_path import NoPath, ToolPath
@@ -38,6 +38,9 @@ push the lower one into the table."""
 
 _TOGETHER = 14
 """So many postures of each arm are looked at when arms are to be in their places together."""
+
+_RUNS_KEPT, _PLACES_KEPT = 512, 8192
+"""So many answers are remembered: of runs, some 50 kB each, and of places of a hand, some 2 kB each."""
 
 _OVER, _BESIDE = 0.5 * np.pi, 0.0
 """The roll of a hand with one finger over the other, and side by side (rad)."""
@@ -80,8 +83,24 @@ class _Lead:
         return len(self.path.positions)
 
 
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A run, known by all that its joints depend on."""
+
+    key: tuple[bytes, ...]
+    moments: Moments = field(compare=False)
+
+    @staticmethod
+    def of(moments: Moments) -> "_Asked":
+        parts = (moments.positions, moments.rotations, moments.bases, moments.nominal_s, moments.is_driving)
+        return _Asked(tuple(part.tobytes() for part in parts), moments)
+
+
 class Carrier:
-    """Finds the joint paths of runs."""
+    """Finds the joint paths of runs, and remembers them: a plan for a garment that was changed a little repeats most.
+
+    May be shared between threads.
+    """
 
     def __init__(self, machine: Machine, collisions: Collisions, torso_m: float, height_m: float) -> None:
         """A carrier for one robot, its torso raised so far, at a table so high (m)."""
@@ -89,17 +108,15 @@ class Carrier:
         self._collisions = collisions
         self._torso_m = torso_m
         self._height_m = height_m
-        self._carried: dict[tuple[bytes, ...], Carried | None] = {}
-        self._places: dict[tuple[object, ...], FloatArray] = {}
+        self._searched = lru_cache(_RUNS_KEPT)(self._search)
+        self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
 
     def carried(self, moments: Moments) -> Carried | None:
         """The joints of a run; None if the arms cannot be led through it. Remembered."""
-        key = (moments.positions.tobytes(), moments.rotations.tobytes(), moments.bases.tobytes())
-        if key not in self._carried:
-            self._carried[key] = self._search(moments)
-        return self._carried[key]
+        return self._searched(_Asked.of(moments))
 
-    def _search(self, moments: Moments) -> Carried | None:
+    def _search(self, asked: "_Asked") -> Carried | None:
+        moments = asked.moments
         is_used = moments.is_held.any(axis=1)
         arms = [int(arm) for arm in np.flatnonzero(is_used)]
         if not (self._can_hold(arms, moments, 0) and self._can_hold(arms, moments, len(moments) - 1)):
@@ -158,19 +175,18 @@ class Carrier:
         return bool(self._collisions.arms_apart(pairs, is_certain=True).any())
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
-        """How an arm by itself can take a tool pose without touching body or table; remembered."""
-        key = (arm, *(grid_key(float(v)) for v in (*base, *position, *rotation.ravel())))
-        if key not in self._places:
-            x, y, yaw = (float(c) for c in base)
-            stand = Pose2(x, y, yaw)
-            self._places[key] = self._machine.free_postures(
-                arm,
-                position,
-                rotation,
-                self._torso_m,
-                lambda joints: self._collisions.arm_free(arm, stand, joints, is_certain=True),
-            )
-        return self._places[key]
+        """How an arm by itself can take a tool pose without touching body or table. Remembered."""
+        return self._free_postures(arm, base.tobytes(), position.tobytes(), rotation.tobytes())
+
+    def _search_postures(self, arm: int, base: bytes, position: bytes, rotation: bytes) -> FloatArray:
+        stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))
+        return self._machine.free_postures(
+            arm,
+            place,
+            axes.reshape(3, 3),
+            self._torso_m,
+            lambda joints: self._collisions.arm_free(arm, stand[None], joints, is_certain=True),
+        )
 
     def _led(self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | NoPath) -> FloatArray | NoPath:
         """All arms' joints, one arm led after the other, the first as it would go alone if there are more."""

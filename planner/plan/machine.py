@@ -1,6 +1,6 @@
 """What planning asks of a robot besides its reach; `planner.robot` answers it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Protocol
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -39,7 +39,7 @@ class Collisions(Protocol):
         ...
 
 
-class Machine(Protocol):
+class Machine(Hashable, Protocol):
     """A robot: its card, its reach, and the joints that bring a tool to a pose."""
 
     @property

@@ -2,15 +2,17 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import islice, product
 
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.plan.carrying import Carried, Carrier
 from planner.plan.cue import Cue
-from planner.plan.machine import Machine
+from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, moments_of
 from planner.plan.pacing import needed_s, paced_s
 from planner.plan.transits import Transits
@@ -89,17 +91,16 @@ class RunMaker:
     def __init__(self, work: Work, machine: Machine) -> None:
         """Nothing has been made real yet."""
         scene = work.scene
-        collisions = machine.collisions(scene.table, scene.torso_m, margin_m=MARGIN_M)
+        carrier, collisions = _carrier(machine, scene.table, scene.torso_m)
         self._work = work
         self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
-        self._carrier = Carrier(machine, collisions, scene.torso_m, scene.table.height_m)
+        self._carrier = carrier
         self.transits = Transits(machine, collisions)
         self.collisions = collisions
 
     def real(self, steps: Sequence[Step]) -> RealRun | None:
         """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow."""
-        choices = product(*(step.variants() for step in steps))
-        made = (self.made(tuple(chosen)) for chosen in islice(choices, _VARIANTS_MAX))
+        made = (self.made(chosen) for chosen in islice(_choices(steps), _VARIANTS_MAX))
         return next((run for run in made if run is not None), None)
 
     def made(self, steps: tuple[Step, ...]) -> RealRun | None:
@@ -131,6 +132,19 @@ class RunMaker:
             needed = float(self.transits.needed_s(way).sum() + self.transits.needed_s(line).sum())
             late.append(max(0.0, needed - HALF * self._work.scene.arm_motion_s))
         return late[0], late[1]
+
+
+def _choices(steps: Sequence[Step]) -> Iterator[tuple[Step, ...]]:
+    """Steps, then all combinations of their variants, which take time to find."""
+    yield tuple(steps)
+    yield from islice(product(*(islice(step.variants(), _VARIANTS_MAX) for step in steps)), 1, None)
+
+
+@lru_cache(maxsize=4)
+def _carrier(machine: Machine, table: Table, torso_m: float) -> tuple[Carrier, Collisions]:
+    """What finds joint paths at a table, and what is in the way there: kept from plan to plan."""
+    collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
+    return Carrier(machine, collisions, torso_m, table.height_m), collisions
 
 
 def _paced(carrying: list[tuple[int, Phase]], moments: Moments, least_s: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ nothing cheaper is left.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,13 @@ class FoldQuestion:
             yield from fold_trials(self._work, self._state, fold)
         else:
             self._work.obstacles.note(obstacle)
+
+    @cached_property
+    def least_steps(self) -> int:
+        """The least steps that any way takes, wherever the hands begin; `IMPOSSIBLE` if there is no way."""
+        anywhere = np.zeros(self._work.back_offs, dtype=np.int64)
+        found = (hands.least_driving(anywhere) for hands in self._hands)
+        return min((int(driving.steps.min()) for driving in found), default=IMPOSSIBLE)
 
     def ends(self, back_off: int, least: int, most: int) -> tuple[list[End], int]:
         """The ends that take so many steps, no less and no more, and that cannot be had as cheaply by driving on.

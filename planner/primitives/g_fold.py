@@ -224,6 +224,8 @@ class GFold:
         question = self._questions.of(state, fold)
         if self._follows_at_once[fold]:
             ends, more = question.every_end(state.back_off), IMPOSSIBLE
+        elif state.held and driven < question.least_steps < IMPOSSIBLE:
+            ends, more = [], question.least_steps
         else:
             ends, more = question.ends(state.back_off, driven, 4 * driven + 4 if driven or state.held else 0)
         for end in ends:
