@@ -45,6 +45,9 @@ EXPANDED_MAX = 1_000_000
 LOOK_ALONE_AFTER = 30
 """Most plans are found within so many expansions; after them each fold not done yet is looked at alone."""
 
+_COLLISIONS_MAX = 12
+"""Of so many motions that the arms could not follow it is looked at what was in their way."""
+
 
 def make_plan(
     garment: Garment,
@@ -163,14 +166,14 @@ class _Planner:
             begun = time.perf_counter()
             found = self._realizer.acts([edge.action for edge in result.path])
             self._joint_time_s += time.perf_counter() - begun
-            if isinstance(found, tuple):
-                return result, found
             if found is not None:
-                note_collision(self._work, found)
+                return result, found
             self._achieved = 0
             self._reached.clear()
 
     def _reasons(self) -> tuple[Reason, ...]:
+        for run in self._realizer.struck[-_COLLISIONS_MAX:]:
+            note_collision(self._work, run[-1], self._maker.snag(run))
         return reasons(self._work, self._reached, self._blocking)
 
     def _successors(self, state: State) -> Successors[State, Step]:

@@ -15,7 +15,9 @@ from planner.plan.cue import Cue
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, moments_of
 from planner.plan.pacing import needed_s, paced_s
+from planner.plan.snags import Snags
 from planner.plan.transits import Transits
+from planner.primitives.obstacle import Snag
 from planner.primitives.phase import Phase
 from planner.primitives.primitive import Step
 from planner.primitives.work import Work
@@ -95,6 +97,7 @@ class RunMaker:
         self._work = work
         self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
         self._carrier = carrier
+        self._snags = Snags(machine, collisions, scene.torso_m, scene.table.height_m)
         self.transits = Transits(machine, collisions)
         self.collisions = collisions
 
@@ -119,6 +122,11 @@ class RunMaker:
         times = np.append(0.0, np.cumsum(_paced(carrying, moments, least[first:last])))
         cues = tuple(_cues(carrying, moments, times))
         return RealRun(steps, carried, cues, times, least[:first], least[last:], late)
+
+    def snag(self, steps: Sequence[Step]) -> Snag | None:
+        """What is in the arms' way in a run that cannot be made real; None where they are only cut off."""
+        phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
+        return self._snags.of(moments_of(phases, self._work.scene.table.height_m))
 
     def _late(self, carried: Carried) -> tuple[float, float] | None:
         """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way."""

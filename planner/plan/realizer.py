@@ -26,7 +26,11 @@ _SPREAD = 16
 
 
 class Realizer:
-    """Knows which steps of one planning problem are slower than they seem, or cannot be."""
+    """Knows which steps of one planning problem are slower than they seem, or cannot be.
+
+    Attributes:
+        struck: the runs that could not be made real, each up to the step that could not.
+    """
 
     def __init__(self, maker: RunMaker) -> None:
         """Nothing is known yet."""
@@ -35,6 +39,7 @@ class Realizer:
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
+        self.struck: list[tuple[Step, ...]] = []
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
         """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
@@ -56,12 +61,8 @@ class Realizer:
         if math.isfinite(cost_s):
             yield step, cost_s
 
-    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | Step | None:
-        """What a plan's steps are once they are real.
-
-        Returns:
-            The acts; or the step that was struck out; or None if some steps only turned out to take longer.
-        """
+    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+        """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer."""
         found, is_as_it_seemed = [], True
         for first, run in runs_of(steps):
             if not any(step.grips for step in run):
@@ -69,7 +70,8 @@ class Realizer:
                 continue
             made = self._real(run)
             if made is None:
-                return self._strike(run)
+                self._strike(run)
+                return None
             found.append(Act(first, made.steps, made))
             is_as_it_seemed &= self._agrees(run, made)
         return tuple(found) if is_as_it_seemed else None
@@ -80,10 +82,11 @@ class Realizer:
             self._made[key] = self._maker.real(run)
         return self._made[key]
 
-    def _strike(self, run: tuple[Step, ...]) -> Step:
+    def _strike(self, run: tuple[Step, ...]) -> None:
         """Strike out the first step up to which a run cannot be made real; find other ways to do the same."""
         number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
         culprit, before = run[number], run[:number]
+        self.struck.append(run[: number + 1])
         others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
         for other in culprit.elsewhere(_SPREAD):
@@ -93,7 +96,6 @@ class Realizer:
                 self._made[tuple(_key(step) for step in (*before, other))] = made
                 self._least_s[_key(other)] = made.durations_s()[-1]
         self._others[culprit.situation] = tuple(others.values())
-        return culprit
 
     def _agrees(self, run: tuple[Step, ...], made: RealRun) -> bool:
         """Whether the steps of a run take as long as was known; what they take is known now."""

@@ -15,13 +15,14 @@ class Reason:
         fold: the fold's index, or None.
         code: which constraint.
         message: a sentence with the numbers.
-        cause: for what is out of reach: too far, too near, a joint's limit, comfort only, the robot's own body.
+        cause: for what is out of reach: too far, too near, a joint's limit, comfort only, the robot's own body; for a
+            collision what an arm cannot help touching: the table, its own body, the other arm.
         joint: the joint that limits, where one does.
-        point: where: of what is out of reach the tool point, else a point of the cloth; table frame (m).
+        point: where: of what is out of reach or collides the tool point, else a point of the cloth; table frame (m).
         short_by_m: by how much: how far the point, the line or the cloth would have to be displaced, how much wider a
-            grip radius or the gap between two grips would have to be (m).
+            grip radius or the gap between two grips would have to be, how deep two parts are in each other (m).
         towards: for what is out of reach the unit direction in which the point would have to be displaced, table frame.
-        arm: for what is out of reach the arm that came closest.
+        arm: for what is out of reach the arm that came closest; for a collision the arm that collides.
         station: for what is out of reach the station from which it came closest.
         back_off_m: and how far the base had backed off from there (m).
         shift_m: for what is out of reach the least shift of all that the hands do that brings all of it into reach (m);

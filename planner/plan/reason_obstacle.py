@@ -12,7 +12,8 @@ from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
 from planner.plan.reason_words import carried
 from planner.primitives.fold_trial import lifted_points
 from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
-from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.obstacle import Code, Obstacle, Snag
+from planner.primitives.state import State
 from planner.primitives.work import Work
 
 _LISTED_MAX = 4
@@ -30,8 +31,7 @@ def of_obstacle(work: Work, obstacle: Obstacle) -> Reason:
             held = lifted_points(work, obstacle.state.done, obstacle.fold, obstacle.state.held)
             return _red_needs_hold(work, obstacle.fold, obstacle.state.done, tuple(held))
         if obstacle.code is Code.COLLISION:
-            station = work.scene.stations[obstacle.state.station][0]
-            return Reason(obstacle.fold, obstacle.code, obstacle.message + carried(obstacle.state), station=station)
+            return _collision(work, obstacle.fold, obstacle.state, obstacle.snag)
     return _at_rest(work, obstacle)
 
 
@@ -60,6 +60,31 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
         point=point,
         short_by_m=None if is_slip else obstacle.severity,
         needed_friction=work.scene.friction + obstacle.severity if is_slip else None,
+    )
+
+
+def _collision(work: Work, fold: int, state: State, snag: Snag | None) -> Reason:
+    label, station = work.sequence.folds[fold].label, work.scene.stations[state.station][0]
+    if snag is None:
+        message = (
+            f"{label}: from {station} the hands could be where they must, but the arms cannot get them there and along "
+            "their way without touching the table, the robot or each other"
+        )
+        return Reason(fold, Code.COLLISION, message + carried(state), station=station)
+    x, y, z = snag.point
+    message = (
+        f"{label}: from {station} all is in reach, but with the {snag.arm} gripper at ({x:.2f}, {y:.2f}) m, {z:.2f} m "
+        f"over the table, {snag.contact} at least, however the arm is bent{carried(state)}"
+    )
+    return Reason(
+        fold,
+        Code.COLLISION,
+        message,
+        cause=snag.cause,
+        point=snag.point,
+        short_by_m=snag.depth_m,
+        arm=snag.arm,
+        station=station,
     )
 
 

@@ -5,6 +5,7 @@ last. Where every fold can be done, but not all of them one after the other, tho
 most were done.
 """
 
+import math
 from collections.abc import Collection, Iterator
 
 from planner.cloth.g_state import Unrest
@@ -12,7 +13,7 @@ from planner.plan.reason import Reason
 from planner.plan.reason_causes import Causes
 from planner.plan.reason_obstacle import of_obstacle
 from planner.plan.reason_places import Places
-from planner.primitives.obstacle import Code, Obstacle, Situation
+from planner.primitives.obstacle import Code, Obstacle, Situation, Snag
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.primitives.work import Work
@@ -40,16 +41,12 @@ def reason_at_start(work: Work, unrest: Unrest) -> Reason:
     return of_obstacle(work, Obstacle(None, Code(unrest.code), message, unrest.severity, state, unrest.point))
 
 
-def note_collision(work: Work, step: Step) -> None:
-    """Remember that the arms cannot really perform a step although its places are in reach."""
+def note_collision(work: Work, step: Step, snag: Snag | None) -> None:
+    """Remember that the arms cannot perform a step although its places are in reach, and what is in their way."""
     fold = step.details.get("fold")
     if fold is not None:
-        station = work.scene.stations[step.before.station][0]
-        message = (
-            f"{work.sequence.folds[fold].label}: from {station} the hands could be where they must, but the arms "
-            "cannot get them there and along their way without touching the table, the robot or each other"
-        )
-        work.obstacles.note(Obstacle(fold, Code.COLLISION, message, 0.0, step.before))
+        depth_m = math.inf if snag is None else snag.depth_m
+        work.obstacles.note(Obstacle(fold, Code.COLLISION, "", depth_m, step.before, snag=snag))
 
 
 class _Reasons:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.tolerance import grid_key
 from planner.primitives.state import State
 
@@ -45,6 +45,25 @@ def situation(state: State) -> Situation:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Snag:
+    """What an arm cannot help touching, at the moment of a motion at which that is worst.
+
+    Attributes:
+        arm: the arm's name.
+        point: where its tool is then, table frame (m).
+        cause: what it touches: ``table``, ``own_body`` or ``arms``.
+        contact: the same in words, with how far they are into each other at least.
+        depth_m: so far (m).
+    """
+
+    arm: str
+    point: Point3
+    cause: str
+    contact: str
+    depth_m: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Obstacle:
     """One thing that stood in the way of one fold.
 
@@ -55,6 +74,7 @@ class Obstacle:
         severity: how far from possible it was (m, or of the friction coefficient), 0 just missed.
         state: the state in which it did; None where that does not matter.
         point: where, article frame (m); None where it is no one place.
+        snag: of a collision what touches what, where that is known.
     """
 
     fold: int | None
@@ -63,6 +83,7 @@ class Obstacle:
     severity: float
     state: State | None = None
     point: Point2 | None = None
+    snag: Snag | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

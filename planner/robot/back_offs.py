@@ -15,14 +15,16 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robot.comfort import Memory, Place, Question, is_comfortable_at, place_of, question, row_slot
-from planner.robot.kernel import MOST_ARCS
+from planner.robot.comfort import Memory, Place, Question, aim_from, is_comfortable_at, place_of, question, row_slot
+from planner.robot.kernel import MOST_ARCS, is_within_height
 from planner.robot.posture_room import Room
 
 
 @njit(cache=True, nogil=True)
 def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, count: int) -> bool:
     """Whether a place can be had from no back-off at all."""
+    if not is_within_height(ask.shape, aim_from(ask, place, 0)):
+        return True
     slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
     while back_off < count and not is_comfortable_at(ask, memory, room, arcs, slot, place, back_off):
         back_off += 1

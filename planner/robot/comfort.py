@@ -21,7 +21,16 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import Aim, aim_at, beside, is_reachable_near, is_within_length, ring_slack, shape_of
+from planner.robot.kernel import (
+    Aim,
+    aim_at,
+    beside,
+    is_reachable_near,
+    is_within_height,
+    is_within_length,
+    ring_slack,
+    shape_of,
+)
 from planner.robot.posture_room import Room, has_room_about, may_be_hindered
 
 COORDINATE_BITS = 18
@@ -180,7 +189,7 @@ def is_comfortable_at(
     if memory.bits[slot, KNOWN] & bit != 0:
         return bool(memory.bits[slot, GOOD] & bit != 0)
     aim, answer = aim_from(ask, place, back_off), False
-    if is_within_length(ask.shape, aim):
+    if is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim):
         answer, queries = is_comfortable(ask.shape, aim, ask.comfort, arcs, memory.hints[ask.label])
         memory.counts[QUERIES] += queries
         if answer and may_be_hindered(aim):

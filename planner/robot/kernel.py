@@ -109,6 +109,14 @@ def is_within_length(shape: ArmShape, aim: Aim) -> bool:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def is_within_height(shape: ArmShape, aim: Aim) -> bool:
+    """Whether the wrist is no higher than the forearm could stick up from the highest elbow, and no lower; roughly."""
+    highest = shape.fore - shape.upper * shape.lift.sin_low
+    lowest = -shape.fore - shape.upper * shape.lift.sin_high
+    return lowest <= aim.z <= highest
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def pan_arcs(shape: ArmShape, aim: Aim, arcs: FloatArray) -> int:
     """Find the pans within limits for which elbow and roll have a solution, the elbow within limits.
 
