@@ -35,10 +35,10 @@ types: $(READY_DEV)
 	$(BIN)/mypy
 
 test-quick: $(READY_DEV)
-	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow" --ignore=tests/laws
+	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow"
 
-test: $(READY_DEV) browser ## every test but the property laws, which `make test-long` runs
-	$(PYTEST) -n $(JOBS) --dist loadfile --ignore=tests/laws
+test: $(READY_DEV) browser ## every test, the property laws on a few hundred random cases
+	$(PYTEST) -n $(JOBS) --dist loadfile
 
 test-long: $(READY_DEV) browser ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long

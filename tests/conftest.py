@@ -22,6 +22,15 @@ settings.register_profile(LONG, settings.get_profile("default"), max_examples=10
 settings.load_profile("default")
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Let ``--hypothesis-seed`` ask for other random cases; the profile asked for is loaded afterwards."""
+    if config.getoption("hypothesis_seed") is not None:
+        for name in ("default", LONG):
+            settings.register_profile(name, settings.get_profile(name), derandomize=False)
+        settings.load_profile("default")
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if BROWSER_TESTS in item.path.parents:

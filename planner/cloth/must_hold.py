@@ -12,6 +12,7 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
+from planner.geometry.ring import feet
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
@@ -39,8 +40,23 @@ def _of_ring(
 ) -> FloatArray:
     free = ~_is_supported(ring, up, support_angle_rad) & _is_on_hull(ring, hull)
     for segment in baseline:
-        free &= segment.distances(ring) > LENGTH_M
+        free &= ~_is_on(ring, segment)
     return ring[free]
+
+
+def _is_on(ring: FloatArray, segment: Segment) -> BoolArray:
+    """Whether each vertex lies on a baseline, or is the tip of a wedge a hair wide that leaves one of its ends.
+
+    Such a tip arises where a fold's line meets the boundary at a sharp angle; how long it is depends on rounding alone.
+    """
+    is_on = segment.distances(ring) <= LENGTH_M
+    beyond = ~is_on & (np.abs(segment.left_distances(ring)) <= LENGTH_M)
+    if beyond.any():
+        ends = np.array([segment.start, segment.end])
+        gaps = np.hypot(*(feet(ends, ring, np.roll(ring, -1, axis=0)) - ends[:, None]).transpose(2, 0, 1))
+        leaves_there = gaps <= 2 * LENGTH_M
+        is_on |= beyond & (leaves_there & np.roll(leaves_there, 1, axis=1)).any(axis=0)
+    return np.asarray(is_on)
 
 
 def _is_on_hull(ring: FloatArray, hull: FloatArray) -> BoolArray:

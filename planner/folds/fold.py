@@ -67,5 +67,11 @@ def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
     return line
 
 
+def is_snapped(line: Segment, silhouette: Region) -> bool:
+    """Whether a line is as `snapped_line` leaves it: its ends on the silhouette's boundary, inside between them."""
+    ends = (line.start, line.end)
+    return all(silhouette.boundary_distance(end) <= LENGTH_M for end in ends) and silhouette.contains_segment(line)
+
+
 def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point2:
     return (float(row[0]), float(row[1]))

@@ -12,10 +12,10 @@ import networkx as nx
 
 from planner.cloth.cloth_state import ClothState
 from planner.errors import FoldError
-from planner.folds.fold import Fold
+from planner.folds.fold import Fold, is_snapped
 from planner.folds.fold_cloth import flap_silhouette, fold_cloth
 from planner.geometry.region import Region
-from planner.geometry.tolerance import AREA_M2, LENGTH_M, SNAP_M
+from planner.geometry.tolerance import AREA_M2, SNAP_M
 
 
 def is_order_free(
@@ -38,7 +38,7 @@ def is_order_free(
     for index in order:
         fold = folds[index]
         crease = folds[index - 1].line if fold.is_red else None
-        if not _has_ends_on_boundary(flap_silhouette(cloth, is_red=fold.is_red), fold):
+        if not is_snapped(fold.line, flap_silhouette(cloth, is_red=fold.is_red)):
             return False
         try:
             folded = fold_cloth(cloth, fold.line, is_red=fold.is_red, crease=crease)
@@ -64,11 +64,6 @@ def _chain(folds: Sequence[Fold], index: int) -> list[int]:
     while last < len(folds) and folds[last].is_red:
         last += 1
     return list(range(first, last))
-
-
-def _has_ends_on_boundary(silhouette: Region, fold: Fold) -> bool:
-    ends = (fold.line.start, fold.line.end)
-    return all(silhouette.boundary_distance(end) <= 2 * LENGTH_M for end in ends)
 
 
 def _is_same(one: Region, other: Region) -> bool:

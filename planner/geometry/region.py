@@ -17,7 +17,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.ring import corners, counter_clockwise, feet, inward_bisector
 from planner.geometry.segment import Segment
-from planner.geometry.shape import half_plane, polygonal, without_cracks
+from planner.geometry.shape import half_plane, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 
 _AT_ONCE = 256
@@ -50,7 +50,7 @@ class Region:
         shapes = [r.shape for r in regions]
         if len(shapes) == 1:
             return Region(shapes[0])
-        whole = shapely.union_all(shapes, grid_size=GRID_M)
+        whole = united(shapes)
         if len(shapely.get_parts(whole)) != 1 or shapely.get_num_interior_rings(whole):
             whole = without_cracks(whole)
         return Region(whole)

@@ -1,5 +1,6 @@
 """Shapely's shapes, made or mended before they are regions."""
 
+from collections.abc import Iterable
 from itertools import combinations
 
 import shapely
@@ -23,17 +24,22 @@ def polygonal(shape: BaseGeometry) -> BaseGeometry:
     return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
 
 
+def united(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
+    """What at least one of the shapes covers, on the grid."""
+    return polygonal(shapely.union_all(list(shapes), grid_size=GRID_M))
+
+
 def without_cracks(shape: BaseGeometry) -> BaseGeometry:
     """The shape with cracks narrower than `LENGTH_M` between its parts, and holes no wider, closed.
 
     All else stays where it is. (To grow and shrink the whole would do the same, were it not for holes that GEOS loses.)
     """
     seams = [_seam(a, b) for a, b in combinations(shapely.get_parts(shape), 2) if shapely.dwithin(a, b, LENGTH_M)]
-    joined = shapely.union_all([shape, *(s for s in seams if s.area > _TOUCH_M * LENGTH_M)], grid_size=GRID_M)
+    joined = united([shape, *(seam for seam in seams if seam.area > _TOUCH_M * LENGTH_M)])
     rings = (ring for part in shapely.get_parts(joined) for ring in part.interiors)
     holes = (shapely.Polygon(ring) for ring in rings)
     narrow = [hole for hole in holes if 2.0 * hole.area <= LENGTH_M * hole.length]
-    return shapely.union_all([joined, *narrow], grid_size=GRID_M)
+    return united([joined, *narrow])
 
 
 def _seam(one: BaseGeometry, other: BaseGeometry) -> BaseGeometry:

@@ -5,7 +5,7 @@ would fold the other. So the region is cut with the whole line, and pieces that 
 extension are joined again; what is still apart afterwards was parted by the segment.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -59,14 +59,16 @@ def split_along(region: Region, segment: Segment) -> tuple[Region, Region] | Non
     """
     segment = _through_corners(region, segment)
     left_side, right_side = region.parted_by(segment)
-    pieces = _pieces(left_side, segment, is_left=True) + _pieces(right_side, segment, is_left=False)
+    pieces = _pieces(left_side.pieces, segment, is_left=True) + _pieces(right_side.pieces, segment, is_left=False)
     _join_across_extension(pieces, region, segment)
     moving = {p.group for p in pieces if p.is_left and p.touches(0.0, segment.length)}
     if any(not p.is_left and p.group in moving and p.touches(0.0, segment.length) for p in pieces):
         return None
-    left = [p.region for p in pieces if p.group in moving]
+    left = [p for p in pieces if p.group in moving]
     right = [p.region for p in pieces if p.group not in moving]
-    return _union(left), _union(right)
+    tips = _pieces(left_side.slivers, segment, is_left=True) + _pieces(right_side.slivers, segment, is_left=False)
+    tips = [tip for tip in tips if _hangs_on(left, tip, region, segment)]
+    return _union([p.region for p in left + tips]), _union(right)
 
 
 def cut_like(region: Region, segment: Segment, is_moving: Callable[[Point2], bool]) -> Cut:
@@ -106,8 +108,15 @@ def _union(regions: list[Region]) -> Region:
     return Region.union(regions) if regions else Region.empty()
 
 
-def _pieces(side: Region, segment: Segment, *, is_left: bool) -> list[_Piece]:
-    return [_Piece(p, is_left, _contacts(p, segment)) for p in side.pieces]
+def _pieces(parts: Iterable[Region], segment: Segment, *, is_left: bool) -> list[_Piece]:
+    return [_Piece(p, is_left, _contacts(p, segment)) for p in parts]
+
+
+def _hangs_on(pieces: list[_Piece], sliver: _Piece, region: Region, segment: Segment) -> bool:
+    """Whether a sliver is the tip of pieces on the other side, which cross the line's extension."""
+    if sliver.touches(0.0, segment.length):
+        return False
+    return any(_share_extension(p, sliver, region, segment) for p in pieces if p.is_left != sliver.is_left)
 
 
 def _contacts(piece: Region, segment: Segment) -> list[Interval]:

@@ -230,6 +230,7 @@ class _Planner:
         statistics = Statistics(
             self._expanded, self._explored, reach.queries, reach.query_time_s, elapsed, self._joint_time_s, bound
         )
+        self._work.forget()
         return Plan(
             result.outcome.value,
             primitives,

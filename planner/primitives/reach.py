@@ -39,6 +39,10 @@ class Reach(Protocol):
         """The arms from left to right."""
         ...
 
+    def forget(self) -> None:
+        """Drop what it remembers; its answers stay the same."""
+        ...
+
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which this robot's grippers may pinch cloth, base frame."""

@@ -57,6 +57,12 @@ class Work:
             self._kept[kind] = kind(self)
         return cast("T", self._kept[kind])
 
+    def forget(self) -> None:
+        """Drop what only a search needs, a few megabytes, but for the obstacles; what is asked again is found again."""
+        for kept in (self._unrest, self._tables, self._extents, self._kept):
+            kept.clear()
+        self.reach.forget()
+
     @cached_property
     def back_offs(self) -> int:
         """The number of places on the back-off grid."""

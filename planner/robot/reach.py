@@ -39,6 +39,10 @@ def _mirror_images() -> NDArray[np.int64]:
     return np.array([*inner, len(APPROACHES) - 1], dtype=np.int64)
 
 
+_SMALL_BITS = 4
+"""The size of a memory from which nothing much is wanted any more, as a power of two."""
+
+
 class Pr2Reach:
     """The reach of a PR2 with its torso at one height, to one comfort radius.
 
@@ -71,6 +75,12 @@ class Pr2Reach:
         self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
         self._shortfall_queries = 0
         self._query_time_s = 0.0
+
+    def forget(self) -> None:
+        """Drop what it remembers, some 2 MB; its answers stay the same, and what it counted."""
+        queries = self.queries - self._shortfall_queries
+        self._memory = empty_memory(_SMALL_BITS)
+        self._memory.counts[QUERIES] = queries
 
     @property
     def arm_names(self) -> tuple[str, ...]:

@@ -50,6 +50,13 @@ def test_a_triangle_that_hangs_by_its_tip_must_be_held_at_all_three_corners():
     assert held(triangle, support_deg=34.0) == {(0.2, 0.3)}
 
 
+@pytest.mark.parametrize(("end", "is_held"), [(0.3, False), (0.299, False), (0.2, True)])
+def test_the_tip_of_a_wedge_a_hair_wide_that_leaves_the_baseline_hangs_from_nothing(end: float, is_held: bool):
+    # The upper side falls by 1 mm in a metre: beyond x = 0.299 the wedge is 1 um high, beyond x = 0.2 it is 100 um.
+    wedge = Region.polygon([(0.0, 0.0), (0.3, 0.0), (0.0, 0.0003)])
+    assert ((0.3, 0.0) in held(wedge, baseline=(Segment((0.0, 0.0), (end, 0.0)),))) == is_held
+
+
 def flaring(degrees: float) -> Region:
     """A trapezoid 0.4 m wide on top that widens downwards on both sides by an angle from the vertical."""
     more = 0.3 * math.tan(math.radians(degrees))

@@ -139,5 +139,6 @@ def test_folds_that_double_the_layers_too_often_are_refused():
     width = 8.192
     lines = [fold((width / 2**i, 0.0), (width / 2**i, 0.1)) for i in range(1, 12)]
     halvings = [fold(line.end, line.start) for line in lines]
-    with pytest.raises(FoldError, match="2048 layers, more than 2000"):
+    with pytest.raises(FoldError, match="2048 layers, more than 2000") as caught:
         FoldSequence.of(garment(rectangle_points(width, 0.1), *halvings))
+    assert caught.value.field == "folds[10]"

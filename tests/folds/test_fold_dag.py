@@ -78,6 +78,15 @@ def test_a_red_fold_depends_on_the_one_before_it_even_if_their_parts_are_apart()
     assert dag(rectangle(0.1, 0.1), rectangle(0.1, 0.1, 1.0), red=(1,)).edges == ((0, 1),)
 
 
+@pytest.mark.parametrize(("tilt", "edges"), [(2e-4, ()), (1e-3, ((0, 1),))])
+def test_a_fold_waits_for_one_without_which_its_line_would_be_snapped_elsewhere(tilt: float, edges):
+    # A strip 1 cm wide is folded over a line that leans to the left by the tilt, and lands twice the tilt askew: at the
+    # upper edge it sticks out by 2 x tilt x 1 cm, 4 um or 20 um. There the line that folds the other corner begins, on
+    # the boundary of what is there by then. Without the strip it would begin beside the edge: 10 um do not matter.
+    strip, corner = fold((0.01 + 0.25 * tilt, 0.0), (0.01 - 0.25 * tilt, 0.5)), fold((0.019, 0.5), (0.1, 0.424))
+    assert FoldSequence.of(garment(rectangle_points(0.1, 0.5), strip, corner)).dag.edges == edges
+
+
 @pytest.mark.parametrize("name", shipped_garment_names())
 def test_an_edge_leads_from_an_earlier_fold_to_a_later_one(name: str):
     assert all(a < b for a, b in FoldSequence.of(load_garment(name)).dag.edges)

@@ -108,6 +108,32 @@ def test_a_union_closes_a_hairline_crack_but_not_a_gap():
     assert len(Region.union([left, rectangle(0.2, 0.3, 0.201)]).rings) == 2
 
 
+def test_a_union_closes_a_hole_no_wider_than_a_hair_and_keeps_others():
+    frame = rectangle(0.4, 0.4).difference(rectangle(0.1, 0.1, 0.15, 0.15))
+    filled = Region.union([frame, rectangle(0.1 - 5e-6, 0.1, 0.15, 0.15)])
+    assert not filled.shape.interiors and filled.area == pytest.approx(0.16, abs=1e-9)
+    # A triangle 7 mm wide inside.
+    hole = Region.polygon([(0.02, 0.12), (0.150453, 0.22958), (0.143123, 0.243123)])
+    sides = rectangle(0.4, 0.4).difference(hole).parted_by(Segment((0.1, 0.0), (0.1, 0.4)))
+    assert Region.union(sides).area == pytest.approx(0.16 - hole.area, abs=1e-6)
+
+
+def test_a_crack_that_narrows_to_a_corner_of_both_sides_is_closed():
+    # From 0.12 along the crack 10 um at its mouth to nothing: what lies between the two sides has a tip without area.
+    left = Region.polygon([(0.0, 0.0), (0.12, 0.23), (-0.2, 0.1)]).moved(Isometry())
+    right = Region.polygon([(0.0, 0.0), (0.3, 0.1), (0.12001, 0.230002)]).moved(Isometry())
+    whole = Region.union([left, right])
+    assert len(whole.parts) == 1 and not whole.shape.interiors
+    # (0.12 x 0.1 + 0.23 x 0.2) / 2 and (0.3 x 0.230002 - 0.1 x 0.12001) / 2.
+    assert whole.area == pytest.approx(0.029 + 0.0284998, abs=2e-6)
+
+
+def test_parts_that_meet_in_a_point_only_stay_two():
+    assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1, 0.1)]).parts) == 2
+    assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1 + 3e-6, 0.1 - 2e-5)]).parts) == 2
+    assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1 + 3e-6, 0.05)]).parts) == 1
+
+
 def test_a_union_never_loses_a_part():
     here = Region.polygon([(0.0, 0.0), (0.1, 0.0), (0.0, 0.1)])
     there = Region.polygon([(1.145958, -0.055778), (1.066005, 0.459022), (1.39205, -0.364412)])

@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 
 from planner.geometry.pose import Point2
 from planner.geometry.smallest_circle import pair_centres, triple_centres
+from planner.geometry.tolerance import GRID_M
 
-points = st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
+places = st.integers(-1_000_000, 1_000_000).map(lambda steps: steps * GRID_M)
+points = st.tuples(places, places)
 
 
 def centre(*three: Point2) -> Point2:

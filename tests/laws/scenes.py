@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from planner import Plan, make_plan
 from planner.cloth.garment import Garment
-from planner.cloth.garment_files import load_garment
+from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import AREA_M2
 from planner.plan.heuristic import HEURISTICS
 from planner.primitives.primitive import Primitive, Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -26,6 +27,9 @@ from tests.laws.outlines import Outline, outlines
 
 MOST_STATES = 100_000
 """No search of a small scene needs to expand more: the laws are about costs, and a budget has none."""
+
+FOLDABLE = tuple(name for name in shipped_garment_names() if not name.endswith("-halved"))
+"""The shipped garments that can be folded."""
 
 Kinds = Sequence[Callable[[Work], Primitive]]
 
@@ -87,7 +91,7 @@ def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_
     """A small garment in front of the first station, one to a few folds, some of the five stations."""
     wanted = draw(st.sampled_from(range(1, most_folds + 1)))
     cloth = draw(folded(draw(_small_outlines()), wanted, least_folds=wanted))
-    assume(cloth.folds)
+    assume(cloth.folds and not _is_borderline(cloth))
     cloth = replace(cloth, placement=draw(_placements(cloth.outline)))
     count = draw(st.sampled_from(range(most_stations)))
     others = draw(st.lists(st.sampled_from(list(DEFAULT_STATIONS)[1:]), min_size=count, max_size=count, unique=True))
@@ -100,6 +104,13 @@ def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_
         back_off_max_m=0.05 * draw(st.sampled_from(range(back_offs))),
     )
     return Problem(cloth, scene, draw(st.sampled_from(stations))[0], draw(st.sampled_from((0.0, 0.03))))
+
+
+def _is_borderline(cloth: Garment) -> bool:
+    """Whether rounding decides what is a sliver and what is cloth: drawn elsewhere it may be the other."""
+    final = FoldSequence.of(cloth).final
+    areas = [*(layer.area for layer in final.layers), *final.slivers]
+    return any(math.isclose(area, AREA_M2, rel_tol=0.01) for area in areas)
 
 
 def _small_outlines() -> st.SearchStrategy[Outline]:

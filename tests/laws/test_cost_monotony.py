@@ -3,13 +3,15 @@
 from dataclasses import replace
 from itertools import combinations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.cloth.garment_files import load_garment
 from planner.primitives.primitive_set import PRIMITIVES
-from planner.primitives.scene import DEFAULT_STATIONS
+from planner.primitives.scene import DEFAULT_STATIONS, Scene
 from tests.laws.law import law
-from tests.laws.scenes import Problem, problems
+from tests.laws.scenes import FOLDABLE, Problem, problems
 
 SECOND = 1e-6
 PROPER_SUBSETS = tuple(some for n in range(len(PRIMITIVES)) for some in combinations(PRIMITIVES, n))
@@ -46,3 +48,15 @@ def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
     scene = problem.scene
     roomy = replace(problem, scene=replace(scene, back_off_max_m=scene.back_off_max_m + 0.05 * steps))
     assert roomy.cost_s() <= problem.cost_s() + SECOND
+
+
+@pytest.mark.parametrize("name", FOLDABLE)
+@pytest.mark.slow
+def test_a_shipped_garment_is_no_cheaper_with_less_friction_a_station_less_or_a_primitive_less(name: str):
+    problem = Problem(load_garment(name), Scene(), "front", 0.03)
+    scene, cost_s = problem.scene, problem.cost_s()
+    fewer = tuple((station, pose) for station, pose in scene.stations if station != "left")
+    for less in (replace(scene, friction=0.4), replace(scene, stations=fewer)):
+        assert replace(problem, scene=less).cost_s() >= cost_s - SECOND
+    for one in PRIMITIVES:
+        assert problem.cost_s(kinds=[kind for kind in PRIMITIVES if kind is not one]) >= cost_s - SECOND

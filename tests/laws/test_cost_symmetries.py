@@ -11,16 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.cloth.garment import DrawnFold, Garment
-from planner.cloth.garment_files import load_garment, shipped_garment_names
+from planner.cloth.garment_files import load_garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2, Pose2
 from planner.primitives.scene import Scene
 from tests.laws.fold_orders import orders
 from tests.laws.law import law
-from tests.laws.scenes import Problem, problems
+from tests.laws.scenes import FOLDABLE, Problem, problems
 
 SECOND = 1e-6
-FOLDABLE = [name for name in shipped_garment_names() if not name.endswith("-halved")]
 MOST_ORDERS = 24
 
 

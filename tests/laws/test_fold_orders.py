@@ -6,7 +6,7 @@ from random import Random
 
 import networkx as nx
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from planner.cloth.garment import Garment
@@ -65,6 +65,22 @@ OUTLINES = st.one_of(st.just(T_SHIRT), st.just(rectangle_points(0.6, 0.4)), outl
 GARMENTS = OUTLINES.flatmap(lambda outline: folded(outline, most_folds=5, least_folds=2))
 
 
+# The last line meets the crease of the red fold at an angle of less than a degree.
+SHARP = garment(
+    ((0.2, 0.4), (0.45, 0.1), (0.2, 0.2)),
+    fold((0.269, 0.172), (0.2, 0.241)),
+    fold((0.3108811830920022, 0.26695818028959734), (0.2, 0.3756534258962093)),
+    fold((0.48, 0.133), (0.395, 0.2), "red"),
+    fold((0.395, 0.2), (0.2, 0.396)),
+    fold((0.481, 0.133), (0.436, 0.167)),
+)
+
+# The red fold's part only touches what the blue one left.
+TOUCHING = garment(T_SHIRT, fold((0.587, 0.503), (-0.129, 0.503)), fold((-0.027, 0.587), (0.559, 0.587), "red"))
+
+
+@example(SHARP)
+@example(TOUCHING)
 @given(GARMENTS)
 @law("geometry", short=40, long=2000)
 def test_every_allowed_order_of_random_folds_leaves_the_same_stack(cloth: Garment):

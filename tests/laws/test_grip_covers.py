@@ -4,12 +4,15 @@ import math
 from itertools import combinations
 
 import numpy as np
+import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.cloth.grips import Cover, grip_covers
 from planner.cloth.must_hold import must_hold
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
@@ -26,8 +29,11 @@ def rank(cover: Cover, vertices: list[Point2]) -> list[float]:
     return sorted((min(math.dist(v, g) for g in cover) for v in vertices), reverse=True)
 
 
-def candidates(ring: Outline, vertices: list[Point2]) -> list[Point2]:
-    """The vertices, and all that is nearest on the boundary to the smallest circle round each two and three of them."""
+def candidates(ring: Outline, vertices: list[Point2], baseline: Segment | None = None) -> list[Point2]:
+    """The vertices, and all that is nearest on the boundary to the smallest circle round each two and three of them.
+
+    None on the baseline: a hand there lifts nothing.
+    """
     found = {(round(x, 5), round(y, 5)): (x, y) for x, y in vertices}
     edges = [shapely.LineString([a, b]) for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)]
     for count in (2, 3):
@@ -37,15 +43,18 @@ def candidates(ring: Outline, vertices: list[Point2]) -> list[Point2]:
             for edge in (edge for edge in edges if edge.distance(centre) <= least + 1e-5):
                 x, y = shapely.shortest_line(centre, edge).coords[1]
                 found.setdefault((round(x, 5), round(y, 5)), (x, y))
-    return list(found.values())
+    return [p for p in found.values() if baseline is None or baseline.distances(np.array([p]))[0] > 1e-5]
 
 
-def exhaustive(ring: Outline, vertices: list[Point2], radius_m: float, arms: int) -> list[Cover]:
+def exhaustive(
+    ring: Outline, vertices: list[Point2], radius_m: float, arms: int, baseline: Segment | None = None
+) -> list[Cover]:
     """All best covers by trying every set of candidates: distances compared largest first, to the tolerance."""
     if not vertices:
         return [()]
+    places = candidates(ring, vertices, baseline)
     for count in range(1, arms + 1):
-        ranked = [(rank(cover, vertices), cover) for cover in combinations(candidates(ring, vertices), count)]
+        ranked = [(rank(cover, vertices), cover) for cover in combinations(places, count)]
         good = [(r, cover) for r, cover in ranked if r[0] <= radius_m + 1e-5]
         for column in range(len(vertices)):
             least = min((r[column] for r, _ in good), default=math.inf)
@@ -93,6 +102,17 @@ def test_cloth_turned_or_mirrored_is_held_at_the_same_places(
     image_vertices, image_covers = best(tuple(image), up, radius_m)
     assert is_near(tuple(way.apply_point(v) for v in vertices), tuple(image_vertices))
     assert are_same([tuple(way.apply_point(p) for p in cover) for cover in covers], image_covers)
+
+
+@pytest.mark.parametrize("name", shipped_garment_names())
+def test_the_folds_of_a_shipped_garment_are_held_as_trying_everything_holds_them(name: str):
+    sequence, arms, support_rad = FoldSequence.of(load_garment(name)), 2, math.radians(5.0)
+    for one in sequence.folds:
+        done = (1 << one.index) - 1
+        found = sequence.covers(done, one.index, support_rad, arms)
+        ring = tuple((x, y) for x, y in sequence.folded(done, one.index).moving.ring.tolist())
+        tried = exhaustive(ring, list(found.vertices), one.grip_radius_m, arms, one.line)
+        assert found.covers and are_same(list(found.covers), tried)
 
 
 def test_two_places_that_are_equally_near_to_a_centre_are_both_candidates():

@@ -2,12 +2,13 @@
 
 import math
 from itertools import pairwise
+from time import thread_time
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner import check_garment, make_plan
+from planner import check_garment, fold_dag, make_plan
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.cloth.must_hold import must_hold
@@ -58,24 +59,33 @@ def test_a_strip_no_wider_than_a_hair_is_refused_or_folded_or_dropped_and_counte
         assert done.area == pytest.approx(0.12)
 
 
-# A base with two teeth on it 0.1 m wide: one 0.1 m high, and 0.1 m further on one of 20 um.
-TEETH = [(0, -0.1), (0.3, -0.1), (0.3, 0.10002), (0.2, 0.10002), (0.2, 0.1), (0.1, 0.1), (0.1, 0.2), (0, 0.2)]
+# A base with two teeth on it 0.1 m wide: one 0.1 m high, and 0.1 m further on one of 60 um.
+TEETH = [(0, -0.1), (0.3, -0.1), (0.3, 0.10006), (0.2, 0.10006), (0.2, 0.1), (0.1, 0.1), (0.1, 0.2), (0, 0.2)]
 
 
 def test_a_sliver_that_hangs_on_cloth_which_stays_is_not_dropped():
-    # The fold's line goes on below the second tooth, whose 2e-6 m^2 belong to the base: 0.3 x 0.2 m^2.
+    # The fold's line goes on below the second tooth, whose 6e-6 m^2 belong to the base: 0.3 x 0.2 m^2.
     base, tooth = halved(spread(TEETH), Segment((0.0, 0.1), (0.1, 0.1))).layers
-    assert base.area == pytest.approx(0.06 + 2e-6)
+    assert base.area == pytest.approx(0.06 + 6e-6)
     assert tooth.area == pytest.approx(0.01)
 
 
+def test_a_sliver_that_hangs_on_cloth_which_moves_goes_with_it():
+    # All above y = 0 moves: a leg 0.1 x 0.1 m, a bar 0.3 x 0.1 m on it, and a tooth from the bar's other end that
+    # reaches 60 um below the fold's line where that goes on, 0.1 m x 60 um.
+    hook = [(0.3, -6e-5), (0.3, 0.2), (0, 0.2), (0, -0.1), (0.1, -0.1), (0.1, 0.1), (0.2, 0.1), (0.2, -6e-5)]
+    done = halved(spread(hook), Segment((0.0, 0.0), (0.1, 0.0)))
+    assert done.slivers == ()
+    assert [layer.area for layer in done.layers] == pytest.approx([0.01, 0.05 + 6e-6])
+
+
 def test_a_sliver_that_hangs_on_nothing_is_dropped_and_counted():
-    # The lower part, folded up over y = 0.05, covers the teeth. Then all above y = 0.10001 moves: of the layer below
-    # the first tooth but for a hair, and of the second 0.1 m x 10 um by themselves, which are no cloth.
+    # The lower part, folded up over y = 0.05, covers the teeth. Then all above y = 0.10003 moves: of the layer below
+    # the first tooth but for a hair, and of the second 0.1 m x 30 um by themselves, which are no cloth.
     stack = halved(spread(TEETH), Segment((0.3, 0.05), (0.0, 0.05)))
-    done = halved(stack, Segment((0.0, 0.10001), (0.3, 0.10001)))
-    assert done.slivers == pytest.approx((1e-6,))
-    assert done.area == pytest.approx(0.07 + 2e-6 - 1e-6)
+    done = halved(stack, Segment((0.0, 0.10003), (0.3, 0.10003)))
+    assert done.slivers == pytest.approx((3e-6,))
+    assert done.area == pytest.approx(0.07 + 6e-6 - 3e-6)
 
 
 @pytest.mark.parametrize("hair", (0.0, *HAIRS_M))
@@ -145,11 +155,15 @@ def test_a_ribbon_folded_to_and_fro_64_times_is_a_stack_of_65():
     assert middles == pytest.approx([0.05 + 0.1 * i for i in range(65)])
 
 
-def test_twenty_folds_with_512_layers_lose_nothing():
+def test_twenty_folds_with_512_layers_lose_nothing_and_take_less_than_two_seconds():
     # Rolled up 15 times: 16 layers of 0.1 x 0.8 m. Halved five times the other way: 16 x 32.
     roll = rolled(15, 0.1, 0.8)
     halvings = (fold((1.5, 0.8 / 2**i), (1.6, 0.8 / 2**i)) for i in range(1, 6))
-    sequence = FoldSequence.of(garment(roll.outline, *roll.folds, *halvings))
+    cloth = garment(roll.outline, *roll.folds, *halvings)
+    began_s = thread_time()
+    sequence = fold_dag(cloth)
+    assert len(sequence.to_dict()["layers"]) == 512
+    assert thread_time() - began_s < 2.0
     assert len(sequence.folds) == 20 and len(sequence.final.layers) == 512
     assert sequence.final.area == pytest.approx(1.6 * 0.8, rel=1e-9)
     assert sequence.final.silhouette.area == pytest.approx(0.1 * 0.025, rel=1e-3)
@@ -168,6 +182,22 @@ def test_a_round_cloth_folded_to_an_eighth_keeps_its_area_and_has_eight_layers(c
     assert len(sequence.final.layers) == 8
     assert sequence.final.area == pytest.approx(area, rel=1e-9)
     assert sequence.final.silhouette.area == pytest.approx(area / 8, rel=1e-4)
+
+
+def test_a_cog_of_400_corners_keeps_its_area_wherever_it_is_folded():
+    # 200 teeth between the radii 0.36 and 0.4 m: 400 triangles of r R sin(2 pi / 400) / 2.
+    radii, turns = (0.4, 0.36), [math.tau * i / 400 for i in range(400)]
+    cog = tuple((radii[i % 2] * math.cos(a), radii[i % 2] * math.sin(a)) for i, a in enumerate(turns))
+    area = 200 * 0.4 * 0.36 * math.sin(math.tau / 400)
+    # From tip to tip through the middle, and between bottoms of notches: such a chord stays within 0.36 m.
+    for i, j in ((0, 200), (200, 0), (1, 131), (131, 1), (11, 71), (399, 301)):
+        sequence = FoldSequence.of(garment(cog, fold(cog[i], cog[j])))
+        assert len(sequence.final.layers) == 2 and sequence.final.slivers == ()
+        assert sequence.final.area == pytest.approx(area, rel=1e-9)
+        # What lies to the left of the chord is the polygon of the corners from j round to i.
+        moved = [cog[k % 400] for k in range(j, j + (i - j) % 400 + 1)]
+        assert sequence.final.layers[1].area == pytest.approx(Region.polygon(moved).area, rel=1e-6)
+        assert not check_garment(sequence.garment).is_holdable
 
 
 def test_a_round_cloth_of_400_corners_needs_more_hands_than_there_are_and_that_is_an_answer():
