@@ -61,6 +61,18 @@ class _Case:
         return State(self.done, place, station, 0, self.held, is_dragged=bool(self.held))
 
 
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A tool point of a fold's path, wherever the article lies: all on which it depends whether it is in reach."""
+
+    done: int
+    is_held_out: bool
+    station: int
+    arm: int
+    sweep: float
+    point: tuple[int, ...]
+
+
 class Alone:
     """Asks for each fold of a planning problem, begun at a station, whether it could be done alone."""
 
@@ -71,6 +83,7 @@ class Alone:
         self._station = station
         self._offsets = drag_offsets(work)
         self._places = self._offsets
+        self._answers: dict[_Asked, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
         """Whether a fold can never be done; if so, what stopped it is left as its only obstacles."""
@@ -85,6 +98,7 @@ class Alone:
             return False
         work.obstacles.taken_away(fold)
         self._places = self._with_line_on_table(fold)
+        self._answers.clear()
         if not len(self._places):
             self._note_lines_off(fold, sets)
             work.obstacles.put_back(before)
@@ -197,9 +211,9 @@ class Alone:
         left = np.arange(len(self._places))
         for sweep, points in zip(_EXTREMES, unrolled, strict=True):
             for grip, arm in enumerate(trial.arms):
-                tools = self._tools(case, trial, sweep, points[grip], self._places[left])
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
-                found = self._from_anywhere(station, arm, tools, trial.approaches[grip][rows])
+                asked = _Asked(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
+                found = self._found(asked, trial, points[grip], trial.approaches[grip][rows], left)
                 alive[grip][np.ix_(rows, left)] &= found
                 left = left[alive[grip][:, left].any(axis=0)]
                 if not len(left):
@@ -207,11 +221,30 @@ class Alone:
             stages[left] += 1
         return stages
 
-    def _tools(self, case: _Case, trial: FoldTrial, sweep: float, point: FloatArray, places: FloatArray) -> FloatArray:
-        """One tool point of the unrolled plane at every place, in space, shape (places, 3), m."""
-        raised = np.column_stack([places, np.full(len(places), REST_HEIGHT_M)])
-        is_held_out = bool(case.held) and sweep < 1.0
-        return point + raised if is_held_out else trial.path.top.over_edge(point + raised)
+    def _found(
+        self,
+        asked: _Asked,
+        trial: FoldTrial,
+        point: FloatArray,
+        approaches: NDArray[np.int64],
+        places: NDArray[np.int64],
+    ) -> BoolArray:
+        """In which approaches one tool point of the unrolled plane can be reached at which places, shape (k, n).
+
+        Many trials share one of their points, so answers are kept.
+        """
+        if asked not in self._answers:
+            shape = (2, len(self._work.reach.approaches), len(self._places))
+            self._answers[asked] = np.zeros(shape, dtype=bool)
+        is_known, is_found = self._answers[asked]
+        missing = ~is_known[np.ix_(approaches, places)]
+        if missing.any():
+            block = np.ix_(approaches[missing.any(axis=1)], places[missing.any(axis=0)])
+            raised = point + np.column_stack([self._places[block[1][0]], np.full(block[1].size, REST_HEIGHT_M)])
+            tools = raised if asked.is_held_out else trial.path.top.over_edge(raised)
+            is_found[block] = self._from_anywhere(asked.station, asked.arm, tools, block[0][:, 0])
+            is_known[block] = True
+        return np.asarray(is_found[np.ix_(approaches, places)])
 
     def _from_anywhere(self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]) -> BoolArray:
         """In which approaches points are in comfort from somewhere along the base's x axis, shape (k, n)."""
@@ -236,6 +269,10 @@ class Alone:
             work.obstacles.note(obstacle)
             return False
         return can_follow(work, state.station, trial)
+
+
+def _key(point: FloatArray) -> tuple[int, ...]:
+    return tuple(grid_key(float(c)) for c in point)
 
 
 def drag_offsets(work: Work) -> FloatArray:

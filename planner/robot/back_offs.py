@@ -15,7 +15,21 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robot.comfort import Memory, Place, Question, aim_from, is_comfortable_at, place_of, question, row_slot
+from planner.robot.comfort import (
+    FORGETFUL,
+    GOOD,
+    KNOWN,
+    ROW_STEP,
+    Memory,
+    Place,
+    Question,
+    aim_from,
+    cells_of,
+    is_comfortable_at,
+    place_of,
+    question,
+    row_slot,
+)
 from planner.robot.kernel import MOST_ARCS, is_within_height
 from planner.robot.posture_room import Room
 
@@ -26,6 +40,12 @@ def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray
     if not is_within_height(ask.shape, aim_from(ask, place, 0)):
         return True
     slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
+    if slot != FORGETFUL and ask.step == ROW_STEP:
+        wanted = cells_of(place.x, count)
+        if memory.bits[slot, GOOD] & wanted != 0:
+            return False
+        if memory.bits[slot, KNOWN] & wanted == wanted:
+            return True
     while back_off < count and not is_comfortable_at(ask, memory, room, arcs, slot, place, back_off):
         back_off += 1
     return back_off == count

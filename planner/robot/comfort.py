@@ -163,6 +163,14 @@ def cell_of(x: int) -> int:
 
 
 @njit(cache=True, nogil=True)
+def cells_of(x: int, count: int) -> int:
+    """The bits of a row for so many places by the row's step, the first by its x; none for those beyond its ends."""
+    first = max(cell_of(x), 0)
+    after = min(cell_of(x) + count, ROW_CELLS)
+    return ((1 << max(after - first, 0)) - 1) << min(first, ROW_CELLS)
+
+
+@njit(cache=True, nogil=True)
 def from_cell(bits: int, cell: int) -> int:
     """The bits of a row from a cell on: one for each back-off by the row's step."""
     return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
