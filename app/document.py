@@ -20,6 +20,8 @@ from planner.errors import FoldingError
 from planner.plan.plan import Plan
 from planner.plan.timeline import Timeline
 
+STOPPED = "planning was stopped; the next change is planned again"
+
 Listener = Callable[[], None]
 Keep = Callable[[int, Draft], None]
 
@@ -144,6 +146,10 @@ class Document:
     def fail(self, version: int, failure: str) -> None:
         """Put in that a version has no answer at all."""
         self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
+
+    def stop_planning(self) -> None:
+        """Do without an answer to this version, if it is still being worked out."""
+        self._change(lambda state: replace(state, failure=STOPPED) if state.is_planning else state)
 
     def play(self) -> None:
         """Let time run; without a solved plan nothing happens."""

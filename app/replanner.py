@@ -95,7 +95,9 @@ class Replanner:
     def _work(self, state: DocumentState, began_s: float, should_stop: ShouldStop) -> None:
         def is_unwanted() -> bool:
             self._document.give_way(_GIVE_WAY_S)
-            return should_stop() or (self._is_behind and time.monotonic() - began_s > PATIENCE_S)
+            now = self._document.state
+            is_stopped = now.version == state.version and now.failure is not None
+            return is_stopped or should_stop() or (self._is_behind and time.monotonic() - began_s > PATIENCE_S)
 
         plan: Plan | None = None
         try:

@@ -35,6 +35,8 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "yourdfpy": ("app.ui",),
     "trimesh": ("app.ui",),
     "viser": ("app.ui",),
+    "svgpathtools": ("app.files",),
+    "ezdxf": ("app.files",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

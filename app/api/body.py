@@ -38,7 +38,7 @@ async def read_object(request: Request, *, may_be_empty: bool = False) -> dict[s
         TooLargeError: it has more than `LARGEST_BODY` bytes.
         RequestError: it is not called JSON, is no JSON, or no object.
     """
-    body = await _bytes(request)
+    body = await read_bytes(request, LARGEST_BODY)
     if may_be_empty and not body:
         return {}
     _require_json_type(request.headers.get("content-type"))
@@ -64,18 +64,19 @@ def _require_json_type(content_type: str | None) -> None:
         raise RequestError("body", f"the body is {kind[:80]!r}, it should be application/json")
 
 
-async def _bytes(request: Request) -> bytes:
+async def read_bytes(request: Request, most: int) -> bytes:
+    """The body as it is; raises `TooLargeError` if it has more bytes than that."""
     declared = request.headers.get("content-length", "0")
-    if declared.isascii() and declared.isdigit() and int(declared[:20]) > LARGEST_BODY:
-        raise _too_large()
+    if declared.isascii() and declared.isdigit() and int(declared[:20]) > most:
+        raise _too_large(most)
     chunks, size = [], 0
     async for chunk in request.stream():
         size += len(chunk)
-        if size > LARGEST_BODY:
-            raise _too_large()
+        if size > most:
+            raise _too_large(most)
         chunks.append(chunk)
     return b"".join(chunks)
 
 
-def _too_large() -> TooLargeError:
-    return TooLargeError(f"a request has at most {LARGEST_BODY} bytes (1 MiB)")
+def _too_large(most: int) -> TooLargeError:
+    return TooLargeError(f"a request has at most {most} bytes ({most >> 20} MiB)")

@@ -9,13 +9,16 @@ from fastapi_offline import FastAPIOffline
 
 from app.api import (
     document_routes,
+    file_routes,
     garment_routes,
     live,
+    overlay_routes,
     page_routes,
     plan_routes,
     scene_routes,
     stage_routes,
     suggestion_routes,
+    template_routes,
 )
 from app.api.described import describe_problem
 from app.api.guard import OwnNamesOnly
@@ -50,7 +53,10 @@ def create_app(settings: Settings) -> FastAPI:
         garment_routes,
         plan_routes,
         suggestion_routes,
+        template_routes,
         document_routes,
+        file_routes,
+        overlay_routes,
         live,
         stage_routes,
         page_routes,

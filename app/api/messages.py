@@ -99,5 +99,11 @@ class Choose(StrictModel):
     garment: str
 
 
-Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose
+class Stop(StrictModel):
+    """Stop planning; the next edit is planned again."""
+
+    do: Literal["stop"]
+
+
+Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])

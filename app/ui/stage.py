@@ -5,6 +5,7 @@ follows. It knows nothing of clocks: whoever owns it says which frame to show.
 """
 
 import numpy as np
+from viser.infra import StateSerializer
 
 from app.ui.cloth_view import ClothView
 from app.ui.colours import DARK, LIGHT
@@ -107,6 +108,10 @@ class Stage:
             if self._stints:
                 self._show_stint(frame)
         self._server.flush()
+
+    def record(self) -> StateSerializer:
+        """What is shown now, and from now on whatever changes: to be kept, with sleeps in between."""
+        return self._server.get_scene_serializer()
 
     def close(self) -> None:
         """Stop the server; whoever watches is cut off."""

@@ -18,7 +18,20 @@ export function byId(id) {
  */
 export function element(tag, className, ...children) {
   const made = document.createElement(tag);
-  made.className = className;
+  if (className) made.className = className;
   made.append(...children);
+  return made;
+}
+
+/**
+ * @param {string} className
+ * @param {(event: MouseEvent) => void} onClick
+ * @param {...(Node|string)} children
+ * @returns {HTMLButtonElement}
+ */
+export function button(className, onClick, ...children) {
+  const made = /** @type {HTMLButtonElement} */ (element("button", className, ...children));
+  made.type = "button";
+  made.addEventListener("click", onClick);
   return made;
 }

@@ -1,27 +1,30 @@
-/** The combobox `Garment`. */
+/** The combobox `Garment`: what is drawn, and what could be opened in its place. */
 
 import { byId } from "./dom.js";
 
-export class Garments {
-  /** @param {(name: string) => void} onChoose */
-  constructor(onChoose) {
-    this.select = /** @type {HTMLSelectElement} */ (byId("garment"));
-    this.chosen = "";
-    this.select.addEventListener("change", () => onChoose(this.select.value));
-  }
+/** @param {import("./store.js").Store} store */
+export function mountGarments(store) {
+  const select = /** @type {HTMLSelectElement} */ (byId("garment"));
+  /** @type {{name: string, title: string}[]} */
+  let entries = [];
 
-  /** Ask the server which garments there are. */
-  async load() {
-    const answer = await fetch("/api/garments");
-    if (!answer.ok) return;
-    const entries = await answer.json();
-    this.select.replaceChildren(...entries.map((entry) => new Option(entry.title, entry.name)));
-    this.show(this.chosen);
-  }
+  const show = () => {
+    if (!store.state) return;
+    const { name, title } = store.state.drawing;
+    const isKnown = entries.some((entry) => entry.name === name);
+    const shown = isKnown ? entries : [{ name, title: title || name }, ...entries];
+    select.replaceChildren(...shown.map((entry) => new Option(entry.title, entry.name)));
+    select.value = name;
+  };
+  const load = async () => {
+    const answer = await fetch("/api/garments").catch(() => null);
+    if (!answer?.ok) return;
+    entries = await answer.json();
+    show();
+  };
 
-  /** @param {string} name of the document's garment */
-  show(name) {
-    this.chosen = name;
-    this.select.value = name;
-  }
+  select.addEventListener("change", () => store.open(select.value));
+  store.addEventListener("document", show);
+  store.addEventListener("refused", show);
+  store.addEventListener("connection", () => store.isLive && load());
 }

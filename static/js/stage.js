@@ -2,18 +2,20 @@
 
 import { byId } from "./dom.js";
 
-export class StageFrame {
-  /**
-   * @param {string} name the document
-   * @param {(event: KeyboardEvent) => void} onKey keys pressed while the stage has the focus
-   */
-  constructor(name, onKey) {
-    this.frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
-    this.name = name;
-    this.frame.addEventListener("load", () => this.frame.contentWindow?.addEventListener("keydown", onKey));
-  }
-
-  load() {
-    this.frame.src = `/viser/${this.name}/`;
-  }
+/**
+ * @param {import("./store.js").Store} store
+ * @param {(event: KeyboardEvent) => void} onKey keys pressed while the stage has the focus
+ */
+export function mountStage(store, onKey) {
+  const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
+  const load = () => {
+    frame.src = `/viser/${store.id}/`;
+  };
+  frame.addEventListener("load", () => frame.contentDocument?.addEventListener("keydown", onKey));
+  let wasLost = false;
+  store.addEventListener("connection", () => {
+    if (store.isLive && wasLost) load();
+    wasLost = !store.isLive;
+  });
+  load();
 }

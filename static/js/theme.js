@@ -1,6 +1,7 @@
 /** Light or dark: as the system has it, until the reader says otherwise. */
 
 import { byId } from "./dom.js";
+import { icon } from "./icons.js";
 
 const KEY = "pleat-theme";
 
@@ -26,8 +27,11 @@ export class Theme extends EventTarget {
   }
 
   apply() {
+    const other = this.isDark ? "Light" : "Dark";
     document.documentElement.dataset.theme = this.isDark ? "dark" : "light";
-    this.button.textContent = this.isDark ? "Light" : "Dark";
+    this.button.replaceChildren(icon(this.isDark ? "sun" : "moon"));
+    this.button.setAttribute("aria-label", other);
+    this.button.title = `${other} colours`;
     this.dispatchEvent(new Event("change"));
   }
 }

@@ -205,6 +205,33 @@ def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkey
     desk.rest()
 
 
+def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    begun, stopped = threading.Event(), threading.Event()
+
+    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        begun.set()
+        while not should_stop():
+            time.sleep(0.001)
+        stopped.set()
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+    with monkeypatch.context() as patch:
+        patch.setattr("app.replanner.make_plan", endless)
+        desk.document.edit(Edit("Move", moved(1)))
+        assert begun.wait(PATIENCE_S)
+        desk.document.stop_planning()
+        assert stopped.wait(PATIENCE_S)
+    assert status_text(desk.document.state) == "No plan: planning was stopped; the next change is planned again"
+    assert not desk.document.state.is_planning
+    desk.document.edit(Edit("Move", moved(2)))
+    desk.rest()
+    desk.document.stop_planning()
+    assert desk.document.state.failure is None, "there is nothing to stop any more"
+
+
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     begun = threading.Event()

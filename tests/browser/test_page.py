@@ -8,7 +8,7 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, Playwright, expect
 
 from tests.app.conftest import Served
 
@@ -60,11 +60,10 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 
 
 @pytest.fixture(scope="module")
-def browser(chromium_path: str | None) -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
-        yield opened
-        opened.close()
+def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
+    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+    yield opened
+    opened.close()
 
 
 @pytest.fixture
@@ -158,7 +157,7 @@ def test_scrubbing_to_the_end_shows_the_folded_cloth(page: Page) -> None:
     assert node(page, "/cloth/front")["size"][1] < 0.1
     slider = page.get_by_role("slider", name="Time")
     expect(slider).to_have_attribute("aria-valuetext", f"{duration_s(page):.1f} s")
-    expect(page.locator("#folds .is-done")).to_have_count(5)
+    expect(page.get_by_role("list", name="Folds").locator("[data-state=done]")).to_have_count(5)
 
 
 def test_the_space_bar_plays_and_arrows_step(page: Page) -> None:
@@ -197,49 +196,17 @@ def test_the_stage_takes_on_the_pages_theme(page: Page) -> None:
     until(lambda: page.evaluate(background) == light)
 
 
-def test_the_base_lane_shows_that_the_base_drives_within_a_fold(page: Page) -> None:
-    moved = page.evaluate(
-        """async () => {
-          const { Lanes } = await import("/static/js/lanes.js");
-          const seen = [];
-          const lanes = new Lanes((t) => seen.push(t));
-          const fold = (start_s, back_off_m) =>
-            ({ kind: "fold", fold: 0, start_s, duration_s: 5, grips: [], base: { back_off_m } });
-          const primitives = [fold(0, 0), fold(5, 0.3), fold(10, 0.1)];
-          lanes.show({ folds: [{ name: "half" }] }, { cost_s: 15, primitives });
-          const lane = document.querySelector(".lane[data-lane=base]");
-          const blocks = [...lane.querySelectorAll(".block")].map((block) => block.textContent);
-          const box = lane.getBoundingClientRect();
-          lane.dispatchEvent(new MouseEvent("click", { clientX: box.left + box.width / 5 }));
-          return { blocks, seen };
-        }"""
-    )
-    assert moved["blocks"] == ["30 cm back", "20 cm ahead"]
-    assert moved["seen"] == [pytest.approx(3.0, abs=0.05)]
-
-
 @pytest.mark.parametrize("width", [721, 900, 1000, 1440])
 def test_the_status_covers_nothing_of_the_bar(page: Page, width: int) -> None:
     page.set_viewport_size({"width": width, "height": 600})
     edges = page.evaluate(
-        """() => ["h1", ".bar-garment", "#status", ".bar-end"].map((name) => {
+        """() => ["h1", "#garment", ".bar-group", "#status", ".bar-end"].map((name) => {
           const box = document.querySelector(name).getBoundingClientRect();
           return [box.left, box.right];
         })"""
     )
     for (_, right), (left, _) in itertools.pairwise(edges):
         assert right <= left + 0.5
-
-
-def test_a_reason_without_words_is_not_shown(page: Page) -> None:
-    page.evaluate(
-        """async () => {
-          const { showNumbers } = await import("/static/js/numbers.js");
-          const plan = { reasons: [{ message: "" }, { message: "Too far." }] };
-          showNumbers({ plan, status: "infeasible", text: "No plan: Too far." });
-        }"""
-    )
-    expect(page.locator(".reasons li")).to_have_text(["Too far."])
 
 
 def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:

@@ -1,0 +1,118 @@
+"""Files: a garment out of one that somebody has, and all that can be made of a document."""
+
+from functools import partial
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Query, Request
+from fastapi.concurrency import run_in_threadpool
+from pydantic import BaseModel
+from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse, Response
+
+from app.api.answers import GarmentFile
+from app.api.asked import workspace_of
+from app.api.body import read_bytes
+from app.api.described import problems
+from app.api.problems import ProblemResponse
+from app.api.waiting import answer_of
+from app.document_state import DocumentState
+from app.files.exports import EXPORTS, Export, UnavailableFileError, find_export
+from app.files.import_errors import UnitsNeededError
+from app.files.import_file import LARGEST_FILE, Imported, import_file
+from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
+from app.job_pool import ShouldStop
+
+router = APIRouter(prefix="/api", tags=["files"])
+
+_ANY_FILE = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
+
+FileName = Annotated[str, Query(max_length=300)]
+Units = Annotated[str | None, Query(description="what one unit of the drawing is: mm, cm, m or in")]
+Scale = Annotated[float, Query(allow_inf_nan=False)]
+Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
+
+
+class ImportAnswer(BaseModel):
+    """A garment out of a file, and what is to be said about it."""
+
+    format: Literal["json", "svg", "dxf"]
+    garment: GarmentFile
+    notes: list[str]
+
+
+class FileEntry(BaseModel):
+    """A file that a document can be made into; `reason` says why it is not available now."""
+
+    what: str
+    title: str
+    text: str
+    filename: str
+    media_type: str
+    available: bool
+    reason: str | None
+
+
+@router.post(
+    "/imports",
+    openapi_extra=_ANY_FILE,
+    responses={200: {"model": ImportAnswer}, **problems(413, 422)},
+)
+async def post_import(request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0) -> Response:
+    """The garment in a file that is sent as it is: a garment file, SVG or DXF, told by the ending of its name.
+
+    Where the file does not say how long a unit is, the problem is about the field `units` and has `sizes`: how large
+    the garment would be in each.
+    """
+    data = await read_bytes(request, LARGEST_FILE)
+    job = workspace_of(request).pool.start(lambda _: import_file(filename, data, units, scale))
+    try:
+        return JSONResponse(_imported(await answer_of(request, job)))
+    except UnitsNeededError as error:
+        return ProblemResponse(
+            422, str(error), [{"field": "units", "message": str(error)}], None, {"sizes": error.sizes}
+        )
+
+
+@router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422)})
+async def list_files(request: Request, document_id: str) -> JSONResponse:
+    """All files that a document can be made into, and whether they are available now."""
+    opened = await run_in_threadpool(workspace_of(request).opened, document_id)
+    state = opened.document.state
+    return JSONResponse([export.to_dict(state) for export in EXPORTS])
+
+
+@router.get(
+    "/documents/{document_id}/files/{what}",
+    response_class=Response,
+    responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422)},
+)
+async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
+    """A document as a file, to be saved; `rate_hz` is how many frames a second a recording has.
+
+    A file that cannot be made of the document as it is now is answered with 409 and the reason.
+    """
+    opened = await run_in_threadpool(workspace_of(request).opened, document_id)
+    export, state = find_export(what), opened.document.state
+    if export is None:
+        raise HTTPException(404)
+    job = workspace_of(request).pool.start(partial(_made, export, state, rate_hz))
+    try:
+        with opened.in_use():
+            made = await answer_of(request, job)
+    except UnavailableFileError as error:
+        return ProblemResponse(409, str(error))
+    disposition = f'attachment; filename="{export.filename(state)}"'
+    return Response(made, media_type=export.media_type, headers={"content-disposition": disposition})
+
+
+def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    return export.file(state, rate_hz, should_stop)
+
+
+def _imported(imported: Imported) -> dict[str, Any]:
+    return {"format": imported.format, "garment": imported.garment.to_dict(), "notes": list(imported.notes)}

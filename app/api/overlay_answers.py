@@ -1,0 +1,123 @@
+"""The shapes of overlays, for the description of the interface at /docs."""
+
+from pydantic import BaseModel
+
+from app.api.answers import Point, Point3, PoseFile
+from app.api.document_answers import Ring
+
+
+class RegionAnswer(BaseModel):
+    """A connected region (m)."""
+
+    outer: Ring
+    holes: list[Ring]
+
+
+class RobotAnswer(BaseModel):
+    """Where the base stands (m, rad)."""
+
+    station: str | None
+    back_off_m: float
+    pose: PoseFile
+    outline: Ring
+    radius_m: float
+
+
+class ReachAnswer(BaseModel):
+    """Where an arm can take cloth that lies on the table, with comfort and without (m)."""
+
+    arm: str
+    comfort_m: float
+    regions: list[RegionAnswer]
+    bare: list[RegionAnswer]
+
+
+class LimitAnswer(BaseModel):
+    """The line beyond which the cloth may hang over an edge of the table (m)."""
+
+    edge: str
+    line: tuple[Point, Point]
+    at_m: float
+    now_m: float
+
+
+class SlipAnswer(BaseModel):
+    """What hangs over the table's edges, and how much may (m^2, layers counted)."""
+
+    friction: float
+    pull_m2: float
+    lying_m2: float
+    hanging_m2: dict[str, float]
+    holds: bool
+    limits: list[LimitAnswer]
+
+
+class StandAnswer(BaseModel):
+    """Where a primitive leaves the base (m, rad)."""
+
+    primitive: int
+    point: Point
+    yaw_rad: float
+
+
+class BaseWayAnswer(BaseModel):
+    """The base's way, and how many of its points have been passed (m)."""
+
+    way: list[Point]
+    stands: list[StandAnswer]
+    gone: int
+
+
+class PathGripAnswer(BaseModel):
+    """The path of one hand: seen from above, and in space with the height over the table (m)."""
+
+    arm: str
+    pick: Point
+    apex: Point | None
+    place: Point
+    points: list[Point3]
+
+
+class PathsAnswer(BaseModel):
+    """The paths of a primitive, in the article frame as it lies when that begins."""
+
+    primitive: int
+    kind: str
+    fold: int | None
+    grips: list[PathGripAnswer]
+
+
+class OverlaysAnswer(BaseModel):
+    """Overlays at one moment, in the article frame as it lies then."""
+
+    version: int
+    plan_version: int | None
+    t_s: float | None
+    primitive: int | None
+    done: list[int]
+    fold_step: int | None
+    placement: PoseFile
+    robot: RobotAnswer
+    table: Ring
+    reach: list[ReachAnswer] | None
+    slip: SlipAnswer | None
+    base: BaseWayAnswer | None
+    paths: list[PathsAnswer] | None
+
+
+class PlaceAnswer(BaseModel):
+    """A placement, by how far it moves the article (article frame, m), and what the plan then costs (s)."""
+
+    move: Point
+    placement: PoseFile
+    cost_s: float | None
+
+
+class PlacesAnswer(BaseModel):
+    """The map of placements for a document; not complete when time ran out first."""
+
+    version: int
+    step_m: float
+    cells: list[PlaceAnswer]
+    best: PlaceAnswer | None
+    complete: bool

@@ -1,0 +1,120 @@
+"""Overlays: what the board can show to say why a plan is as it is, and the map of placements under the cloth."""
+
+from functools import partial
+from typing import Annotated, Any
+
+import numpy as np
+from fastapi import APIRouter, Query, Request
+from fastapi.concurrency import run_in_threadpool
+from starlette.responses import JSONResponse, Response
+
+from app.api.asked import workspace_of
+from app.api.described import problems
+from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
+from app.api.problems import ProblemResponse
+from app.api.suggestion_routes import Step, TimeLimit
+from app.api.waiting import answer_of
+from app.document_state import DocumentState
+from app.job_pool import ShouldStop
+from app.overlays.moment import Moment, NoClothError, moment_as_drawn, moment_of_plan
+from app.overlays.overlays import OVERLAYS, overlays
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import Pose2
+from planner.plan.suggestion_map import Cell, placement_map
+
+router = APIRouter(prefix="/api/documents/{document_id}/overlays", tags=["overlays"])
+
+Time = Annotated[float | None, Query(ge=0.0, allow_inf_nan=False)]
+BackOff = Annotated[float, Query(allow_inf_nan=False)]
+Shown = Annotated[str | None, Query(description=f"some of {', '.join(OVERLAYS)}, separated by commas; all by default")]
+
+
+@router.get("", responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422)})
+async def read_overlays(
+    request: Request,
+    document_id: str,
+    t_s: Time = None,
+    station: str | None = None,
+    back_off_m: BackOff = 0.0,
+    show: Shown = None,
+) -> Response:
+    """Reach, slip limits, the base's way and the paths of the hands at a time of the plan or at a station.
+
+    Without either, at the document's own time; without a plan, at the station where the robot starts.
+    """
+    opened = await run_in_threadpool(workspace_of(request).opened, document_id)
+    shown = _shown(show)
+    if t_s is not None and station is not None:
+        raise RequestError("station", "is asked for together with t_s")
+    time_s = opened.document.t_s if t_s is None else t_s
+    state = opened.document.state
+    try:
+        return JSONResponse(await run_in_threadpool(_overlays, state, time_s, station, back_off_m, shown))
+    except NoClothError as error:
+        return ProblemResponse(409, str(error))
+
+
+@router.get("/places", responses={200: {"model": PlacesAnswer}, **problems(404, 409, 422)})
+async def read_places(
+    request: Request, document_id: str, step_m: Step = 0.1, time_limit_s: TimeLimit = 10.0
+) -> Response:
+    """What the plan costs wherever the document's garment could be laid, not turned."""
+    opened = await run_in_threadpool(workspace_of(request).opened, document_id)
+    state = opened.document.state
+    if state.question is None:
+        return ProblemResponse(409, "The drawing is not finished, so no placement can be tried.")
+    job = workspace_of(request).pool.start(partial(_places, state, step_m, time_limit_s))
+    with opened.in_use():
+        return JSONResponse(await answer_of(request, job))
+
+
+def _shown(show: str | None) -> frozenset[str]:
+    if show is None:
+        return frozenset(OVERLAYS)
+    names = frozenset(name for name in show.split(",") if name)
+    unknown = sorted(names - set(OVERLAYS))
+    if unknown:
+        raise RequestError("show", f"{unknown[0][:80]!r} is none of {', '.join(OVERLAYS)}")
+    return names
+
+
+def _overlays(
+    state: DocumentState, time_s: float, station: str | None, back_off_m: float, shown: frozenset[str]
+) -> dict[str, Any]:
+    moment: Moment
+    if station is None and state.film is not None:
+        moment = moment_of_plan(state, time_s)
+    else:
+        moment = moment_as_drawn(state, station, back_off_m)
+    try:
+        return overlays(state, moment, shown)
+    except SceneError as error:
+        raise error.within("scene") from None
+
+
+def _places(state: DocumentState, step_m: float, time_limit_s: float, should_stop: ShouldStop) -> dict[str, Any]:
+    question = state.question
+    assert question is not None
+    found = placement_map(
+        question.garment,
+        question.scene,
+        start_station=question.start_station,
+        comfort_radius_m=question.comfort_radius_m,
+        time_limit_s=time_limit_s,
+        should_stop=should_stop,
+        step_m=step_m,
+    )
+    here = question.garment.placement
+    return {
+        "version": state.version,
+        "step_m": found.step_m,
+        "cells": [_place(cell, here) for cell in found.cells],
+        "best": None if found.best is None else _place(found.best, here),
+        "complete": found.is_complete,
+    }
+
+
+def _place(cell: Cell, here: Pose2) -> dict[str, Any]:
+    """A cell as the article sees it from where it lies now."""
+    x, y = here.to_inner(np.array([cell.placement.x_m, cell.placement.y_m]))
+    return {"move": [float(x), float(y)], "placement": cell.placement.to_dict(), "cost_s": cell.cost_s}

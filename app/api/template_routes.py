@@ -1,0 +1,87 @@
+"""Templates: the kinds of garments that can be made from a few measures."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Request
+from fastapi.concurrency import run_in_threadpool
+from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse
+
+from app.api.answers import GarmentFile, Point
+from app.api.body import read_model
+from app.api.described import problems, takes
+from app.templates.catalogue import TEMPLATES, find_template
+from app.templates.measure import MeasureError
+from planner.cloth.garment import TITLE_MAX
+from planner.strict_model import StrictModel
+
+router = APIRouter(prefix="/api/templates", tags=["templates"])
+
+
+class MeasureAnswer(BaseModel):
+    """A measure that a template asks for (m)."""
+
+    name: str
+    label: str
+    text: str
+    default_m: float
+    min_m: float
+    max_m: float
+
+
+class FoldLineAnswer(BaseModel):
+    """A fold; what lies to the left of start -> end moves."""
+
+    kind: str
+    start: Point
+    end: Point
+
+
+class TemplateAnswer(BaseModel):
+    """A template, and what it makes of its defaults (m)."""
+
+    name: str
+    title: str
+    text: str
+    measures: list[MeasureAnswer]
+    outline: list[Point]
+    folds: list[FoldLineAnswer]
+
+
+class MadeAnswer(BaseModel):
+    """What a template has made."""
+
+    garment: GarmentFile
+    notes: list[str]
+
+
+class MadeRequest(StrictModel):
+    """Measures (m), those left out having their defaults, and what to call the garment."""
+
+    measures: dict[str, float] = Field(default_factory=dict)
+    title: Annotated[str, Field(max_length=TITLE_MAX)] | None = None
+
+
+@router.get("", response_model=list[TemplateAnswer])
+async def list_templates() -> list[dict[str, Any]]:
+    """All templates, in the order in which to show them."""
+    return await run_in_threadpool(lambda: [template.to_dict() for template in TEMPLATES])
+
+
+@router.post(
+    "/{name}",
+    openapi_extra=takes(MadeRequest),
+    responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
+)
+async def post_template(request: Request, name: str) -> JSONResponse:
+    """The garment that a template makes of these measures, with its folds."""
+    wanted = await read_model(request, MadeRequest, may_be_empty=True)
+    template = find_template(name)
+    if template is None:
+        raise HTTPException(404)
+    try:
+        garment = await run_in_threadpool(template.garment, wanted.measures, wanted.title)
+    except MeasureError as error:
+        raise error.within("measures") from None
+    return JSONResponse({"garment": garment.to_dict(), "notes": []})

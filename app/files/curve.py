@@ -1,0 +1,122 @@
+"""Curves of a drawing, and how they become points.
+
+A curve is flattened when it is known how long a unit of the drawing is, so that the deviation can be said in metres.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from svgpathtools import Arc, CubicBezier, Line, QuadraticBezier
+
+from app.files.import_errors import broken
+from planner.geometry.pose import FloatArray
+
+POINTS_MAX = 50_000
+"""A curve is cut into no more pieces than this."""
+
+
+class Curve(Protocol):
+    """A connected line in a drawing."""
+
+    @property
+    def extent(self) -> FloatArray:
+        """Points in whose convex hull it lies but for the bulges of arcs, its ends first and last, shape (n, 2)."""
+        ...
+
+    def flattened(self, tolerance: float) -> FloatArray:
+        """Points on it, ends included, from which it deviates by no more than this (units), shape (n, 2)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class SvgCurve:
+    """A subpath of an SVG path.
+
+    Attributes:
+        segments: its segments, each beginning where the one before ends.
+        matrix: from its own coordinates to the drawing's, shape (3, 3).
+    """
+
+    segments: tuple[Line | QuadraticBezier | CubicBezier | Arc, ...]
+    matrix: FloatArray
+
+    @property
+    def extent(self) -> FloatArray:
+        """The ends and control points of its segments, and the middles of its arcs."""
+        with np.errstate(all="ignore"):  # what is beyond all numbers is refused by who reads it
+            return self._placed(np.concatenate([_controls(segment) for segment in self.segments]))
+
+    def flattened(self, tolerance: float) -> FloatArray:
+        """Points on it, evenly spaced within each segment."""
+        stretch = float(np.linalg.norm(self.matrix[:2, :2], 2)) or 1.0
+        with np.errstate(all="ignore"):
+            counts = [_count(segment, tolerance / stretch) for segment in self.segments]
+            if not sum(counts) <= POINTS_MAX:
+                raise broken(f"a curve in it needs more than {POINTS_MAX} points")
+            pieces = [_points(segment, int(count)) for segment, count in zip(self.segments, counts, strict=True)]
+            start = np.array([self.segments[0].start])
+            return _finite(self._placed(np.concatenate([start, *pieces])))
+
+    def _placed(self, points: FloatArray) -> FloatArray:
+        plane = np.column_stack([points.real, points.imag, np.ones(len(points))])
+        return np.asarray((plane @ self.matrix.T)[:, :2])
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnCurve:
+    """A curve that can flatten itself, as those of a DXF file can.
+
+    Attributes:
+        extent: its ends and control points, shape (n, 2).
+        cut: gives points on it for a tolerance, shape (n, 2).
+    """
+
+    extent: FloatArray
+    cut: Callable[[float], FloatArray]
+
+    def flattened(self, tolerance: float) -> FloatArray:
+        """Points on it."""
+        return _finite(self.cut(tolerance))
+
+
+def _finite(points: FloatArray) -> FloatArray:
+    if not np.all(np.isfinite(points)):
+        raise broken("a curve in it cannot be followed: its numbers are too large")
+    return points
+
+
+def _controls(segment: Line | QuadraticBezier | CubicBezier | Arc) -> FloatArray:
+    """Points round a segment, as complex numbers."""
+    if isinstance(segment, Arc):
+        return np.array([segment.start, segment.point(0.5), segment.end])
+    return np.array(segment.bpoints())
+
+
+def _count(segment: Line | QuadraticBezier | CubicBezier | Arc, tolerance: float) -> float:
+    """Into how many pieces a segment is cut.
+
+    A piece of a curve with the second derivative c, over a stretch s of the parameter, deviates from its chord by at
+    most c s^2 / 8.
+    """
+    return max(float(np.ceil(np.sqrt(_bend(segment) / (8.0 * tolerance)))), 1.0)
+
+
+def _points(segment: Line | QuadraticBezier | CubicBezier | Arc, count: int) -> FloatArray:
+    """Points on a segment, as complex numbers, the first left out."""
+    points = [segment.point(number / count) for number in range(1, count)]
+    return np.array([*points, segment.end])
+
+
+def _bend(segment: Line | QuadraticBezier | CubicBezier | Arc) -> float:
+    """The largest second derivative by the parameter, which runs from 0 to 1."""
+    if isinstance(segment, Line):
+        return 0.0
+    if isinstance(segment, Arc):
+        radius = max(abs(segment.radius.real), abs(segment.radius.imag))
+        return float(radius * math.radians(segment.delta) ** 2)
+    controls = np.array(segment.bpoints())
+    degree = len(controls) - 1
+    return float(degree * (degree - 1) * np.abs(np.diff(controls, 2)).max())

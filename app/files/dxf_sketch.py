@@ -1,0 +1,199 @@
+"""Reads DXF, that of sewing patterns and any other: closed lines may be the outline, open ones in colour are folds."""
+
+import io
+import logging
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+from ezdxf import recover
+from ezdxf.colors import BYBLOCK, BYLAYER, aci2rgb, int2rgb
+from ezdxf.document import Drawing
+from ezdxf.entities.dxfentity import DXFEntity
+from ezdxf.entities.dxfgfx import DXFGraphic
+from ezdxf.entities.insert import Insert
+from ezdxf.entities.spline import Spline
+from ezdxf.lldxf.const import DXFError
+from ezdxf.math import Vec3
+from ezdxf.path import Path, make_path
+
+from app.files.curve import POINTS_MAX, DrawnCurve
+from app.files.dxf_layers import BOUNDARY, INSUNITS_M, kind_by_name, may_carry_folds, unit_by_text
+from app.files.fold_colour import Rgb, kind_of
+from app.files.import_errors import broken
+from app.files.sketch import FoldLine, Sketch
+from planner.geometry.pose import FloatArray
+
+ENTITIES_MAX, INSERTS_MAX = 20_000, 1_000
+"""Blocks can multiply entities; beyond so many entities and blocks inserted a drawing is refused."""
+
+SPLINE_POINTS_MAX = 1_000
+"""A spline through more points is refused: to find it takes long."""
+
+_BLOCKS_DEEP = 8
+_LINES = frozenset({"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
+_TEXTS = frozenset({"TEXT", "MTEXT", "ATTRIB"})
+_BAD = (
+    DXFError,
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    TypeError,
+    ValueError,
+)
+"""What ezdxf raises on files that are none, or whose numbers make no sense."""
+
+# It would tell the server's log of every number in somebody's file that it had to mend.
+logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Line:
+    """A connected line, and where it stands in the file."""
+
+    curve: DrawnCurve
+    layer: str
+    kind: str | None
+    is_closed: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Inherited:
+    """What entities in a block take from where the block is inserted: a layer, a colour (ACI)."""
+
+    layer: str = "0"
+    colour: int = 7
+
+
+def read_dxf(data: bytes) -> Sketch:
+    """The drawing in a DXF file.
+
+    Raises:
+        ImportedFileError: it is no DXF, or has too many entities.
+    """
+    try:
+        drawing, _ = recover.read(io.BytesIO(data))
+        entities = list(_all(drawing))
+        lines = [line for entity, inherited in entities for line in _lines(drawing, entity, inherited)]
+    except _BAD as error:
+        raise broken(f"it is not DXF that can be read: {str(error)[:200]}") from None
+    is_pattern = any(line.layer == BOUNDARY for line in lines)
+    folds = [line for line in lines if _is_fold(line, is_pattern=is_pattern)]
+    curves = [line.curve for line in lines if line not in folds and (line.layer == BOUNDARY or not is_pattern)]
+    others = len(lines) - len(folds) - len(curves)
+    notes = ["It is a sewing pattern: layer 1 is the boundary of its pieces."] if is_pattern else []
+    if others:
+        notes.append(f"{others} line{'s' if others > 1 else ''} on its other layers left out.")
+    return Sketch(
+        tuple(curves),
+        tuple(FoldLine(line.kind or "blue", line.curve) for line in folds),
+        _unit_m(drawing, entities),
+        "it has no $INSUNITS",
+        notes=tuple(notes),
+    )
+
+
+def _is_fold(line: _Line, *, is_pattern: bool) -> bool:
+    may_be = may_carry_folds(line.layer) if is_pattern else True
+    return line.kind is not None and may_be and not line.is_closed
+
+
+def _unit_m(drawing: Drawing, entities: list[tuple[DXFEntity, _Inherited]]) -> float | None:
+    texts = (str(entity.dxf.get("text", "")) for entity, _ in entities if entity.dxftype() in _TEXTS)
+    by_text = unit_by_text(texts)
+    units = drawing.header.get("$INSUNITS", 0)
+    return INSUNITS_M.get(units) if by_text is None else by_text
+
+
+def _all(drawing: Drawing) -> Iterator[tuple[DXFEntity, _Inherited]]:
+    """All entities of the model space, those of inserted blocks in their place; without any, those of the blocks."""
+    space = drawing.modelspace()
+    blocks = (block for block in drawing.blocks if not block.is_any_layout)
+    layouts: Iterable[Iterable[DXFEntity]] = [space] if len(space) else blocks
+    counts = {"entities": 0, "blocks inserted": 0}
+    for layout in layouts:
+        yield from _within(layout, _Inherited(), 0, counts)
+
+
+def _within(
+    entities: Iterable[DXFEntity], around: _Inherited, deep: int, counts: dict[str, int]
+) -> Iterator[tuple[DXFEntity, _Inherited]]:
+    for entity in entities:
+        if not isinstance(entity, Insert):
+            _count(counts, "entities", ENTITIES_MAX)
+            yield entity, around
+        elif deep < _BLOCKS_DEEP:
+            _count(counts, "blocks inserted", INSERTS_MAX)
+            inner = _Inherited(_layer(entity, around), _colour(entity, around))
+            yield from _within(entity.virtual_entities(), inner, deep + 1, counts)
+
+
+def _count(counts: dict[str, int], what: str, most: int) -> None:
+    counts[what] += 1
+    if counts[what] > most:
+        raise broken(f"there are more than {most} {what} in it")
+
+
+def _lines(drawing: Drawing, entity: DXFEntity, around: _Inherited) -> Iterator[_Line]:
+    if entity.dxftype() not in _LINES or not isinstance(entity, DXFGraphic) or entity.dxf.get("invisible", 0):
+        return
+    if isinstance(entity, Spline) and max(entity.fit_point_count(), entity.control_point_count()) > SPLINE_POINTS_MAX:
+        raise broken(f"a spline in it has more than {SPLINE_POINTS_MAX} points")
+    try:
+        path = make_path(entity)
+    except TypeError:  # a POLYLINE may be a mesh
+        return
+    layer = _layer(entity, around)
+    if drawing.layers.has_entry(layer) and not drawing.layers.get(layer).is_on():
+        return
+    kind = kind_by_name(layer) or kind_of(_rgb(drawing, entity, layer, around))
+    for part in path.sub_paths():
+        if len(part):
+            yield _Line(_curve(part), layer, kind, part.is_closed)
+
+
+def _curve(path: Path) -> DrawnCurve:
+    def cut(tolerance: float) -> FloatArray:
+        points = list(islice(path.flattening(tolerance, segments=4), POINTS_MAX + 1))
+        if len(points) > POINTS_MAX:
+            raise broken(f"a curve in it needs more than {POINTS_MAX} points")
+        return _plane(points)
+
+    extent = _plane(path.control_vertices())
+    if not np.all(np.isfinite(extent)):
+        raise broken("a number in it is too large")
+    return DrawnCurve(extent, cut)
+
+
+def _plane(points: Iterable[Vec3]) -> FloatArray:
+    return np.array([(point.x, point.y) for point in points], dtype=np.float64).reshape(-1, 2)
+
+
+def _layer(entity: DXFEntity, around: _Inherited) -> str:
+    """An entity's layer; in a block layer 0 stands for the layer of where it is inserted."""
+    layer = str(entity.dxf.get("layer", "0"))
+    return around.layer if layer == "0" else layer
+
+
+def _colour(entity: DXFEntity, around: _Inherited) -> int:
+    colour = int(entity.dxf.get("color", BYLAYER))
+    return around.colour if colour == BYBLOCK else colour
+
+
+def _rgb(drawing: Drawing, entity: DXFEntity, layer: str, around: _Inherited) -> Rgb | None:
+    """An entity's own colour, or else its layer's."""
+    true_colour = entity.dxf.get("true_color")
+    if true_colour is not None:
+        return _shares(int2rgb(true_colour))
+    colour = _colour(entity, around)
+    if colour == BYLAYER:
+        colour = abs(drawing.layers.get(layer).color) if drawing.layers.has_entry(layer) else 7
+    return _shares(aci2rgb(colour)) if 0 < colour < BYLAYER else None
+
+
+def _shares(rgb: tuple[int, int, int]) -> Rgb:
+    red, green, blue = rgb
+    return (red / 255.0, green / 255.0, blue / 255.0)

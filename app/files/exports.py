@@ -1,0 +1,200 @@
+"""All that can be made of a document: which files, when, and how."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.document_state import DocumentState
+from app.files.fold_format import fold_format
+from app.files.plan_table import plan_table
+from app.files.recording import recording
+from app.files.svg_drawing import svg_drawing
+from app.job_pool import ShouldStop
+from planner.cloth.garment import Garment
+from planner.errors import FoldingError
+from planner.plan.plan import Plan
+
+Make = Callable[[DocumentState, float, ShouldStop], bytes]
+"""Of a state, frames a second and whether it should stop, the file."""
+
+
+class UnavailableFileError(FoldingError):
+    """A file that cannot be made of a document as it is now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """A kind of file.
+
+    Attributes:
+        what: what it is asked for by.
+        title: what people call it.
+        text: what it is good for, in a sentence.
+        ending: how its name ends.
+        media_type: its media type.
+        why_not: why it cannot be made of a state now, in a sentence; None if it can.
+        make: makes it of a state of which it can be made.
+    """
+
+    what: str
+    title: str
+    text: str
+    ending: str
+    media_type: str
+    why_not: Callable[[DocumentState], str | None]
+    make: Make
+
+    def filename(self, state: DocumentState) -> str:
+        """What the file is called."""
+        return f"{state.drawing.name}{self.ending}"
+
+    def file(self, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+        """The file; raises `UnavailableFileError`."""
+        reason = self.why_not(state)
+        if reason is not None:
+            raise UnavailableFileError(reason)
+        return self.make(state, rate_hz, should_stop)
+
+    def to_dict(self, state: DocumentState) -> dict[str, Any]:
+        """The entry of a list, as JSON."""
+        reason = self.why_not(state)
+        return {
+            "what": self.what,
+            "title": self.title,
+            "text": self.text,
+            "filename": self.filename(state),
+            "media_type": self.media_type,
+            "available": reason is None,
+            "reason": reason,
+        }
+
+
+def find_export(what: str) -> Export | None:
+    """The kind of file of a name; None if there is none."""
+    return next((export for export in EXPORTS if export.what == what), None)
+
+
+def _no_garment(state: DocumentState) -> str | None:
+    if not state.solution.problems:
+        return None
+    return f"The drawing is not finished: {state.solution.problems[0].message}."
+
+
+def _no_answer(state: DocumentState) -> str | None:
+    if (unfinished := _no_garment(state)) is not None:
+        return unfinished
+    if state.failure is not None:
+        return f"There is no plan: {state.failure}."
+    return None if state.is_answered else "It is still being planned; try again in a moment."
+
+
+def _no_plan(state: DocumentState) -> str | None:
+    if (unanswered := _no_answer(state)) is not None:
+        return unanswered
+    plan = _plan(state)
+    if plan.is_solved:
+        return None
+    why = plan.reasons[0].message if plan.reasons else "the planner ran out of time"
+    return f"There is no plan: {why}."
+
+
+def _garment(state: DocumentState) -> Garment:
+    garment = state.solution.garment
+    if garment is None:
+        raise UnavailableFileError("The drawing is not finished.")
+    return garment
+
+
+def _plan(state: DocumentState) -> Plan:
+    if state.answer is None:
+        raise UnavailableFileError("It is still being planned; try again in a moment.")
+    return state.answer.plan
+
+
+def _json(data: Any) -> bytes:  # noqa: ANN401
+    return (json.dumps(data, indent=1) + "\n").encode("ascii")
+
+
+def _garment_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    return _json(_garment(state).to_dict())
+
+
+def _garment_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    return svg_drawing(_garment(state)).encode("utf-8", "replace")
+
+
+def _garment_fold(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
+    return _json(fold_format(_garment(state), state.solution.cloths, should_stop))
+
+
+def _plan_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    plan = _plan(state)
+    return _json({"id": state.answer.plan_id if state.answer else "", **plan.to_dict()})
+
+
+def _plan_csv(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    return plan_table(_plan(state)).encode("utf-8", "replace")
+
+
+def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    return recording(_plan(state), rate_hz, should_stop, is_dark=state.is_dark)
+
+
+EXPORTS = (
+    Export(
+        "garment.json",
+        "Garment (JSON)",
+        "Outline, folds and placement; Pleat opens it again.",
+        ".json",
+        "application/json",
+        _no_garment,
+        _garment_json,
+    ),
+    Export(
+        "garment.svg",
+        "Drawing (SVG)",
+        "The outline and the fold lines in centimetres, for any drawing program; Pleat reads it again.",
+        ".svg",
+        "image/svg+xml",
+        _no_garment,
+        _garment_svg,
+    ),
+    Export(
+        "garment.fold",
+        "Folding (FOLD)",
+        "The crease pattern and the cloth after each fold, for origami programs.",
+        ".fold",
+        "application/json",
+        _no_garment,
+        _garment_fold,
+    ),
+    Export(
+        "plan.json",
+        "Plan (JSON)",
+        "What the robot does, or why it cannot; as the REST interface has it.",
+        "-plan.json",
+        "application/json",
+        _no_answer,
+        _plan_json,
+    ),
+    Export(
+        "plan.csv",
+        "Plan (CSV)",
+        "A row for each primitive: times, the base, and each hand's points as table and base see them.",
+        "-plan.csv",
+        "text/csv; charset=utf-8",
+        _no_plan,
+        _plan_csv,
+    ),
+    Export(
+        "recording.html",
+        "Recording (HTML)",
+        "The animation in one file that plays in any browser, without a server.",
+        ".html",
+        "text/html; charset=utf-8",
+        _no_plan,
+        _recording,
+    ),
+)
+"""In the order in which they are shown."""

@@ -1,0 +1,26 @@
+"""What can be wrong with a file that is to be imported."""
+
+from collections.abc import Mapping
+
+from planner.errors import FieldError, FoldingError
+
+
+class ImportedFileError(FieldError):
+    """A file that is no drawing of a garment; the field is ``file``, or the option of the import that is wrong."""
+
+
+class UnitsNeededError(FoldingError):
+    """The file does not say how long a unit of it is.
+
+    Attributes:
+        sizes: for each unit that could be meant, how wide and how high the garment would be (m).
+    """
+
+    def __init__(self, why: str, sizes: Mapping[str, tuple[float, float]]) -> None:
+        super().__init__(f"{why}: say whether a unit of the drawing is {', '.join(sizes)}")
+        self.sizes = dict(sizes)
+
+
+def broken(message: str) -> ImportedFileError:
+    """The file itself is at fault."""
+    return ImportedFileError("file", message)

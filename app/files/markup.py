@@ -1,0 +1,114 @@
+"""XML, read with care: nothing is fetched, nothing is expanded, and what is too large or too deep is refused.
+
+Python's own parsers are built on expat, which never reads a file or an address that a document refers to unless it is
+told to. What is left is entities that a document declares itself and that grow into gigabytes; a document that
+declares any is refused. A plain document type, as drawing programs write it, is not looked at.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+from app.files.import_errors import ImportedFileError, broken
+
+DEPTH_MAX = 100
+ELEMENTS_MAX = 50_000
+
+
+@dataclass(slots=True, eq=False)
+class Element:
+    """An element of a document.
+
+    Attributes:
+        tag: its name without a namespace.
+        attributes: by name without namespace.
+        line: where it begins in the file.
+        children: the elements in it, in order.
+        text: what is written in it directly.
+    """
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    children: list["Element"] = field(default_factory=list)
+    text: str = ""
+
+    def walk(self) -> Iterator["Element"]:
+        """This element and all within it, in the document's order."""
+        waiting = [self]
+        while waiting:
+            element = waiting.pop()
+            yield element
+            waiting.extend(reversed(element.children))
+
+    def child_text(self, tag: str) -> str | None:
+        """What is written in the first child of a name; None if there is none or nothing is written in it."""
+        found = next((child.text.strip() for child in self.children if child.tag == tag), "")
+        return " ".join(found.split()) or None
+
+
+def read_markup(data: bytes) -> Element:
+    """The root element of an XML document.
+
+    Raises:
+        ImportedFileError: it is not well-formed, declares entities, or has too many elements or too deep ones.
+    """
+    return _Builder().read(data)
+
+
+class _Builder:
+    """Builds the tree as expat goes through the document."""
+
+    def __init__(self) -> None:
+        self._parser = expat.ParserCreate(namespace_separator="}")
+        self._parser.buffer_text = True
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.CharacterDataHandler = self._write
+        self._parser.EntityDeclHandler = self._declare
+        self._open: list[Element] = []
+        self._root: Element | None = None
+        self._count = 0
+
+    def read(self, data: bytes) -> Element:
+        try:
+            self._parser.Parse(data, True)
+        except expat.ExpatError as error:
+            what = expat.errors.messages[error.code]
+            raise broken(f"line {error.lineno}, column {error.offset + 1}: {what}") from None
+        except (UnicodeError, LookupError, ValueError):
+            raise broken("its encoding is not known") from None
+        if self._root is None:
+            raise broken("there is no element in it")
+        return self._root
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self._count += 1
+        if len(self._open) >= DEPTH_MAX:
+            raise self._refusal(f"elements are nested more than {DEPTH_MAX} deep")
+        if self._count > ELEMENTS_MAX:
+            raise self._refusal(f"there are more than {ELEMENTS_MAX} elements")
+        named = {_local(name): value for name, value in attributes.items()}
+        element = Element(_local(tag), named, self._parser.CurrentLineNumber)
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self._root = element
+        self._open.append(element)
+
+    def _end(self, _: str) -> None:
+        self._open.pop()
+
+    def _write(self, text: str) -> None:
+        self._open[-1].text += text
+
+    def _declare(self, name: str, *_: object) -> None:
+        message = f"it declares an entity of its own ({name[:40]!r}), which is not read; save it as plain SVG"
+        raise self._refusal(message)
+
+    def _refusal(self, message: str) -> ImportedFileError:
+        return broken(f"line {self._parser.CurrentLineNumber}: {message}")
+
+
+def _local(name: str) -> str:
+    return name.rpartition("}")[2]

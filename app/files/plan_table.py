@@ -1,0 +1,112 @@
+"""Writes a plan as a table: one row for each primitive, with where the hands go as the table and as the base see it.
+
+While a fold is under way the base may drive, so its place is given for each of the three moments: when the cloth is
+taken, at the top of the path, and where it is let go. Each point of the base frame is seen from the base's place at
+its own moment. Heights in the base frame are above the floor, in the table frame above the table's top.
+"""
+
+import csv
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from planner.geometry.pose import Point3, Pose2
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.plan.plan import Plan, PlannedPrimitive
+from planner.primitives.grip import Grip
+from planner.primitives.phase import Phase
+
+MOMENTS = ("pick", "apex", "place")
+_FORMULA = ("=", "+", "-", "@")
+
+
+def plan_table(plan: Plan) -> str:
+    """A solved plan as comma-separated values, a row of names first; lengths in m, times in s, angles in rad."""
+    arms = [arm.name for arm in plan.robot.card.arms]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(_names(arms)))
+    writer.writeheader()
+    for number, primitive in enumerate(plan.primitives):
+        writer.writerow(_row(plan, number, primitive))
+    return text.getvalue()
+
+
+def _names(arms: list[str]) -> Iterator[str]:
+    yield from ("primitive", "kind", "what", "fold", "holds", "distance_m")
+    yield from ("start_s", "end_s", "duration_s", "driving_s", "arms_s")
+    yield from ("station", "back_off_m", "base_x_m", "base_y_m", "base_yaw_rad")
+    for moment in MOMENTS:
+        yield from (f"base_at_{moment}_{field}" for field in ("x_m", "y_m", "yaw_rad"))
+    for arm in arms:
+        for moment in MOMENTS:
+            yield from (f"{arm}_{moment}_in_table_{axis}_m" for axis in "xyz")
+            yield from (f"{arm}_{moment}_in_base_{axis}_m" for axis in "xyz")
+
+
+def _row(plan: Plan, number: int, primitive: PlannedPrimitive) -> dict[str, Any]:
+    phases = primitive.step.phases()
+    details = primitive.to_dict()
+    base = primitive.base
+    driving_s = sum(phase.duration_s for phase in phases if phase.base[0] != phase.base[1])
+    row = {
+        "primitive": number,
+        "kind": primitive.kind,
+        "what": _text(primitive.summary),
+        **{name: details.get(name, "") for name in ("fold", "holds", "distance_m")},
+        "start_s": primitive.start_s,
+        "end_s": primitive.start_s + primitive.duration_s,
+        "duration_s": primitive.duration_s,
+        "driving_s": driving_s,
+        "arms_s": primitive.duration_s - driving_s,
+        "station": _text(base.station),
+        "back_off_m": base.back_off_m,
+        **_pose("base", base.pose),
+    }
+    for moment, pose in _stands(phases).items():
+        points = [(grip.arm, point) for grip in primitive.grips if (point := _point(grip, moment)) is not None]
+        if points:
+            row |= _pose(f"base_at_{moment}", pose)
+        for arm, point in points:
+            row |= _columns(f"{arm}_{moment}_in_table", point)
+            row |= _columns(f"{arm}_{moment}_in_base", _in_base(plan, pose, point))
+    return row
+
+
+def _stands(phases: tuple[Phase, ...]) -> dict[str, Pose2]:
+    """Where the base is when the hands take hold, when they come to the top of a fold's path, and at the end."""
+    held = [phase for phase in phases if any(hand is not None and hand.is_closed for hand in phase.hands)]
+    if not held:
+        return {}
+    stands = {"pick": held[0].base[0], "place": held[-1].base[1]}
+    apex = next((phase for phase in held if _comes_to_apex(phase)), None)
+    return stands if apex is None else {**stands, "apex": apex.base[1]}
+
+
+def _comes_to_apex(phase: Phase) -> bool:
+    first, last = phase.cloth.sweep
+    return phase.cloth.fold is not None and first < last and abs(last - 1.0) <= ANGLE_RAD
+
+
+def _point(grip: Grip, moment: str) -> Point3 | None:
+    return {"pick": grip.pick, "apex": grip.apex, "place": grip.place}[moment]
+
+
+def _in_base(plan: Plan, base: Pose2, point: Point3) -> Point3:
+    """A point of the table frame as the base sees it, its height above the floor (m)."""
+    x, y, z = base.to_inner(np.array(point) + np.array([0.0, 0.0, plan.scene.table.height_m]))
+    return (float(x), float(y), float(z))
+
+
+def _columns(name: str, point: Point3) -> dict[str, float]:
+    return {f"{name}_{axis}_m": value for axis, value in zip("xyz", point, strict=True)}
+
+
+def _pose(name: str, pose: Pose2) -> dict[str, float]:
+    return {f"{name}_{field}": value for field, value in pose.to_dict().items()}
+
+
+def _text(text: str) -> str:
+    """A name that no spreadsheet takes for a formula."""
+    return f"'{text}" if text.startswith(_FORMULA) else text

@@ -1,0 +1,56 @@
+"""Records a plan as one HTML file that plays in any browser, without a server and without a network.
+
+A stage of its own is built for it, so that the ones that people look at are not touched. viser keeps what it would
+have sent to a browser, with the times in between, and puts it into its client.
+"""
+
+import html
+import re
+
+from app.job_pool import ShouldStop
+from app.ui.stage import Stage
+from planner.plan.plan import Plan
+
+RATES_HZ = (1.0, 30.0)
+"""So many frames a second may be asked for."""
+
+DEFAULT_RATE_HZ = 10.0
+
+HOLD_S = 1.0
+"""So long the last frame stays before the player begins again (s)."""
+
+_TITLE = re.compile(r"<title>.*?</title>", re.DOTALL)
+
+
+def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: bool) -> bytes:
+    """A solved plan as an HTML file; empty when it should stop before it is done.
+
+    Args:
+        plan: the plan.
+        rate_hz: how many frames a second, within `RATES_HZ`.
+        should_stop: asked before each frame.
+        is_dark: whether it is shown on a dark ground.
+
+    Raises:
+        UnsolvedPlanError: there is nothing to play.
+    """
+    timeline = plan.timeline()
+    stage = Stage(plan.robot.card, plan.scene)
+    try:
+        stage.set_theme(is_dark=is_dark)
+        stage.show_plan(plan)
+        stage.show(timeline.at(0.0))
+        recorder = stage.record()
+        before_s = 0.0
+        for frame in timeline.samples(rate_hz):
+            if should_stop():
+                return b""
+            recorder.insert_sleep(frame.t_s - before_s)
+            stage.show(frame)
+            before_s = frame.t_s
+        recorder.insert_sleep(HOLD_S)
+        page = recorder.as_html(dark_mode=is_dark)
+    finally:
+        stage.close()
+    title = f"<title>{html.escape(plan.garment.title)} - Pleat</title>"
+    return _TITLE.sub(lambda _: title, page, count=1).encode("utf-8", "replace")

@@ -1,0 +1,76 @@
+"""Writes a garment as SVG: lengths in cm, the outline and the folds as lines, to be read again without loss.
+
+Arrows show the direction of a fold; what lies to its left moves. The drawing's own coordinates are the article frame's
+in centimetres, with y down.
+"""
+
+import json
+from collections.abc import Iterator
+from xml.sax.saxutils import escape, quoteattr
+
+from app.files.sketch_garment import KEPT_FIELDS
+from app.files.svg_sketch import GRIP_RADIUS, KEPT
+from planner.cloth.garment import DrawnFold, Garment
+from planner.geometry.pose import Point2
+
+CLOTH, EDGE = "#f0e6d2", "#5a5142"
+COLOURS = {"blue": "#0047a3", "red": "#b33600"}
+_DASHES = {"blue": "", "red": ' stroke-dasharray="1.4 0.5 0.3 0.5"'}
+_CM_PER_M = 100.0
+_MARGIN_CM = 2.0
+_STROKE_CM = 0.25
+
+
+def svg_drawing(garment: Garment) -> str:
+    """The garment, folds included, as an SVG document."""
+    points = [_cm(point) for point in garment.outline]
+    ends = [_cm(end) for fold in garment.folds for end in (fold.start, fold.end)]
+    xs, ys = zip(*points, *ends, strict=True)
+    x, y = min(xs) - _MARGIN_CM, min(ys) - _MARGIN_CM
+    width, height = max(xs) + _MARGIN_CM - x, max(ys) + _MARGIN_CM - y
+    whole = garment.to_dict()
+    kept = json.dumps({name: whole[name] for name in KEPT_FIELDS})
+    lines = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.6f}cm" height="{height:.6f}cm" '
+        f'viewBox="{x:.6f} {y:.6f} {width:.6f} {height:.6f}" {KEPT}={quoteattr(kept)}>',
+        f"<title>{_text(garment.title)}</title>",
+        "<defs>",
+        *(_arrow(kind) for kind in COLOURS),
+        "</defs>",
+        f'<g fill="none" stroke-width="{_STROKE_CM}" stroke-linejoin="round">',
+        f'<path id="outline" fill="{CLOTH}" stroke="{EDGE}" d="M {_joined(points)} Z"/>',
+        *_folds(garment.folds),
+        "</g>",
+        "</svg>",
+    )
+    return "\n".join(lines) + "\n"
+
+
+def _arrow(kind: str) -> str:
+    return (
+        f'<marker id="{kind}-arrow" viewBox="0 0 6 6" refX="5.5" refY="3" markerWidth="6" markerHeight="6" '
+        f'orient="auto"><path d="M 0 0 L 6 3 L 0 6 Z" fill="{COLOURS[kind]}"/></marker>'
+    )
+
+
+def _folds(folds: tuple[DrawnFold, ...]) -> Iterator[str]:
+    for number, fold in enumerate(folds):
+        line = _joined([_cm(fold.start), _cm(fold.end)])
+        yield (
+            f'<path id="fold-{number}" stroke="{COLOURS[fold.kind]}"{_DASHES[fold.kind]} '
+            f'marker-end="url(#{fold.kind}-arrow)" {GRIP_RADIUS}="{fold.grip_radius_m!r}" d="M {line}">'
+            f"<title>{_text(fold.name)}</title></path>"
+        )
+
+
+def _cm(point: Point2) -> Point2:
+    return (point[0] * _CM_PER_M, -point[1] * _CM_PER_M)
+
+
+def _joined(points: list[Point2]) -> str:
+    return " L ".join(f"{x:.6f} {y:.6f}" for x, y in points)
+
+
+def _text(title: str) -> str:
+    """A title as it may stand in XML, in which some characters must not be at all."""
+    return escape("".join(char if char.isprintable() else " " for char in title))

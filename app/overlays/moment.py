@@ -1,0 +1,142 @@
+"""The moment that overlays are about: where robot and cloth are then, and what is folded already."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from app.document_state import DocumentState
+from app.ui.progress import Stint, stints
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.g_state import TableInArticle
+from planner.errors import FoldingError, RequestError
+from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
+from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
+from planner.plan.frame import Frame
+from planner.plan.plan import Plan
+from planner.primitives.scene import Scene
+
+
+class NoClothError(FoldingError):
+    """There is no cloth to lay anything over."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A moment, of a plan or of the article as it is drawn.
+
+    Attributes:
+        scene: the scene.
+        comfort_m: how much slack every reach has (m).
+        base: the base in the table frame.
+        station: the station where it stands; None while it is on its way.
+        back_off_m: how far it has backed off from there (m).
+        placement: the article frame in the table frame.
+        cloth: the stack as it lies there.
+        done: the folds done, in the user's order.
+        plan: the plan; None for the article as it is drawn.
+        stints: its primitives, with what was true when each began.
+        frame: the plan's frame; None for the article as it is drawn.
+    """
+
+    scene: Scene
+    comfort_m: float
+    base: Pose2
+    station: str | None
+    back_off_m: float
+    placement: Pose2
+    cloth: ClothState
+    done: tuple[int, ...] = ()
+    plan: Plan | None = None
+    stints: tuple[Stint, ...] = ()
+    frame: Frame | None = None
+
+    @cached_property
+    def table(self) -> TableInArticle:
+        """The table top as the article sees it."""
+        return TableInArticle.seen_from(self.placement, self.scene.table)
+
+    @property
+    def base_in_article(self) -> Pose2:
+        """The base in the article frame."""
+        return _seen_from(self.placement, self.base)
+
+    def to_article(self, points: FloatArray) -> FloatArray:
+        """Points of the table frame, shape (..., 2) or (..., 3), in the article frame."""
+        return self.placement.to_inner(points)
+
+
+def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
+    """A time in the plan that is played (s), kept within it; without a plan, the article as it is drawn.
+
+    Raises:
+        NoClothError: nothing is drawn yet.
+    """
+    if state.film is None:
+        return moment_as_drawn(state, None, 0.0)
+    plan, timeline = state.film.plan, state.film.timeline
+    frame = timeline.at(t_s)
+    primitives = [primitive.to_dict() for primitive in plan.primitives]
+    all_stints = stints(plan.work.placement, primitives)
+    if not all_stints:
+        return moment_as_drawn(state, None, 0.0)
+    stint = all_stints[frame.primitive]
+    is_over = frame.t_s >= stint.end_s - TIME_S
+    done = sorted(stint.done_after if is_over else stint.done)
+    station, back_off_m = _station(plan.scene, frame.base)
+    return Moment(
+        plan.scene,
+        state.drawing.comfort_radius_m,
+        frame.base,
+        station,
+        back_off_m,
+        stint.placement_with(frame.base),
+        plan.work.sequence.cloth(sum(1 << fold for fold in done)),
+        tuple(done),
+        plan,
+        all_stints,
+        frame,
+    )
+
+
+def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float) -> Moment:
+    """The article as it is drawn, the robot at a station, by default the one where it starts.
+
+    Raises:
+        NoClothError: nothing is drawn yet.
+        RequestError: there is no such station, or the base cannot back off so far.
+    """
+    drawing = state.drawing
+    stations = dict(drawing.scene.stations)
+    name = drawing.start_station if station is None and drawing.start_station in stations else station
+    name = next(iter(stations)) if name is None else name
+    if name not in stations:
+        raise RequestError("station", f"{name[:80]!r} is none of {', '.join(stations)}")
+    if not 0.0 <= back_off_m <= drawing.scene.back_off_max_m:
+        raise RequestError("back_off_m", f"{back_off_m} is not between 0 and {drawing.scene.back_off_max_m:g}")
+    if not state.solution.cloths:
+        raise NoClothError("There is no outline yet.")
+    return Moment(
+        drawing.scene,
+        drawing.comfort_radius_m,
+        stations[name].ahead(-back_off_m),
+        name,
+        back_off_m,
+        drawing.placement,
+        state.solution.cloths[0],
+    )
+
+
+def _station(scene: Scene, base: Pose2) -> tuple[str | None, float]:
+    """The station at which a base stands, and how far it has backed off from it (m); none, 0 while it is between."""
+    for name, pose in scene.stations:
+        back, aside = -pose.to_inner(np.array([base.x_m, base.y_m]))
+        is_turned = abs(wrapped_angle(base.yaw_rad - pose.yaw_rad)) > EDGE_RAD
+        if not is_turned and abs(aside) <= LENGTH_M and -LENGTH_M <= back <= scene.back_off_max_m + LENGTH_M:
+            return name, max(float(back), 0.0)
+    return None, 0.0
+
+
+def _seen_from(placement: Pose2, pose: Pose2) -> Pose2:
+    x, y = placement.to_inner(np.array([pose.x_m, pose.y_m]))
+    return Pose2(float(x), float(y), pose.yaw_rad - placement.yaw_rad)

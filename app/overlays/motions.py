@@ -1,0 +1,112 @@
+"""Where a plan leads: the base's way, and the paths of the hands."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from app.overlays.moment import Moment
+from app.ui.progress import Stint
+from planner.geometry.pose import FloatArray, wrapped_angle
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
+from planner.plan.plan import Plan, PlannedPrimitive
+
+
+def base_overlay(moment: Moment) -> dict[str, Any] | None:
+    """The base's way from the first primitive to the last, as JSON, article frame; None without a plan."""
+    if moment.plan is None or moment.frame is None:
+        return None
+    parts = [_base_points(primitive) for primitive in moment.plan.primitives]
+    way = _without_stops(np.concatenate(parts))
+    passed = _without_stops(np.concatenate(parts[: moment.frame.primitive + 1]))
+    first = len(_without_stops(np.concatenate(parts[: moment.frame.primitive]))) if moment.frame.primitive else 1
+    return {
+        "way": moment.to_article(way).tolist(),
+        "stands": [_stand(moment, number, primitive) for number, primitive in enumerate(moment.plan.primitives)],
+        "gone": _gone(passed, first, np.array([moment.base.x_m, moment.base.y_m])),
+    }
+
+
+def paths_overlay(moment: Moment) -> list[dict[str, Any]] | None:
+    """The paths of the hands, as JSON, each in the article frame as it lies when its primitive begins."""
+    if moment.plan is None:
+        return None
+    found = []
+    for number, (primitive, stint) in enumerate(zip(moment.plan.primitives, moment.stints, strict=True)):
+        if primitive.grips:
+            found.append(
+                {
+                    "primitive": number,
+                    "kind": primitive.kind,
+                    "fold": stint.fold,
+                    "grips": _grips(moment.plan, primitive, stint),
+                }
+            )
+    return found
+
+
+def _base_points(primitive: PlannedPrimitive) -> FloatArray:
+    """Where the base is at the start and the end of each phase, table frame, shape (n, 2), m."""
+    return np.array([(pose.x_m, pose.y_m) for phase in primitive.step.phases() for pose in phase.base])
+
+
+def _without_stops(points: FloatArray) -> FloatArray:
+    """The points of a way, each of them once as long as nothing moves."""
+    moved = np.hypot(*np.diff(points, axis=0).T) > LENGTH_M
+    return np.asarray(points[np.concatenate([[True], moved])])
+
+
+def _gone(passed: FloatArray, first: int, base: FloatArray) -> int:
+    """How many points of the way the base has passed that is on one of its stretches, none before the first."""
+    best, gone = np.inf, first
+    for number in range(first, len(passed)):
+        (ax, ay), (bx, by) = passed[number - 1], passed[number]
+        distance = float(Segment((ax, ay), (bx, by)).distances(base[None])[0])
+        if distance < best - LENGTH_M:
+            best, gone = distance, number
+    return gone
+
+
+def _stand(moment: Moment, number: int, primitive: PlannedPrimitive) -> dict[str, Any]:
+    pose = primitive.base.pose
+    x, y = moment.to_article(np.array([pose.x_m, pose.y_m]))
+    yaw_rad = wrapped_angle(pose.yaw_rad - moment.placement.yaw_rad)
+    return {"primitive": number, "point": [float(x), float(y)], "yaw_rad": yaw_rad}
+
+
+def _grips(plan: Plan, primitive: PlannedPrimitive, stint: Stint) -> list[dict[str, Any]]:
+    arms = {arm.name: number for number, arm in enumerate(plan.robot.card.arms)}
+    found = []
+    for grip in primitive.grips:
+        arm, place = arms[grip.arm], stint.placement
+        hands = [phase.hands[arm] for phase in primitive.step.phases()]
+        points = [point for hand in hands if hand is not None and hand.is_closed for point in hand.points]
+        ends = {
+            name: None if point is None else _plane(place.to_inner(np.array(point)))
+            for name, point in (("pick", grip.pick), ("apex", grip.apex), ("place", grip.place))
+        }
+        found.append(
+            {
+                "arm": grip.arm,
+                **ends,
+                "points": place.to_inner(_bends(np.array(points))).tolist(),
+            }
+        )
+    return found
+
+
+def _plane(point: Sequence[float] | FloatArray) -> list[float]:
+    return [float(point[0]), float(point[1])]
+
+
+def _bends(path: FloatArray) -> FloatArray:
+    """The points of a path in space at which it turns, and its ends, shape (n, 3), m."""
+    kept = [path[0]]
+    for point, following in pairwise(path[1:]):
+        along, ahead = point - kept[-1], following - point
+        is_straight = np.linalg.norm(np.cross(along, ahead)) <= LENGTH_M * (np.linalg.norm(ahead) + LENGTH_M)
+        if not is_straight or np.dot(along, ahead) < 0.0:
+            kept.append(point)
+    return np.array([*kept, path[-1]]) if len(path) > 1 else path

@@ -1,0 +1,85 @@
+"""What can be laid over the board to see why a plan is as it is."""
+
+from collections.abc import Callable, Collection
+from typing import Any
+
+import numpy as np
+
+from app.document_state import DocumentState
+from app.open_document import ROBOT
+from app.overlays.moment import Moment
+from app.overlays.motions import base_overlay, paths_overlay
+from app.overlays.reach_region import reach_regions
+from app.overlays.slip import slip_overlay
+from planner.geometry.isometry import Isometry
+from planner.geometry.region import Region
+from planner.robot.pr2 import load_robot
+
+
+def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> dict[str, Any]:
+    """Overlays at a moment, as JSON, in the article frame; those not shown are null."""
+    frame = moment.frame
+    is_in_order = moment.done == tuple(range(len(moment.done)))
+    return {
+        "version": state.version,
+        "plan_version": state.film.version if state.film is not None and moment.plan is not None else None,
+        "t_s": None if frame is None else frame.t_s,
+        "primitive": None if frame is None else frame.primitive,
+        "done": list(moment.done),
+        "fold_step": len(moment.done) if is_in_order else None,
+        "placement": moment.placement.to_dict(),
+        "robot": _robot(moment),
+        "table": [list(edge.start) for edge in moment.table.edges],
+        **{name: make(moment) if name in shown else None for name, make in OVERLAYS.items()},
+    }
+
+
+def _robot(moment: Moment) -> dict[str, Any]:
+    card, base = load_robot(ROBOT).card, moment.base_in_article
+    length, width = card.base_size_m
+    corners = np.array([(-length, -width), (length, -width), (length, width), (-length, width)]) / 2.0
+    return {
+        "station": moment.station,
+        "back_off_m": moment.back_off_m,
+        "pose": base.to_dict(),
+        "outline": base.to_outer(corners).tolist(),
+        "radius_m": card.base_radius_m,
+    }
+
+
+def _reach(moment: Moment) -> list[dict[str, Any]]:
+    """For each arm where it can take cloth on the table, with comfort and without."""
+    scene, base = moment.scene, moment.base_in_article
+    to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
+    with_comfort, bare = (
+        reach_regions(ROBOT, scene.torso_m, comfort_m, scene.table.height_m) for comfort_m in (moment.comfort_m, 0.0)
+    )
+    return [
+        {
+            "arm": arm.name,
+            "comfort_m": moment.comfort_m,
+            "regions": _on_table(moment, with_comfort[number], to_article),
+            "bare": _on_table(moment, bare[number], to_article),
+        }
+        for number, arm in enumerate(load_robot(ROBOT).card.arms)
+    ]
+
+
+def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[dict[str, Any]]:
+    """A region of the base frame as far as it is on the table, article frame."""
+    return [_polygon(part) for part in region.moved(to_article).intersection(moment.table.region).pieces]
+
+
+def _polygon(part: Region) -> dict[str, Any]:
+    """A connected region by its outer ring and those of its holes."""
+    holes = Region.polygon(part.ring).difference(part)
+    return {"outer": part.ring.tolist(), "holes": [hole.ring.tolist() for hole in holes.pieces]}
+
+
+OVERLAYS: dict[str, Callable[[Moment], Any]] = {
+    "reach": _reach,
+    "slip": slip_overlay,
+    "base": base_overlay,
+    "paths": paths_overlay,
+}
+"""What can be shown, and what makes it."""

@@ -1,0 +1,117 @@
+"""Where an arm can take cloth that lies flat: a region of the plane of the table, in the base frame.
+
+Asked of the robot's own reach on a grid, all points at once for one approach after the other; where two neighbours
+differ, the place between them at which it changes is found by halving. What is found depends on neither the table's
+edges nor where the base stands, so one region serves for all of them.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache, partial
+from typing import TypeAlias
+
+import numpy as np
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.region import Region
+from planner.primitives.reach import Reach
+from planner.primitives.work import BACK_OFF_STEP_M
+from planner.robot.pr2 import load_robot
+
+GRID_STEP_M = 0.02
+"""How far apart the places of the grid are (m)."""
+
+HALVINGS = 4
+"""The border of the region is found to this many halvings of the grid."""
+
+_LOW, _COUNTS = (-1.0, -1.3), (106, 131)
+"""Where the grid begins in the base frame (m), and how many places it has: further no arm reaches."""
+
+CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
+"""Of points of the base frame, shape (n, 2), m: which of them an arm can take cloth at."""
+
+
+@lru_cache(maxsize=16)
+def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
+    """For each arm, from left to right, where it can take cloth flat on a table, base frame.
+
+    Args:
+        robot: the robot's name.
+        torso_m: how far the lift is raised (m).
+        comfort_m: how much slack every reach has (m).
+        table_height_m: how high the table's top is (m).
+
+    Raises:
+        SceneError: the lift does not go there.
+    """
+    reach = load_robot(robot).reach(torso_m, comfort_m)
+    height_m = table_height_m + REST_HEIGHT_M
+    arms = range(len(reach.arm_names))
+    return tuple(region_where(partial(_takeable, reach, arm, height_m)) for arm in arms)
+
+
+def region_where(can_take: CanTake) -> Region:
+    """The region of the grid's rectangle in which a question is answered with yes, base frame."""
+    nx, ny = _COUNTS
+    xs, ys = (low + GRID_STEP_M * np.arange(count) for low, count in zip(_LOW, _COUNTS, strict=True))
+    grid = np.stack(np.meshgrid(xs, ys, indexing="ij"), axis=-1)
+    inside = can_take(grid.reshape(-1, 2)).reshape(nx, ny)
+    along_x = _borders(can_take, grid[:-1], grid[1:], inside[:-1], inside[1:])
+    along_y = _borders(can_take, grid[:, :-1], grid[:, 1:], inside[:, :-1], inside[:, 1:])
+    whole = inside[:-1, :-1] & inside[1:, :-1] & inside[:-1, 1:] & inside[1:, 1:]
+    some = inside[:-1, :-1] | inside[1:, :-1] | inside[:-1, 1:] | inside[1:, 1:]
+    pieces = [_rectangle(grid, column, rows) for column in range(nx - 1) for rows in _runs(whole[column])]
+    for i, j in np.argwhere(some & ~whole):
+        pieces.append(_cell(grid, inside, along_x, along_y, int(i), int(j)))
+    return Region.union(pieces) if pieces else Region.empty()
+
+
+def _takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> BoolArray:
+    """At which points, shape (n, 2), an arm is in comfort in at least one approach."""
+    tools = np.column_stack([points, np.full(len(points), height_m)])
+    found = np.zeros(len(points), dtype=np.bool_)
+    left = np.arange(len(points))
+    for approach in range(len(reach.approaches)):
+        if not len(left):
+            break
+        can = reach.from_anywhere(arm, tools[left], np.array([approach]), 1, BACK_OFF_STEP_M)[0]
+        found[left[can]] = True
+        left = left[~can]
+    return found
+
+
+def _borders(can_take: CanTake, a: FloatArray, b: FloatArray, in_a: BoolArray, in_b: BoolArray) -> FloatArray:
+    """Between neighbours of which one is inside, where the border is; elsewhere nothing that counts."""
+    border = np.zeros_like(a)
+    differ = in_a != in_b
+    inner, outer = (np.where(in_a[differ][:, None], *pair) for pair in ((a[differ], b[differ]), (b[differ], a[differ])))
+    for _ in range(HALVINGS):
+        middle = (inner + outer) / 2.0
+        is_in = can_take(middle)[:, None]
+        inner, outer = np.where(is_in, middle, inner), np.where(is_in, outer, middle)
+    border[differ] = inner
+    return border
+
+
+def _runs(marked: BoolArray) -> list[tuple[int, int]]:
+    """The stretches of a row that are marked: where each begins and where it has ended."""
+    steps = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(np.int8)))
+    return [(int(start), int(end)) for start, end in zip(steps[::2], steps[1::2], strict=True)]
+
+
+def _rectangle(grid: FloatArray, column: int, rows: tuple[int, int]) -> Region:
+    start, end = rows
+    return Region.polygon([grid[column, start], grid[column + 1, start], grid[column + 1, end], grid[column, end]])
+
+
+def _cell(grid: FloatArray, inside: BoolArray, along_x: FloatArray, along_y: FloatArray, i: int, j: int) -> Region:
+    """The part of a cell that is inside: its corners that are, and where the border crosses its sides."""
+    corners = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+    crossings = (along_x[i, j], along_y[i + 1, j], along_x[i, j + 1], along_y[i, j])
+    points = []
+    for corner, crossing, following in zip(corners, crossings, (*corners[1:], corners[0]), strict=True):
+        if inside[corner]:
+            points.append(grid[corner])
+        if inside[corner] != inside[following]:
+            points.append(crossing)
+    return Region.polygon(points)

@@ -1,0 +1,28 @@
+"""Garments of which the right half mirrors the left."""
+
+from planner.cloth.garment import DrawnFold
+from planner.geometry.pose import Point2
+
+
+def both_halves(left: tuple[Point2, ...], width_m: float) -> tuple[Point2, ...]:
+    """The outline that goes through these points on the left and their mirror images, the last of them first."""
+    return (*left, *(_image(point, width_m) for point in reversed(left)))
+
+
+def both_folds(left: tuple[DrawnFold, ...], width_m: float) -> tuple[DrawnFold, ...]:
+    """Folds on the left, named so, and after them their mirror images on the right."""
+    images = (
+        DrawnFold(
+            fold.name.replace("left", "right"),
+            fold.kind,
+            _image(fold.end, width_m),
+            _image(fold.start, width_m),
+            fold.grip_radius_m,
+        )
+        for fold in left
+    )
+    return (*left, *images)
+
+
+def _image(point: Point2, width_m: float) -> Point2:
+    return (width_m - point[0], point[1])

@@ -1,0 +1,115 @@
+"""A template: a kind of garment that is made, with its folds, from a few measures."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from app.templates.measure import Measure, Measures
+from planner.cloth.garment import DEFAULT_GRIP_RADIUS_M, DrawnFold, Garment
+from planner.geometry.pose import Point2, Pose2
+from planner.geometry.table import Table
+
+NEAR_EDGE_X_M = -Table().depth_m / 2
+"""Where the near edge of the default table is, table frame (m)."""
+
+INSIDE_M = 0.05
+"""So far inside that edge the cloth is laid (m)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """What a template makes of its measures.
+
+    Attributes:
+        outline: the pattern's corners, article frame (m).
+        folds: the folds in their order.
+        placement: the article frame in the table frame.
+    """
+
+    outline: tuple[Point2, ...]
+    folds: tuple[DrawnFold, ...]
+    placement: Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """A kind of garment.
+
+    Attributes:
+        name: its name, and that of the garments made of it.
+        title: what people call it.
+        text: what is made of it, in a sentence.
+        areal_density_kg_m2: the cloth's mass per area.
+        measures: the measures, in the order in which to ask for them.
+        cut: makes the rest of the measures; raises `MeasureError` where they do not go together.
+    """
+
+    name: str
+    title: str
+    text: str
+    areal_density_kg_m2: float
+    measures: tuple[Measure, ...]
+    cut: Callable[[Measures], Cut]
+
+    def garment(self, given: Mapping[str, float], title: str | None = None) -> Garment:
+        """The garment with these measures, the others having their defaults.
+
+        Raises:
+            MeasureError: a measure is out of range, or does not go with another.
+            GarmentError: the title is too long.
+        """
+        cut = self.cut(Measures(self.measures, given))
+        return Garment(
+            self.name,
+            self.title if title is None else title,
+            cut.outline,
+            self.areal_density_kg_m2,
+            cut.folds,
+            DEFAULT_GRIP_RADIUS_M,
+            cut.placement,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The template as JSON, with what it makes of the defaults."""
+        garment = self.garment({})
+        return {
+            "name": self.name,
+            "title": self.title,
+            "text": self.text,
+            "measures": [
+                {field: getattr(measure, field) for field in ("name", "label", "text", "default_m", "min_m", "max_m")}
+                for measure in self.measures
+            ],
+            "outline": [list(point) for point in garment.outline],
+            "folds": [{"kind": fold.kind, "start": list(fold.start), "end": list(fold.end)} for fold in garment.folds],
+        }
+
+
+def fold(name: str, start: Point2, end: Point2) -> DrawnFold:
+    """A fold of all layers; what lies to the left of start -> end moves."""
+    return DrawnFold(name, "blue", start, end)
+
+
+def lying_across(outline: tuple[Point2, ...]) -> Pose2:
+    """The article's x along the table's, its lowest x nearest to the robot at the front, centred across the table."""
+    xs, ys = zip(*outline, strict=True)
+    return Pose2(NEAR_EDGE_X_M + INSIDE_M - min(xs), -(min(ys) + max(ys)) / 2, 0.0)
+
+
+def lying_away(outline: tuple[Point2, ...], inside_m: float = INSIDE_M, beside_m: float = 0.0) -> Pose2:
+    """The article's y along the table's x, its lowest y nearest to the robot at the front.
+
+    Args:
+        outline: the pattern's corners (m).
+        inside_m: how far it lies inside the table's near edge (m).
+        beside_m: how far its middle is to the left of the table's (m).
+    """
+    xs, ys = zip(*outline, strict=True)
+    return Pose2(NEAR_EDGE_X_M + inside_m - min(ys), beside_m + (min(xs) + max(xs)) / 2, -math.pi / 2)
+
+
+def lying_towards(outline: tuple[Point2, ...]) -> Pose2:
+    """The article's y against the table's x, its highest y nearest to the robot at the front, centred."""
+    xs, ys = zip(*outline, strict=True)
+    return Pose2(NEAR_EDGE_X_M + INSIDE_M + max(ys), -(min(xs) + max(xs)) / 2, math.pi / 2)

@@ -1,0 +1,38 @@
+"""Trousers: leg on leg, then hem onto waist. The defaults are those of the shipped jeans, from the paper's Table 1."""
+
+from app.templates.measure import Measure, Measures
+from app.templates.template import Cut, Template, fold, lying_towards
+
+MEASURES = (
+    Measure("waist_m", "Waist", "from side to side, laid flat", 0.305, 0.2, 0.7),
+    Measure("length_m", "Length", "along the side, from the hem to the waist", 0.864, 0.3, 1.3),
+    Measure("inseam_m", "Inseam height", "from the hem straight up to the crotch", 0.61, 0.05, 1.0),
+    Measure("hem_m", "Hem", "a leg's opening, laid flat", 0.102, 0.05, 0.3),
+)
+
+
+def cut(given: Measures) -> Cut:
+    """Folds: the left leg onto the right, then the hems onto the waist."""
+    waist, length, inseam, hem = (given[name] for name in ("waist_m", "length_m", "inseam_m", "hem_m"))
+    given.require_less("inseam_m", length - 0.05, "the length less 5 cm")
+    given.require_less("hem_m", waist / 2 - 0.005, "half of the waist less 5 mm")
+    middle = waist / 2
+    outline = (
+        (0.0, 0.0),
+        (hem, 0.0),
+        (middle, inseam),
+        (waist - hem, 0.0),
+        (waist, 0.0),
+        (waist, length),
+        (0.0, length),
+    )
+    height = length / 2
+    inner = middle if height >= inseam else middle + (waist - hem - middle) * (inseam - height) / inseam
+    folds = (
+        fold("leg on leg", (middle, inseam), (middle, length)),
+        fold("hem onto waist", (waist, height), (inner, height)),
+    )
+    return Cut(outline, folds, lying_towards(outline))
+
+
+TEMPLATE = Template("trousers", "Trousers", "Two legs; leg on leg, then hem onto waist.", 0.4, MEASURES, cut)

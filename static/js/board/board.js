@@ -1,0 +1,207 @@
+/** The drafting board: an SVG that shows the document's drawing, and the tools that change it. */
+
+import { element } from "../dom.js";
+import { Callout } from "./callout.js";
+import { drawAll, LAYERS } from "./draw_all.js";
+import { mirrorCorners, mirrorFolds, mirrorOutline } from "./edits.js";
+import { FoldPaint } from "./fold_paint.js";
+import { Framing } from "./framing.js";
+import { Keyboard } from "./keyboard.js";
+import { Layers } from "./layers.js";
+import { Loupe } from "./loupe.js";
+import { Numbers } from "./numbers.js";
+import { Overlays } from "./overlays.js";
+import { Photo } from "./photo.js";
+import { PointerInput } from "./pointer.js";
+import { hatches } from "./hatches.js";
+import { Sheet, svg } from "./sheet.js";
+import { Shown } from "./shown.js";
+import { Snapper } from "./snap.js";
+import { Strip } from "./strip.js";
+import { FoldTool } from "./tools/fold.js";
+import { MeasureTool } from "./tools/measure.js";
+import { OutlineTool } from "./tools/outline.js";
+import { PhotoTool } from "./tools/photo.js";
+import { PlaceTool } from "./tools/place.js";
+import { SelectTool } from "./tools/select.js";
+import { TypedLength } from "./typed.js";
+import { length } from "./units.js";
+import { View } from "./view.js";
+
+export class Board extends Shown {
+  /** @param {import("../store.js").Store} store @param {HTMLElement} root @param {() => void} togglePlay */
+  constructor(store, root, togglePlay) {
+    super(store);
+    this.root = root;
+    this.togglePlay = togglePlay;
+    this.view = new View();
+    this.snapper = new Snapper();
+    /** @type {any} what is pointed at */
+    this.hover = null;
+    /** @type {any} the snap in force */
+    this.snapped = null;
+    /** @type {{moving: any[], landed: any[]}|null} */
+    this.ghost = null;
+    this.said = "";
+    this.paint = new FoldPaint(this);
+    /** @type {import("./rail.js").Rail|null} */
+    this.rail = null;
+    /** @type {import("./blank.js").Blank|null} */
+    this.blank = null;
+    this.framing = new Framing(this);
+    this.build();
+    this.tools = Object.fromEntries(
+      [SelectTool, OutlineTool, FoldTool, PlaceTool, MeasureTool, PhotoTool]
+        .map((Tool) => new Tool(this))
+        .map((tool) => [tool.name, tool]),
+    );
+    this.tool = this.tools.select;
+    this.listen();
+  }
+
+  build() {
+    this.svg = svg("svg", {
+      class: "board",
+      id: "drafting-board",
+      role: "application",
+      "aria-label": "Drafting board",
+      tabindex: 0,
+      "data-px-per-m": 1,
+      "data-origin-px": "0,0",
+    });
+    const scene = svg("g", { id: "board-scene" });
+    this.svg.append(hatches(), scene);
+    this.strip = new Strip(this);
+    this.root.append(this.svg);
+    this.sheets = Object.fromEntries(LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]));
+    this.hintLine = element("p", "hint-line");
+    this.live = element("p", "unseen");
+    this.live.setAttribute("aria-live", "polite");
+    this.root.append(this.hintLine, this.live);
+    this.photo = new Photo(
+      this.store.id,
+      () => this.render(),
+      (sentence) => this.store.refuse(sentence),
+    );
+    this.layerStack = new Layers(this.store, () => this.render());
+    this.overlays = new Overlays(this);
+    this.numbers = new Numbers(this);
+    this.typed = new TypedLength(this);
+    this.callout = new Callout(this);
+    this.loupe = new Loupe(this.root, "board-scene");
+  }
+
+  listen() {
+    this.pointer = new PointerInput(this);
+    this.keyboard = new Keyboard(this);
+    for (const name of ["document", "plan", "playback", "selection", "step", "overlays", "preview", "hover-time"])
+      this.store.addEventListener(name, () => this.render());
+    new ResizeObserver(() => this.framing.resize()).observe(this.svg);
+  }
+
+  /** Whether nothing is being dragged or drawn. */
+  get isQuiet() {
+    return !this.draft && !this.tool.isBusy && (this.tool.name === "select" || this.isPlacing);
+  }
+
+  get isByKeyboard() {
+    return this.keyboard.isOn;
+  }
+
+  /** The board's size, and how far below the pane's top it begins (px). */
+  get place() {
+    return { width: this.view.width, height: this.view.height, top: this.root.clientHeight - this.view.height };
+  }
+
+  snapTo(pointer, targets) {
+    this.snapped = this.snapper.snap(this.view, pointer, targets);
+    return this.snapped;
+  }
+
+  openTyped(text) {
+    this.typed.open(text);
+  }
+
+  closeTyped() {
+    this.typed.close();
+  }
+
+  nudgeOf(event) {
+    return this.keyboard.nudge(event);
+  }
+
+  keyboardPointer(event) {
+    return this.keyboard.pointer(event);
+  }
+
+  useKeyboard(isOn) {
+    this.keyboard.isOn = isOn;
+  }
+
+  /** A sentence at the cursor. @param {string} sentence */
+  say(sentence) {
+    this.said = sentence;
+  }
+
+  announce(text) {
+    this.live.textContent = text;
+  }
+
+  whereText([x, y]) {
+    return `${length(x)}, ${length(y)}${this.snapped?.name ? `, ${this.snapped.name}` : ""}`;
+  }
+
+  /** Whether a key pressed there may be the board's. @param {KeyboardEvent} event */
+  isOurs(event) {
+    const target = /** @type {HTMLElement} */ (event.target);
+    return (
+      !["INPUT", "TEXTAREA", "SELECT", "BUTTON", "A"].includes(target.tagName) &&
+      !document.querySelector("dialog[open]")
+    );
+  }
+
+  /** @param {string} name of a tool */
+  choose(name) {
+    if (!this.state) return;
+    const before = this.tool;
+    before.cancel();
+    this.closeTyped();
+    this.tool = this.tools[name];
+    if (name === "place" || before.name === "place") this.framing.turn(before.name === "place");
+    this.snapped = null;
+    this.tool.enter();
+    this.svg.focus({ preventScroll: true });
+    this.render();
+  }
+
+  escape() {
+    if (this.tool.cancel()) return true;
+    if (this.tool.name !== "select") this.choose("select");
+    else if (this.store.selection) this.store.select(null);
+    else return false;
+    return true;
+  }
+
+  mirror() {
+    const { kind, ids = [] } = this.store.selection ?? {};
+    if (!this.drawing.outline.length) return;
+    if (kind === "fold") this.store.edit("Mirror fold", (drawing) => mirrorFolds(drawing, ids));
+    else if (kind === "vertex") this.store.edit("Mirror vertices", (drawing) => mirrorCorners(drawing, ids));
+    else this.store.edit("Mirror outline", mirrorOutline);
+  }
+
+  toggleSnap() {
+    this.snapper.turn(!this.snapper.isOn);
+    this.render();
+  }
+
+  /** Draw soon. */
+  render() {
+    this.frame ??= requestAnimationFrame(() => {
+      this.frame = undefined;
+      this.framing.fitFirst();
+      this.redraft();
+      drawAll(this);
+    });
+  }
+}

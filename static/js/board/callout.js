@@ -1,0 +1,31 @@
+/** The first problem in words, beside the place where it is. */
+
+import { element } from "../dom.js";
+
+const AWAY_PX = 14;
+
+export class Callout {
+  /** @param {import("./board.js").Board} board */
+  constructor(board) {
+    this.board = board;
+    this.root = element("p", "callout");
+    this.root.hidden = true;
+    board.root.append(this.root);
+  }
+
+  draw() {
+    const { board } = this;
+    const problem = board.draft || board.tool.isBusy ? null : board.state.problems.find(({ points }) => points.length);
+    this.root.hidden = !problem || !board.drawing.outline.length;
+    if (this.root.hidden) return;
+    const name = problem.fold === null ? "" : board.drawing.folds[problem.fold]?.name || `fold ${problem.fold + 1}`;
+    const text = name ? `${name}: ${problem.message}` : problem.message;
+    this.root.textContent = text[0].toUpperCase() + text.slice(1);
+    const [x, y] = board.view.toPx(problem.points[0]);
+    const { width, height, top } = board.place;
+    const { offsetWidth: wide, offsetHeight: tall } = this.root;
+    const above = y - AWAY_PX - tall > 6 ? y - AWAY_PX - tall : y + AWAY_PX; // numbers stand below
+    this.root.style.left = `${Math.min(Math.max(x - wide / 2, 6), Math.max(width - wide - 6, 6))}px`;
+    this.root.style.top = `${top + Math.min(Math.max(above, 6), height - tall - 6)}px`;
+  }
+}

@@ -1,0 +1,72 @@
+/** Asks the server where a fold would be; while the hand moves, again and again, of which only the newest counts. */
+
+const EVERY_MS = 80;
+
+/** @typedef {{ok: boolean, told: any}} Answer */
+
+export class CreaseQuestion {
+  /** @param {import("./board.js").Board} board */
+  constructor(board) {
+    this.board = board;
+    this.turn = 0;
+    this.isAsking = false;
+    this.wanted = null;
+  }
+
+  /** @param {any} stroke @param {(answer: Answer) => void} tell */
+  ask(stroke, tell) {
+    this.wanted = { stroke: { ...stroke }, tell };
+    if (!this.isAsking) this.work();
+  }
+
+  async work() {
+    this.isAsking = true;
+    const turn = this.turn;
+    while (this.wanted && turn === this.turn) {
+      const { stroke, tell } = this.wanted;
+      this.wanted = null;
+      const began = performance.now();
+      const answer = await this.answer(stroke);
+      if (turn === this.turn) tell(answer);
+      await new Promise((resolve) => setTimeout(resolve, Math.max(EVERY_MS - (performance.now() - began), 0)));
+    }
+    this.isAsking = false;
+    if (this.wanted) this.work();
+  }
+
+  forget() {
+    this.turn += 1;
+    this.wanted = null;
+  }
+
+  /** @param {any} stroke @returns {Promise<Answer>} */
+  async answer({ isGrab, from, to }) {
+    const { step } = this.board;
+    const { isFlipped, kind } = this.board.paint;
+    const line = { start: from, end: to };
+    const wanted = isGrab ? { grab: { from, to } } : { line: isFlipped ? { start: to, end: from } : line };
+    const answer = await this.post({ after: step, kind, ...wanted });
+    if (!isGrab || !isFlipped || !answer.ok) return answer;
+    const { start, end } = answer.told;
+    return this.post({ after: step, kind, line: { start: end.point, end: start.point } });
+  }
+
+  async post(body) {
+    try {
+      const answer = await fetch(`${this.board.store.path}/crease`, {
+        method: "POST",
+        headers: { "content-type": "application/json" },
+        body: JSON.stringify(body),
+      });
+      const told = await answer.json();
+      return { ok: answer.ok, told: answer.ok ? told : { detail: sentence(told) } };
+    } catch {
+      return { ok: false, told: { detail: "The server cannot be reached." } };
+    }
+  }
+}
+
+function sentence({ errors, detail }) {
+  const text = errors?.[0]?.message ?? detail;
+  return `No fold there: ${text.replace(/^(is|does)/, "it $1")}.`;
+}

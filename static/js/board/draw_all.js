@@ -1,0 +1,58 @@
+/** Everything on the board, from the table up to the cursor. */
+
+import { drawCloth } from "./draw_cloth.js";
+import { drawChecks, drawProblems, drawReason } from "./draw_findings.js";
+import { drawFolds, drawGhost } from "./draw_folds.js";
+import { drawGrid } from "./draw_grid.js";
+import { drawHandles } from "./draw_handles.js";
+import { drawCursor, drawPreview } from "./draw_marks.js";
+import { drawTable } from "./draw_table.js";
+
+/** The layers, the lowest first. */
+export const LAYERS = [
+  "grid",
+  "photo",
+  "table",
+  "under",
+  "cloth",
+  "over",
+  "ghost",
+  "folds",
+  "findings",
+  "preview",
+  "handles",
+  "tool",
+  "cursor",
+];
+
+/** @param {import("./board.js").Board} board */
+export function drawAll(board) {
+  if (!board.state) return;
+  const { sheets, view, tool, svg } = board;
+  view.lay(board.isPlacing ? board.drawing.placement : null);
+  sheets.grid.draw(drawGrid(board));
+  sheets.photo.draw(board.isPlacing ? [] : board.photo.items(view));
+  sheets.table.draw(board.isPlacing ? drawTable(board) : []);
+  sheets.under.draw(board.overlays.under());
+  sheets.cloth.draw(drawCloth(board));
+  sheets.over.draw(board.overlays.over());
+  sheets.ghost.draw(drawGhost(board));
+  sheets.folds.draw(drawFolds(board));
+  sheets.findings.draw([...drawChecks(board), ...drawProblems(board), ...drawReason(board)]);
+  sheets.preview.draw(drawPreview(board));
+  sheets.handles.draw(drawHandles(board));
+  sheets.tool.draw(tool.items());
+  sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
+  const [x, y] = view.toPx([0, 0]);
+  svg.dataset.originPx = `${x},${y}`;
+  svg.dataset.pxPerM = String(view.scale);
+  svg.style.cursor = tool.cursor;
+  svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);
+  board.hintLine.textContent = tool.hint;
+  board.strip.draw();
+  board.rail?.draw();
+  board.blank?.draw();
+  board.callout.draw();
+  board.numbers.draw();
+  board.typed.place();
+}

@@ -1,0 +1,30 @@
+/** The cloth at the moment that is shown: spread out, or the layers of the stack with their backs hatched. */
+
+import { path } from "./sheet.js";
+
+/** @param {import("./board.js").Board} board */
+export function drawCloth(board) {
+  return board.isSpread ? spread(board) : stacked(board);
+}
+
+function spread({ view, drawing }) {
+  const points = drawing.outline.map(({ point }) => view.toPx(point));
+  const isRing = points.length >= 3;
+  return [
+    isRing && { key: "front", tag: "path", class: "cloth is-front", d: path(points) },
+    { key: "edge", tag: "path", class: "cloth-edge", d: path(points, isRing) },
+  ];
+}
+
+function stacked({ view, drawing, layers, shown }) {
+  const ring = (points) => path(points.map((point) => view.toPx(point)));
+  const before = { key: "before", tag: "path", class: "cloth-before", d: ring(drawing.outline.map((c) => c.point)) };
+  if (!layers)
+    return [before, { key: "whole", tag: "path", class: "cloth is-front", d: shown.silhouette.map(ring).join("") }];
+  const stack = layers.flatMap(({ polygon, face, moved }, index) => [
+    { key: `layer${index}`, tag: "path", class: `cloth is-${face}${moved ? " is-moved" : ""}`, d: ring(polygon) },
+    face === "back" && { key: `hatch${index}`, tag: "path", class: "cloth-hatch", d: ring(polygon) },
+    { key: `rim${index}`, tag: "path", class: "cloth-rim", d: ring(polygon) },
+  ]);
+  return [before, ...stack, { key: "edge", tag: "path", class: "cloth-edge", d: shown.silhouette.map(ring).join("") }];
+}

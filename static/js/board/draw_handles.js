@@ -1,0 +1,101 @@
+/** What can be taken hold of: corners, middles of edges, ends of folds. Each can have the focus and has a name. */
+
+import { between, distance, left, minus, plus, times, unit as direction } from "./geometry.js";
+import { path } from "./sheet.js";
+import { length, number } from "./units.js";
+
+const CORNER_PX = 4.5;
+const END_PX = 4.5;
+const MIDDLE_PX = 3.5;
+const LABEL_PX = 16;
+const ROOM_FOR_MIDDLE_PX = 44;
+
+/** @param {import("./board.js").Board} board */
+export function drawHandles(board) {
+  if (board.isPlacing) return [];
+  return [...edges(board), ...foldHandles(board), ...(board.isSpread ? corners(board) : [])];
+}
+
+function corners(board) {
+  const { drawing, view } = board;
+  return drawing.outline.map(({ id, point }, index) => {
+    const [cx, cy] = view.toPx(point);
+    const isHovered = board.hover?.id === id;
+    const state = `${board.isSelected("vertex", id) ? " is-selected" : ""}${isHovered ? " is-hovered" : ""}`;
+    const label = `Vertex ${index + 1}: ${number(point[0])}, ${length(point[1])}`;
+    return {
+      key: `v:${id}`,
+      tag: "circle",
+      class: `handle corner${state}`,
+      cx,
+      cy,
+      r: CORNER_PX,
+      ...focusable("vertex", id, label),
+    };
+  });
+}
+
+function foldHandles(board) {
+  const { drawing, view, step } = board;
+  return drawing.folds.flatMap((fold, index) => {
+    if (index < step) return [];
+    const ends = [view.toPx(fold.start.point), view.toPx(fold.end.point)];
+    const isSelected = board.isSelected("fold", fold.id);
+    const colour = fold.kind === "red" ? "Red: last flap" : "Blue: all layers";
+    const label = `Fold ${index + 1}: ${fold.name || "no name"}, ${colour}`;
+    const state = `is-${fold.kind}${isSelected ? " is-selected" : ""}${step > 0 && index > step ? " is-later" : ""}`;
+    return [
+      {
+        key: `f:${fold.id}`,
+        tag: "path",
+        class: `fold-focus ${state}`,
+        d: path(ends, false),
+        ...focusable("fold", fold.id, label),
+      },
+      ...ends.map(([cx, cy], end) => ({
+        key: `f:${fold.id}:${end}`,
+        tag: "circle",
+        class: `handle fold-end ${state}`,
+        cx,
+        cy,
+        r: isSelected ? END_PX : 3,
+      })),
+    ];
+  });
+}
+
+/** The edges that are selected or end at a selected corner, with their lengths; middles that can be pulled out. */
+function edges(board) {
+  if (!board.isSpread) return [];
+  const { drawing, view } = board;
+  const corners = drawing.outline;
+  if (corners.length < 2) return [];
+  return corners.flatMap((corner, index) => {
+    const next = corners[(index + 1) % corners.length];
+    const isSelected = board.isSelected("edge", corner.id);
+    const isNear = isSelected || board.hover?.edge === corner.id;
+    const isMeasured = isSelected || [corner, next].some(({ id }) => board.isSelected("vertex", id));
+    const [a, b] = [view.toPx(corner.point), view.toPx(next.point)];
+    return [
+      isSelected && { key: `e:${corner.id}`, tag: "path", class: "edge-selected", d: path([a, b], false) },
+      isNear && distance(a, b) > ROOM_FOR_MIDDLE_PX && middle(corner.id, between(a, b)),
+      isMeasured && lengthLabel(`l:${corner.id}`, a, b, distance(corner.point, next.point), board.turnsLeft),
+    ];
+  });
+}
+
+function middle(id, [cx, cy]) {
+  return { key: `m:${id}`, tag: "circle", class: "handle middle", cx, cy, r: MIDDLE_PX };
+}
+
+/** A length written beside an edge, on the outer side. */
+export function lengthLabel(key, a, b, metres, isLeft = true) {
+  const outwards = times(left(direction(minus(b, a))), isLeft ? 1 : -1);
+  const [x, y] = plus(between(a, b), times(outwards, LABEL_PX));
+  const anchor = Math.abs(outwards[0]) < 0.4 ? "middle" : outwards[0] > 0 ? "start" : "end";
+  return { key, tag: "text", class: "length", x, y: y + 4, "text-anchor": anchor, text: length(metres) };
+}
+
+function focusable(kind, id, label) {
+  return { tabindex: 0, role: "button", "aria-label": label, "data-kind": kind, "data-id": id };
+}

@@ -1,0 +1,41 @@
+/** The table from above with the places where the robot may stand; only while the garment is being placed. */
+
+import { path } from "./sheet.js";
+
+const BASE_M = 0.33;
+
+/** @param {import("./board.js").Board} board */
+export function drawTable({ view, drawing }) {
+  const { table, stations } = drawing.scene;
+  const [deep, wide] = [table.depth_m / 2, table.width_m / 2];
+  const ring = placed(view, [-deep, -wide], [deep, -wide], [deep, wide], [-deep, wide]);
+  const middle = placed(view, [-deep, 0], [deep, 0]);
+  const across = placed(view, [0, -wide], [0, wide]);
+  return [
+    { key: "table", tag: "path", class: "table", d: path(ring) },
+    { key: "middle", tag: "path", class: "table-middle", d: path(middle, false) + path(across, false) },
+    ...Object.entries(stations).flatMap(([name, pose]) => station(view, name, pose, name === drawing.start_station)),
+  ];
+}
+
+/** @param {import("./view.js").View} view @param {...[number, number]} points of the table's frame */
+const placed = (view, ...points) => points.map((point) => view.tableToPx(point));
+
+function station(view, name, { x_m, y_m, yaw_rad }, isStart) {
+  const [x, y] = view.tableToPx([x_m, y_m]);
+  const nose = view.tableToPx([x_m + BASE_M * Math.cos(yaw_rad), y_m + BASE_M * Math.sin(yaw_rad)]);
+  const state = isStart ? " is-start" : "";
+  return [
+    { key: `${name}:base`, tag: "circle", class: `station${state}`, cx: x, cy: y, r: BASE_M * view.scale },
+    { key: `${name}:nose`, tag: "path", class: `station${state}`, d: `M${x} ${y}L${nose.join(" ")}` },
+    {
+      key: `${name}:name`,
+      tag: "text",
+      class: "station-name",
+      x,
+      y: y + BASE_M * view.scale * 0.55,
+      "text-anchor": "middle",
+      text: name.replaceAll("_", " ") + (isStart ? " (start)" : ""),
+    },
+  ];
+}

@@ -1,0 +1,186 @@
+/** Changes to a drawing. Each alters the drawing it is given, which is a copy. */
+
+import { between, boxOf, mirrored, turned } from "./geometry.js";
+
+/** How far inside the table's edge cloth is laid (m). */
+const INSIDE_M = 0.05;
+
+/** @typedef {[number, number]} Point */
+
+/** A name that is not taken yet. @param {string} prefix @param {{id: string}[]} taken */
+export function freshId(prefix, taken) {
+  const used = new Set(taken.map(({ id }) => id));
+  let number = taken.length;
+  while (used.has(`${prefix}${number}`)) number += 1;
+  return `${prefix}${number}`;
+}
+
+/** @param {any} drawing @param {Map<string, Point>} places where corners shall be, by id */
+export function moveCorners(drawing, places) {
+  for (const corner of drawing.outline) corner.point = places.get(corner.id) ?? corner.point;
+}
+
+/**
+ * A corner on an edge, or where it is now if it is there already.
+ * @param {any} drawing
+ * @param {string} before the corner that the edge starts at
+ * @param {string} id
+ * @param {Point} point
+ */
+export function insertCorner(drawing, before, id, point) {
+  const known = drawing.outline.find((corner) => corner.id === id);
+  if (known) known.point = point;
+  if (known) return;
+  const index = drawing.outline.findIndex((corner) => corner.id === before);
+  if (index >= 0) drawing.outline.splice(index + 1, 0, { id, point });
+}
+
+/** @param {any} drawing @param {string[]} ids */
+export function removeCorners(drawing, ids) {
+  drawing.outline = drawing.outline.filter((corner) => !ids.includes(corner.id));
+}
+
+/**
+ * Another outline; the folds were of the old one. The new cloth lies at the table's front edge.
+ * @param {any} drawing
+ * @param {Point[]} points
+ */
+export function replaceOutline(drawing, points) {
+  drawing.outline = points.map((point, index) => ({ id: `v${index}`, point }));
+  drawing.folds = [];
+  layAtTheFrontEdge(drawing);
+}
+
+/** Lay the cloth near the table's front edge, where the arms reach best. @param {any} drawing */
+function layAtTheFrontEdge(drawing) {
+  const { yaw_rad } = drawing.placement;
+  const box = boxOf(drawing.outline.map(({ point }) => turned(point, yaw_rad)));
+  if (!box) return;
+  const edge = -drawing.scene.table.depth_m / 2 + INSIDE_M;
+  drawing.placement = { x_m: edge - box.low[0], y_m: -(box.low[1] + box.high[1]) / 2, yaw_rad };
+}
+
+/** @param {any} drawing @param {number} index in the order @param {any} fold with id, name, kind, start, end */
+export function insertFold(drawing, index, fold) {
+  drawing.folds.splice(index, 0, { grip_radius_m: null, twin: null, ...fold });
+}
+
+/** @param {any} drawing @param {string[]} ids */
+export function removeFolds(drawing, ids) {
+  drawing.folds = drawing.folds.filter((fold) => !ids.includes(fold.id));
+  for (const fold of drawing.folds) if (ids.includes(fold.twin)) fold.twin = null;
+}
+
+/**
+ * Give a fold other ends, and its twin the mirrored ones.
+ * @param {any} drawing
+ * @param {string} id
+ * @param {{start?: any, end?: any}} ends
+ */
+export function moveFold(drawing, id, ends) {
+  const fold = drawing.folds.find((other) => other.id === id);
+  if (!fold) return;
+  Object.assign(fold, ends);
+  const twin = drawing.folds.find((other) => other.id === fold.twin);
+  if (!twin) return;
+  if (ends.start) twin.end = { point: overAxis(drawing, ends.start.point), on: null };
+  if (ends.end) twin.start = { point: overAxis(drawing, ends.end.point), on: null };
+}
+
+/** The other side moves. @param {any} drawing @param {string[]} ids */
+export function flipFolds(drawing, ids) {
+  for (const fold of drawing.folds) {
+    if (ids.includes(fold.id)) [fold.start, fold.end] = [fold.end, fold.start];
+  }
+}
+
+/** @param {any} drawing @param {string[]} ids @param {"blue"|"red"} kind */
+export function paintFolds(drawing, ids, kind) {
+  for (const fold of drawing.folds) if (ids.includes(fold.id)) fold.kind = kind;
+}
+
+/**
+ * A twin on the other side for each fold, next to it in the order and linked.
+ * @param {any} drawing
+ * @param {string[]} ids
+ */
+export function mirrorFolds(drawing, ids) {
+  for (const id of ids) {
+    const index = drawing.folds.findIndex((fold) => fold.id === id);
+    const fold = drawing.folds[index];
+    if (!fold || fold.twin) continue;
+    const twin = freshId("f", drawing.folds);
+    fold.twin = twin;
+    insertFold(drawing, index + 1, {
+      ...fold,
+      id: twin,
+      name: otherSide(fold.name),
+      start: { point: overAxis(drawing, fold.end.point), on: null },
+      end: { point: overAxis(drawing, fold.start.point), on: null },
+      twin: id,
+    });
+  }
+}
+
+/** Make the right half of the outline the mirror of the left one. @param {any} drawing */
+export function mirrorOutline(drawing) {
+  const axis = axisOf(drawing);
+  const ring = drawing.outline;
+  const first = ring.findIndex(
+    ({ point }, index) => isLeft(point, axis) && !isLeft(ring[(index + ring.length - 1) % ring.length].point, axis),
+  );
+  const half = [];
+  for (let n = 0; first >= 0 && n < ring.length; n += 1) {
+    const corner = ring[(first + n) % ring.length];
+    if (!isLeft(corner.point, axis)) break;
+    half.push(corner);
+  }
+  if (half.length < 2) return;
+  const taken = [...ring];
+  const other = half
+    .filter(({ point }) => point[0] < axis - 1e-4)
+    .map(({ point }) => {
+      const made = { id: freshId("v", taken), point: /** @type {Point} */ ([2 * axis - point[0], point[1]]) };
+      taken.push(made);
+      return made;
+    });
+  drawing.outline = [...half, ...other.reverse()];
+}
+
+/** Put the partner of each corner where the corner's mirror image is. @param {any} drawing @param {string[]} ids */
+export function mirrorCorners(drawing, ids) {
+  const places = new Map();
+  for (const { id, point } of drawing.outline.filter((corner) => ids.includes(corner.id))) {
+    const image = overAxis(drawing, point);
+    const others = drawing.outline.filter((corner) => corner.id !== id && !ids.includes(corner.id));
+    const away = (corner) => Math.hypot(corner.point[0] - image[0], corner.point[1] - image[1]);
+    const partner = others.reduce((best, corner) => (!best || away(corner) < away(best) ? corner : best), null);
+    if (partner) places.set(partner.id, image);
+  }
+  moveCorners(drawing, places);
+}
+
+/** The garment's own axis: the middle of its width. @param {any} drawing */
+export function axisOf(drawing) {
+  const box = boxOf(drawing.outline.map(({ point }) => point));
+  return box ? (box.low[0] + box.high[0]) / 2 : 0;
+}
+
+/** The middle of the garment's box; it is turned about that. @param {any} drawing @returns {Point} */
+export function middleOf(drawing) {
+  const box = boxOf(drawing.outline.map(({ point }) => point));
+  return box ? between(box.low, box.high) : [0, 0];
+}
+
+/** @param {any} drawing @param {Point} point @returns {Point} */
+function overAxis(drawing, point) {
+  const axis = axisOf(drawing);
+  return mirrored(point, [axis, 0], [axis, 1]);
+}
+
+const isLeft = (point, axis) => point[0] <= axis + 1e-4;
+
+function otherSide(name) {
+  const swap = { left: "right", right: "left", Left: "Right", Right: "Left" };
+  return name.replace(/\b(left|right)\b/i, (word) => swap[word] ?? word);
+}

@@ -1,0 +1,82 @@
+/** What part of the plane is seen: the whole cloth at first, then what the reader chooses; no edit ever moves it. */
+
+import { boxOf } from "./geometry.js";
+
+/** What is seen of a board with nothing on it: room for a garment, wherever it begins (m). */
+const BLANK = {
+  low: /** @type {[number, number]} */ ([-0.6, -0.45]),
+  high: /** @type {[number, number]} */ ([0.9, 0.85]),
+};
+const BESIDE_TABLE_M = 0.3;
+const BEFORE_TABLE_M = 0.6;
+const BEYOND_TABLE_M = 0.1;
+const HINT_PX = 24;
+/** A board narrower than this is only looked at: it shows the whole cloth. */
+const INSET_PX = 160;
+
+export class Framing {
+  /** @param {import("./board.js").Board} board */
+  constructor(board) {
+    this.board = board;
+    this.isFitted = false;
+    /** The view of the large board while it is an inset. @type {any} */
+    this.full = null;
+  }
+
+  fit() {
+    const { board } = this;
+    board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: 0, bottom: HINT_PX });
+    board.render();
+  }
+
+  /** Fit once, when there is something to be fitted to a board that has a size. */
+  fitFirst() {
+    if (this.isFitted || !this.board.state || this.board.view.width <= 1) return;
+    this.isFitted = true;
+    this.fit();
+  }
+
+  /** Another garment is coming: it shall be seen whole. */
+  fitNext() {
+    this.isFitted = false;
+    this.board.render();
+  }
+
+  /** To the table's axes, and back to the article's as they were seen before. @param {boolean} isBack */
+  turn(isBack) {
+    const { view, drawing } = this.board;
+    if (isBack && this.before) Object.assign(view, this.before);
+    if (!isBack) this.before = { scale: view.scale, origin: view.origin };
+    view.lay(isBack ? null : drawing.placement);
+    if (!isBack) this.fit();
+  }
+
+  clothBox() {
+    const { drawing, shown } = this.board;
+    return boxOf([...drawing.outline.map(({ point }) => point), ...shown.silhouette.flat()]);
+  }
+
+  tableBox() {
+    const { depth_m: deep, width_m: wide } = this.board.drawing.scene.table;
+    return {
+      low: /** @type {[number, number]} */ ([-wide / 2 - BESIDE_TABLE_M, -deep / 2 - BEFORE_TABLE_M]),
+      high: /** @type {[number, number]} */ ([wide / 2 + BESIDE_TABLE_M, deep / 2 + BEYOND_TABLE_M]),
+    };
+  }
+
+  /** The middle stays in the middle. */
+  resize() {
+    const { svg, view } = this.board;
+    const { clientWidth: width, clientHeight: height } = svg;
+    if (!width || !height) return;
+    const isInset = width < INSET_PX;
+    if (isInset && !this.full) this.full = { ...view };
+    if (!isInset && this.full) Object.assign(view, this.full, { pose: view.pose });
+    if (!isInset) this.full = null;
+    view.pan([(width - view.width) / 2, (height - view.height) / 2]);
+    Object.assign(view, { width, height });
+    if (isInset) this.fit();
+    else this.fitFirst();
+    this.board.render();
+  }
+}

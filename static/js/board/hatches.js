@@ -1,0 +1,22 @@
+/** Stripes at 45 degrees: on the backs of cloth, and where cloth will land. */
+
+import { svg } from "./sheet.js";
+
+const WIDTH_PX = 7;
+
+/** @returns {SVGElement} */
+export function hatches() {
+  const defs = svg("defs");
+  for (const name of ["back", "ghost", "places"]) {
+    const pattern = svg("pattern", {
+      id: `hatch-${name}`,
+      width: WIDTH_PX,
+      height: WIDTH_PX,
+      patternUnits: "userSpaceOnUse",
+      patternTransform: "rotate(45)",
+    });
+    pattern.append(svg("path", { class: `hatch-${name}`, d: `M0 0V${WIDTH_PX}` }));
+    defs.append(pattern);
+  }
+  return defs;
+}

@@ -1,0 +1,28 @@
+/** The layers of the stack at each moment; asked for when a folded moment is shown. */
+
+export class Layers {
+  /** @param {import("../store.js").Store} store @param {() => void} onChange */
+  constructor(store, onChange) {
+    this.store = store;
+    this.onChange = onChange;
+    /** @type {{version: number, steps: any[]}} */
+    this.known = { version: -1, steps: [] };
+    this.isAsking = false;
+  }
+
+  /** The layers at a moment, bottom to top; null while they are not known. @param {number} step */
+  at(step) {
+    if (step === 0) return null;
+    if (this.known.version !== this.store.state?.version) this.ask();
+    return this.known.version === this.store.state?.version ? (this.known.steps[step]?.layers ?? null) : null;
+  }
+
+  async ask() {
+    if (this.isAsking) return;
+    this.isAsking = true;
+    const answer = await fetch(`${this.store.path}/steps`).catch(() => null);
+    if (answer?.ok) this.known = await answer.json();
+    this.isAsking = false;
+    if (answer?.ok) this.onChange();
+  }
+}

@@ -1,0 +1,33 @@
+/** A frame pulled open round corners. */
+
+/** @param {[[number, number], [number, number]]} frame two opposite corners (px) */
+export function marquee([[ax, ay], [bx, by]]) {
+  return {
+    key: "frame",
+    tag: "rect",
+    class: "marquee",
+    x: Math.min(ax, bx),
+    y: Math.min(ay, by),
+    width: Math.abs(bx - ax),
+    height: Math.abs(by - ay),
+  };
+}
+
+/**
+ * The corners within, or else the folds whose ends both are.
+ * @param {import("./board.js").Board} board
+ * @param {[[number, number], [number, number]]} frame
+ * @returns {import("../store.js").Selection|null}
+ */
+export function cornersWithin(board, [[ax, ay], [bx, by]]) {
+  const isIn = (point) => {
+    const [x, y] = board.view.toPx(point);
+    return (x - ax) * (x - bx) <= 0 && (y - ay) * (y - by) <= 0;
+  };
+  const corners = board.isSpread ? board.drawing.outline.filter(({ point }) => isIn(point)) : [];
+  if (corners.length) return { kind: "vertex", ids: corners.map(({ id }) => id) };
+  const folds = board.drawing.folds.filter(
+    ({ start, end }, index) => index >= board.step && isIn(start.point) && isIn(end.point),
+  );
+  return folds.length ? { kind: "fold", ids: folds.map(({ id }) => id) } : null;
+}

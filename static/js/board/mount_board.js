@@ -1,0 +1,37 @@
+/** Puts the board and its rail on the page. */
+
+import { byId } from "../dom.js";
+import { Blank } from "./blank.js";
+import { Board } from "./board.js";
+import { Rail } from "./rail.js";
+
+/**
+ * @param {import("../store.js").Store} store
+ * @param {{togglePlay: () => void, startNew: () => void, startImport: () => void}} verbs
+ */
+export function mountBoard(store, verbs) {
+  const board = new Board(store, byId("board"), verbs.togglePlay);
+  board.rail = new Rail(board, byId("rail"));
+  board.blank = new Blank(board, verbs);
+  return board;
+}
+
+/** The board's own keys, by letter. @param {Board} board */
+export function boardKeys(board) {
+  return {
+    v: () => board.choose("select"),
+    p: () => board.choose("outline"),
+    f: () => board.choose("fold"),
+    m: () => board.choose("place"),
+    t: () => board.choose("measure"),
+    i: () => board.choose("photo"),
+    s: () => board.mirror(),
+    n: () => board.toggleSnap(),
+    b: () => board.paint.put("blue"),
+    r: () => board.paint.put("red"),
+    x: () => board.paint.flip(),
+    0: () => board.framing.fit(),
+    "[": () => board.store.showStep(board.store.step - 1),
+    "]": () => board.store.showStep(board.store.step + 1),
+  };
+}

@@ -1,0 +1,83 @@
+/** "See why": asks the server for what is switched on, at the moment that is looked at. */
+
+import { drawOver, drawUnder } from "./draw_overlays.js";
+
+/** What the server's overlays are made of; grips come with the plan. */
+const PARTS = ["reach", "slip", "base", "paths"];
+const EVERY_MS = 200;
+
+export class Overlays {
+  /** @param {import("./board.js").Board} board */
+  constructor(board) {
+    this.board = board;
+    /** @type {any} */
+    this.found = null;
+    /** @type {any} */
+    this.places = null;
+    this.asked = "";
+    this.askedPlaces = "";
+    this.stopPlaces = new AbortController();
+    const { store } = board;
+    for (const name of ["overlays", "plan", "playback", "hover-time", "document"])
+      store.addEventListener(name, () => this.look());
+  }
+
+  get wanted() {
+    return PARTS.filter((name) => this.board.store.overlays.has(name));
+  }
+
+  /** Ask soon, unless all is known already. */
+  look() {
+    this.lookForPlaces();
+    if (!this.wanted.length) this.found = null;
+    if (!this.wanted.length || this.timer !== undefined || this.query === this.asked) return;
+    this.timer = setTimeout(() => this.ask(), this.found ? EVERY_MS : 0);
+  }
+
+  /** What is asked for now; the same again has the same answer. */
+  get query() {
+    const { store, isPlacing, drawing } = this.board;
+    const show = this.wanted.join(",");
+    const moment = isPlacing
+      ? { station: drawing.start_station }
+      : store.hoverTime !== null
+        ? { t_s: store.hoverTime.toFixed(2) }
+        : { t_s: (store.playback?.t_s ?? 0).toFixed(2) };
+    return `${new URLSearchParams({ ...moment, show })}#${store.state?.version}:${store.plan?.plan?.version}`;
+  }
+
+  async ask() {
+    const query = this.query;
+    this.asked = query;
+    const answer = await fetch(`${this.board.store.path}/overlays?${query.split("#")[0]}`).catch(() => null);
+    this.timer = undefined;
+    this.found = answer?.ok ? await answer.json() : null;
+    this.board.render();
+    this.look();
+  }
+
+  async lookForPlaces() {
+    const { store } = this.board;
+    const isOn = store.overlays.has("places") && store.state;
+    const key = isOn ? String(store.state.version) : "";
+    if (key === this.askedPlaces) return;
+    this.askedPlaces = key;
+    this.places = null;
+    this.stopPlaces.abort();
+    if (!isOn || store.state.gesture) return;
+    this.stopPlaces = new AbortController();
+    const { signal } = this.stopPlaces;
+    const answer = await fetch(`${store.path}/overlays/places?step_m=0.1`, { signal }).catch(() => null);
+    if (key !== this.askedPlaces) return;
+    this.places = answer?.ok ? await answer.json() : null;
+    this.board.render();
+  }
+
+  under() {
+    return drawUnder(this.board, this.found, this.places);
+  }
+
+  over() {
+    return drawOver(this.board, this.found);
+  }
+}

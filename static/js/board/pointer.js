@@ -1,0 +1,183 @@
+/**
+ * Mouse, pen and fingers on the board. One pointer is the tool's; space or the middle button pans, the wheel zooms at
+ * the cursor, two fingers pan and zoom and drop what the first had begun.
+ */
+
+import { between, distance, minus } from "./geometry.js";
+
+const DRAG_PX = 4;
+const TOUCH_DRAG_PX = 6;
+const ZOOM_PER_PX = 0.0016;
+const LINE_PX = 16;
+/** A pinch on a touch pad comes as a wheel with Ctrl, in small steps. */
+const PINCH = 5;
+
+/**
+ * @typedef {object} Pointer
+ * @property {[number, number]} px from the board's top left
+ * @property {[number, number]} at article frame (m)
+ * @property {boolean} isTouch
+ * @property {boolean} isKeyboard
+ * @property {boolean} ctrl
+ * @property {boolean} shift
+ * @property {boolean} alt
+ */
+
+export class PointerInput {
+  /** @param {import("./board.js").Board} board */
+  constructor(board) {
+    this.board = board;
+    /** @type {Map<number, [number, number]>} fingers on the board */
+    this.fingers = new Map();
+    /** @type {{id: number, px: [number, number], hasMoved: boolean}|null} */
+    this.pressed = null;
+    /** @type {{id: number, px: [number, number]}|null} */
+    this.panning = null;
+    this.isSpaceDown = false;
+    this.isOver = false;
+    const { svg } = board;
+    svg.addEventListener("pointerdown", (event) => this.down(event));
+    svg.addEventListener("pointermove", (event) => this.move(event));
+    svg.addEventListener("pointerup", (event) => this.up(event));
+    svg.addEventListener("pointercancel", (event) => this.cancel(event));
+    svg.addEventListener("pointerenter", () => (this.isOver = true));
+    svg.addEventListener("pointerleave", () => this.leave());
+    svg.addEventListener("dblclick", (event) => board.tool.twice(this.pointer(event)));
+    svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    svg.addEventListener("contextmenu", (event) => event.pointerType === "touch" && event.preventDefault());
+    window.addEventListener("keydown", (event) => this.space(event, true), true);
+    window.addEventListener("keyup", (event) => this.space(event, false), true);
+  }
+
+  /** @param {MouseEvent} event @returns {Pointer} */
+  pointer(event) {
+    const px = this.place(event);
+    const isTouch = /** @type {PointerEvent} */ (event).pointerType === "touch";
+    const { ctrlKey, metaKey, shiftKey: shift, altKey: alt } = event;
+    return { px, at: this.board.view.toM(px), isTouch, isKeyboard: false, ctrl: ctrlKey || metaKey, shift, alt };
+  }
+
+  place(event) {
+    const box = this.board.svg.getBoundingClientRect();
+    return /** @type {[number, number]} */ ([event.clientX - box.left, event.clientY - box.top]);
+  }
+
+  down(event) {
+    this.board.svg.classList.add("is-pointed"); // no ring round the board for those who point
+    this.board.svg.focus({ preventScroll: true });
+    event.preventDefault();
+    if (event.pointerType === "touch") this.fingers.set(event.pointerId, this.place(event));
+    if (this.fingers.size > 1) {
+      this.drop();
+      return;
+    }
+    this.board.svg.setPointerCapture(event.pointerId);
+    if (event.button === 1 || (event.button === 0 && this.isSpaceDown)) {
+      this.panning = { id: event.pointerId, px: this.place(event) };
+      this.hasPanned = true;
+      this.board.svg.classList.add("is-panning");
+      return;
+    }
+    if (event.button !== 0 || this.pressed) return;
+    this.pressed = { id: event.pointerId, px: this.place(event), hasMoved: false };
+    this.board.useKeyboard(false);
+    this.board.tool.press(this.pointer(event));
+    this.board.loupe.show(event.pointerType === "touch" ? this.pointer(event) : null);
+    this.board.render();
+  }
+
+  move(event) {
+    if (this.fingers.has(event.pointerId) && this.fingers.size === 2) {
+      this.pinch(event);
+      return;
+    }
+    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, this.place(event));
+    if (this.panning?.id === event.pointerId) {
+      const px = this.place(event);
+      this.board.view.pan(minus(px, this.panning.px));
+      this.panning.px = px;
+    } else if (this.pressed?.id === event.pointerId) {
+      this.drag(event);
+    } else if (!this.pressed && event.pointerType !== "touch") {
+      this.board.useKeyboard(false);
+      this.board.tool.hover(this.pointer(event));
+    }
+    this.board.render();
+  }
+
+  drag(event) {
+    const pointer = this.pointer(event);
+    const threshold = pointer.isTouch ? TOUCH_DRAG_PX : DRAG_PX;
+    this.pressed.hasMoved ||= distance(pointer.px, this.pressed.px) >= threshold;
+    this.board.loupe.show(pointer.isTouch ? pointer : null);
+    if (this.pressed.hasMoved) this.board.tool.drag(pointer);
+  }
+
+  up(event) {
+    this.fingers.delete(event.pointerId);
+    if (this.panning?.id === event.pointerId) this.endPan();
+    if (this.pressed?.id !== event.pointerId) return;
+    const { hasMoved } = this.pressed;
+    this.pressed = null;
+    this.board.loupe.show(null);
+    this.board.tool.release(this.pointer(event), hasMoved);
+    this.board.render();
+  }
+
+  cancel(event) {
+    this.fingers.delete(event.pointerId);
+    if (this.panning?.id === event.pointerId) this.endPan();
+    if (this.pressed?.id === event.pointerId) this.drop();
+  }
+
+  leave() {
+    this.isOver = false;
+    if (!this.pressed) this.board.tool.leave();
+    this.board.render();
+  }
+
+  /** What the tool had begun with this pointer is not done. */
+  drop() {
+    if (this.pressed) this.board.tool.cancel();
+    this.pressed = null;
+    this.board.loupe.show(null);
+    this.board.render();
+  }
+
+  endPan() {
+    this.panning = null;
+    this.board.svg.classList.remove("is-panning");
+  }
+
+  pinch(event) {
+    const [[, there]] = [...this.fingers].filter(([id]) => id !== event.pointerId);
+    const before = this.fingers.get(event.pointerId);
+    const now = this.place(event);
+    this.fingers.set(event.pointerId, now);
+    const { view } = this.board;
+    view.pan(minus(between(now, there), between(before, there)));
+    view.zoomAt(between(now, there), Math.max(distance(now, there), 1) / Math.max(distance(before, there), 1));
+    this.board.render();
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    const px = (event.deltaMode === 1 ? LINE_PX : 1) * (event.ctrlKey ? PINCH : 1);
+    if (event.shiftKey) this.board.view.pan([-(event.deltaY || event.deltaX) * px, 0]);
+    else this.board.view.zoomAt(this.place(event), Math.exp(-event.deltaY * px * ZOOM_PER_PX));
+    this.board.render();
+  }
+
+  /** Over the board the space bar pans with the mouse, and plays if it was only pressed. */
+  space(event, isDown) {
+    if (event.key !== " " || (isDown && (!this.isOver || !this.board.isOurs(event)))) return;
+    if (isDown) {
+      event.preventDefault();
+      if (!event.repeat) this.hasPanned = false;
+    } else if (this.isSpaceDown && !this.hasPanned) {
+      this.board.togglePlay();
+    }
+    this.isSpaceDown = isDown;
+    this.board.svg.classList.toggle("can-pan", isDown);
+  }
+}

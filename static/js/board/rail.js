@@ -1,0 +1,52 @@
+/** The tools, at the board's left side or along a phone's lower edge. */
+
+import { button, element } from "../dom.js";
+import { icon } from "../icons.js";
+
+/** Name, label, key, drawing. */
+const TOOLS = [
+  ["select", "Select", "V"],
+  ["outline", "Draw outline", "P"],
+  ["fold", "Draw fold", "F"],
+  ["place", "Place", "M"],
+  ["measure", "Measure", "T"],
+  ["photo", "Photo", "I"],
+];
+
+export class Rail {
+  /** @param {import("./board.js").Board} board @param {HTMLElement} root */
+  constructor(board, root) {
+    this.board = board;
+    /** @type {Map<string, HTMLButtonElement>} */
+    this.tools = new Map();
+    for (const [name, label, key] of TOOLS) {
+      const made = railButton(name, label, `${label} (${key})`, () => board.choose(name));
+      made.dataset.tool = name;
+      this.tools.set(name, made);
+    }
+    this.mirror = railButton("mirror", "Mirror", "Mirror what is selected, or the outline's left half (S)", () =>
+      board.mirror(),
+    );
+    this.snap = railButton("snap", "Snap", "Snapping on or off (N); Ctrl suspends it", () => board.toggleSnap());
+    const [select, outline, fold, place, measure, photo] = this.tools.values();
+    root.append(select, outline, fold, place, divider(), this.mirror, this.snap, divider(), measure, photo);
+  }
+
+  draw() {
+    for (const [name, made] of this.tools) made.setAttribute("aria-pressed", String(this.board.tool.name === name));
+    this.snap.setAttribute("aria-pressed", String(this.board.snapper.isOn));
+  }
+}
+
+function railButton(name, label, title, onClick) {
+  const made = button("rail-button", onClick, icon(name), element("span", "rail-word", label));
+  made.setAttribute("aria-label", label);
+  made.title = title;
+  return made;
+}
+
+function divider() {
+  const made = element("span", "rail-divider");
+  made.setAttribute("aria-hidden", "true");
+  return made;
+}

@@ -1,0 +1,164 @@
+/**
+ * Where a pointer means: at a corner, a fraction of an edge, an edge, in line with another corner, on the grid.
+ * The strongest kind within its reach wins, and the nearest of that kind; what holds lets go a little further off than
+ * where it takes hold.
+ */
+
+import {
+  between,
+  distance,
+  dot,
+  edgesOf,
+  minus,
+  nearestOn,
+  plus,
+  times,
+  turned,
+  unit as direction,
+} from "./geometry.js";
+import { spacing } from "./draw_grid.js";
+
+/** How near each kind has to be (px), the strongest first. */
+const REACH_PX = { close: 12, vertex: 10, fraction: 9, edge: 8, guide: 6, grid: 4 };
+const RELEASE = 1.5;
+const TOUCH = 2;
+const KEYS = 0.25;
+const FRACTIONS = [
+  [1 / 2, "1/2"],
+  [1 / 3, "1/3"],
+  [2 / 3, "2/3"],
+  [1 / 4, "1/4"],
+  [3 / 4, "3/4"],
+];
+const TURN_RAD = Math.PI / 12;
+
+/** @typedef {[number, number]} Point */
+/** @typedef {{at: Point, name: string, key: string, isOnCloth: boolean}} Snapped article frame (m) */
+/**
+ * @typedef {object} Targets what is visible and may be snapped to
+ * @property {Point[][]} rings the cloth's outlines
+ * @property {Point[]} points further corners
+ * @property {Point|null} [close] a first point that would close a ring
+ * @property {Point|null} [from] where the line that is being drawn begins
+ * @property {Point[]} [guides] corners to be in line with
+ * @property {boolean} [onlyCloth] whether grid and guides are left out
+ */
+
+export class Snapper {
+  constructor() {
+    this.isOn = localStorage.getItem("pleat-snap") !== "off";
+    this.heldKey = "";
+  }
+
+  /** @param {boolean} on */
+  turn(on) {
+    this.isOn = on;
+    localStorage.setItem("pleat-snap", on ? "on" : "off");
+  }
+
+  /**
+   * @param {import("./view.js").View} view
+   * @param {{at: Point, isTouch: boolean, isKeyboard: boolean, ctrl: boolean, shift: boolean}} pointer
+   * @param {Targets} targets
+   * @returns {Snapped}
+   */
+  snap(view, pointer, targets) {
+    const wanted = pointer.shift && targets.from ? straightened(pointer.at, targets.from) : null;
+    const free = { at: wanted ?? pointer.at, name: wanted ? "15\u00B0" : "", key: "", isOnCloth: false };
+    const isOff = pointer.ctrl || !this.isOn;
+    const found = isOff || wanted ? null : this.strongest(view, pointer, targets);
+    this.heldKey = found?.key ?? "";
+    return found ?? free;
+  }
+
+  strongest(view, pointer, targets) {
+    const wide = pointer.isKeyboard ? KEYS : pointer.isTouch ? TOUCH : 1;
+    for (const kind of Object.keys(REACH_PX)) {
+      let best = null;
+      for (const candidate of CANDIDATES[kind](pointer.at, targets, view)) {
+        const away = distance(candidate.at, pointer.at) * view.scale;
+        const reach = REACH_PX[kind] * wide * (candidate.key === this.heldKey ? RELEASE : 1);
+        if (away <= reach && (!best || away < best.away)) best = { ...candidate, away };
+      }
+      if (best) return best;
+    }
+    return null;
+  }
+}
+
+const CANDIDATES = {
+  close: (_, { close }) => (close ? [{ at: close, name: "close", key: "close", isOnCloth: false }] : []),
+  vertex: (_, { rings, points }) => [
+    ...rings.flat().map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: true })),
+    ...points.map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: false })),
+  ],
+  fraction: (_, { rings }) =>
+    rings.flatMap(edgesOf).flatMap(([a, b]) =>
+      FRACTIONS.map(([t, text]) => ({
+        at: between(a, b, Number(t)),
+        name: t === 0.5 ? "midpoint" : `${text} of edge`,
+        key: `${text}${a}${b}`,
+        isOnCloth: true,
+      })),
+    ),
+  edge: (p, { rings }, view) =>
+    rings.flatMap(edgesOf).map(([a, b]) => ({
+      at: roundOnEdge(nearestOn(p, a, b), a, b, view),
+      name: "edge",
+      key: `e${a}${b}`,
+      isOnCloth: true,
+    })),
+  guide: (p, { guides = [], onlyCloth }) => (onlyCloth ? [] : inLine(p, guides)),
+  grid: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view)),
+};
+
+/** A place on an edge, moved to where the edge crosses a line of the grid if that is near. */
+function roundOnEdge(p, a, b, view) {
+  const { step } = spacing(view.scale);
+  let best = p;
+  let least = REACH_PX.grid / view.scale;
+  for (const axis of [0, 1]) {
+    const share = (Math.round(p[axis] / step) * step - a[axis]) / (b[axis] - a[axis]);
+    if (!(share >= 0 && share <= 1)) continue;
+    const crossing = between(a, b, share);
+    if (distance(crossing, p) < least) [best, least] = [crossing, distance(crossing, p)];
+  }
+  return best;
+}
+
+/** Places level with, or plumb to, another corner; both at once where two cross. */
+function inLine(p, guides) {
+  const nearest = (axis) =>
+    guides.reduce(
+      (best, g) => (!best || Math.abs(g[axis] - p[axis]) < Math.abs(best[axis] - p[axis]) ? g : best),
+      null,
+    );
+  const [plumb, level] = [nearest(0), nearest(1)];
+  if (!plumb || !level) return [];
+  return [
+    { at: /** @type {Point} */ ([plumb[0], level[1]]), name: "in line", key: `i${plumb}${level}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([plumb[0], p[1]]), name: "plumb", key: `x${plumb}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([p[0], level[1]]), name: "level", key: `y${level}`, isOnCloth: false },
+  ];
+}
+
+function onGrid(p, view) {
+  const { step } = spacing(view.scale);
+  const [x, y] = p.map((value) => Math.round(value / step) * step);
+  return [
+    { at: /** @type {Point} */ ([x, y]), name: "grid", key: `g${x},${y}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([x, p[1]]), name: "grid line", key: `gx${x}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([p[0], y]), name: "grid line", key: `gy${y}`, isOnCloth: false },
+  ];
+}
+
+/** The point moved onto the nearest direction of so many times 15 degrees. @param {Point} p @param {Point} from */
+export function straightened(p, from) {
+  const along = minus(p, from);
+  const angle = Math.round(Math.atan2(along[1], along[0]) / TURN_RAD) * TURN_RAD;
+  const way = turned([1, 0], angle);
+  return plus(from, times(way, dot(along, way)));
+}
+
+/** The point so far from a on the way to b and beyond. @param {Point} a @param {Point} b @param {number} metres */
+export const atLength = (a, b, metres) => plus(a, times(direction(minus(b, a)), metres));

@@ -1,0 +1,39 @@
+/** What a stroke across the cloth comes to, as far as the page can say: the line, what moves, and where it lands. */
+
+import { between, chordAlong, cross, left, leftPart, minus, mirrored, plus } from "./geometry.js";
+
+/** @typedef {[number, number]} Point */
+
+/**
+ * The fold's line as it was drawn, or the crease that takes a point to where it was dropped.
+ * @param {{isGrab: boolean, from: Point, to: Point}} stroke
+ * @param {Point[][]} rings the cloth
+ * @param {boolean} isFlipped
+ * @returns {[Point, Point]} what lies to its left moves
+ */
+export function lineOf({ isGrab, from, to }, rings, isFlipped) {
+  const [a, b] = isGrab ? crease(from, to, rings) : [from, to];
+  return isFlipped ? [b, a] : [a, b];
+}
+
+/** The bisector, as far as it runs through the cloth; the point that was grabbed is on its left. */
+function crease(from, to, rings) {
+  const middle = between(from, to);
+  const along = left(minus(to, from));
+  const ends = [minus(middle, along), plus(middle, along)];
+  const [a, b] = chordAlong(ends[0], ends[1], rings) ?? ends;
+  return cross(minus(b, a), minus(from, a)) < 0 ? [b, a] : [a, b];
+}
+
+/** @param {[Point, Point]} line @param {Point[][]} rings */
+export function ghostOf([a, b], rings) {
+  const moving = rings.map((ring) => leftPart(ring, a, b)).filter((ring) => ring.length > 2);
+  return { moving, landed: moving.map((ring) => ring.map((point) => mirrored(point, a, b))) };
+}
+
+/** What a fold is called at first: from where the cloth comes. @param {Point} start @param {Point} end */
+export function nameOf(start, end) {
+  const [x, y] = minus(end, start);
+  if (Math.abs(x) > Math.abs(y)) return x > 0 ? "top down" : "bottom up";
+  return y > 0 ? "left over" : "right over";
+}

@@ -1,0 +1,216 @@
+/**
+ * The tool `Draw fold`: from edge to edge of the cloth as it lies then, or a point of the cloth grabbed and dropped
+ * where it shall land. The page shows what it thinks at once; the server's word takes its place.
+ */
+
+import { CreaseQuestion } from "../crease.js";
+import { foldItems } from "../draw_folds.js";
+import { lengthLabel } from "../draw_handles.js";
+import { freshId, insertFold } from "../edits.js";
+import { distance, isInside, nearestOnRings } from "../geometry.js";
+import { atLength } from "../snap.js";
+import { ghostOf, lineOf, nameOf } from "../stroke.js";
+import { Tool } from "./tool.js";
+
+const LEAST_M = 0.002;
+const EDGE_PX = 8;
+const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
+
+export class FoldTool extends Tool {
+  /** @param {import("../board.js").Board} board */
+  constructor(board) {
+    super(board, "fold", "crosshair");
+    this.question = new CreaseQuestion(board);
+    this.typed = null;
+    /** Settled when all strokes so far are folds; how many there were, and how many are. */
+    this.finished = Promise.resolve();
+    this.begun = 0;
+    this.done = 0;
+    this.drop();
+  }
+
+  get hint() {
+    if (this.stroke)
+      return this.stroke.isGrab
+        ? "Drop it where it shall land."
+        : "To another edge; what is left of the arrow moves. Flip: X";
+    return "Drag from edge to edge, or grab the cloth and drop it where it shall land.";
+  }
+
+  get isBusy() {
+    return this.stroke !== null;
+  }
+
+  drop() {
+    /** @type {any} from where to where, and whether it is a grab */
+    this.stroke = null;
+    this.question.forget();
+    this.board.ghost = null;
+  }
+
+  enter() {
+    const { store } = this.board;
+    store.select(null);
+    store.showStep(store.moments - 1);
+    this.last = "";
+  }
+
+  hover(pointer) {
+    this.board.hover = null;
+    const { isGrab = false, from = null } = this.stroke ?? {};
+    const snapped = this.board.snapTo(pointer, { rings: this.board.rings, points: [], onlyCloth: !isGrab, from });
+    this.cursor = !this.stroke && !snapped.isOnCloth && isInside(pointer.at, this.board.rings) ? "grab" : "crosshair";
+    if (this.stroke) this.lead(snapped.at);
+    return snapped;
+  }
+
+  press(pointer) {
+    const snapped = this.hover(pointer);
+    if (this.stroke) return;
+    if (!this.board.rings.length) {
+      this.board.store.refuse(
+        this.board.paint.kind === "red" && this.board.step === 0
+          ? NO_FLAP
+          : "There is no cloth yet: draw an outline first.",
+      );
+      return;
+    }
+    const isGrab = pointer.alt || (!snapped.isOnCloth && isInside(snapped.at, this.board.rings));
+    const isEarly = this.begun > this.done;
+    this.stroke = { isGrab, isEarly, isTouch: pointer.isTouch, from: snapped.at, to: snapped.at, isArmed: false };
+  }
+
+  drag(pointer) {
+    this.hover(pointer);
+  }
+
+  release(pointer, hasMoved) {
+    if (!this.stroke) return;
+    this.hover(pointer);
+    if (hasMoved || this.stroke.isArmed) this.finish();
+    else this.stroke.isArmed = true;
+  }
+
+  lead(at) {
+    const { from } = this.stroke;
+    this.stroke.to = this.typed !== null ? atLength(from, at, this.typed) : at;
+    this.ask();
+  }
+
+  ask() {
+    const { stroke, board } = this;
+    if (!stroke || distance(stroke.from, stroke.to) < LEAST_M) return;
+    board.ghost = ghostOf(this.line(), board.rings);
+    if (board.store.queue.isBusy) return; // the cloth that the server knows is not yet the one that is seen
+    this.question.ask(stroke, (answer) => {
+      if (this.stroke && answer.ok) board.ghost = answer.told;
+      board.say(answer.ok ? "" : answer.told.detail);
+      board.render();
+    });
+  }
+
+  /** The fold's line; what lies to its left moves. */
+  line() {
+    return lineOf(this.stroke, this.board.rings, this.board.paint.isFlipped);
+  }
+
+  /** The stroke is done; a next one may begin before the server has answered. */
+  finish() {
+    const { stroke, board } = this;
+    board.closeTyped();
+    if (distance(stroke.from, stroke.to) < LEAST_M) {
+      this.cancel();
+      return;
+    }
+    this.stroke = null;
+    this.question.forget();
+    this.begun += 1;
+    this.finished = this.finished.then(() => this.complete(stroke));
+  }
+
+  /** Add the fold to those that are there by then. */
+  async complete(stroke) {
+    const { board } = this;
+    await board.store.settled();
+    if (stroke.isEarly && stroke.isGrab) stroke.isGrab = !this.isOnEdge(stroke);
+    const answer = await this.question.answer(stroke);
+    if (answer.ok) await this.add(answer.told);
+    else board.store.refuse(answer.told.detail);
+    this.done += 1;
+    if (!this.stroke) this.drop();
+    board.render();
+  }
+
+  /** Whether a stroke that was quicker than the server begins at an edge of the cloth as it has become. */
+  isOnEdge({ from, isTouch }) {
+    const { rings, view } = this.board;
+    const near = nearestOnRings(from, rings);
+    return near !== null && distance(near, from) * view.scale <= (isTouch ? 2 : 1) * EDGE_PX;
+  }
+
+  async add({ start, end }) {
+    const { board } = this;
+    const index = board.step;
+    const id = freshId("f", board.drawing.folds);
+    const fold = { id, name: nameOf(start.point, end.point), kind: board.paint.kind, start, end };
+    this.last = id;
+    board.paint.turnOver(false);
+    const insert = (drawing) => insertFold(drawing, Math.min(index, drawing.folds.length), fold);
+    const state = await board.store.edit("Draw fold", insert);
+    if (state) board.store.showStep(index + 1);
+  }
+
+  cancel() {
+    const wasBusy = this.isBusy;
+    this.drop();
+    this.board.snapped = null;
+    this.board.say("");
+    return wasBusy;
+  }
+
+  leave() {
+    this.board.snapped = null;
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    if (event.key !== "Enter" || !this.board.isByKeyboard) return false;
+    const pointer = this.board.keyboardPointer(event);
+    if (!this.stroke) this.press(pointer);
+    this.release(pointer, false);
+    return true;
+  }
+
+  type(metres) {
+    this.typed = metres;
+    if (this.stroke && metres !== null) this.lead(this.stroke.to);
+  }
+
+  get stretch() {
+    return this.stroke && !this.stroke.isGrab && distance(this.stroke.from, this.stroke.to) > LEAST_M
+      ? [this.stroke.from, this.stroke.to]
+      : null;
+  }
+
+  items() {
+    const { stroke, board } = this;
+    if (!stroke) return [];
+    const [from, to] = [board.view.toPx(stroke.from), board.view.toPx(stroke.to)];
+    const dots = [from, to].map(([cx, cy], n) => ({
+      key: `end${n}`,
+      tag: "circle",
+      class: `handle fold-end is-${board.paint.kind}`,
+      cx,
+      cy,
+      r: 4,
+    }));
+    if (distance(stroke.from, stroke.to) < LEAST_M) return dots;
+    const ends = this.line().map((point) => board.view.toPx(point));
+    return [
+      ...foldItems({ key: "stroke", kind: board.paint.kind, ends, state: " is-selected", number: null }),
+      stroke.isGrab && { key: "carry", tag: "path", class: "carry", d: `M${from.join(" ")}L${to.join(" ")}` },
+      ...dots,
+      !stroke.isGrab && lengthLabel("length", from, to, distance(stroke.from, stroke.to)),
+    ];
+  }
+}

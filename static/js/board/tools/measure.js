@@ -1,0 +1,89 @@
+/** The tool `Measure`: a tape between any two points. It stays until the next one or Esc. */
+
+import { distance, minus } from "../geometry.js";
+import { path } from "../sheet.js";
+import { length } from "../units.js";
+import { Tool } from "./tool.js";
+
+export class MeasureTool extends Tool {
+  /** @param {import("../board.js").Board} board */
+  constructor(board) {
+    super(board, "measure", "crosshair");
+    /** @type {[number, number][]} */
+    this.points = [];
+    this.isArmed = false;
+  }
+
+  get hint() {
+    return "Drag, or click two points.";
+  }
+
+  at(pointer) {
+    const { board } = this;
+    const from = this.points[0] ?? null;
+    return board.snapTo(pointer, { rings: board.rings, points: board.foldEnds, from, guides: from ? [from] : [] }).at;
+  }
+
+  hover(pointer) {
+    const at = this.at(pointer);
+    if (this.isArmed) this.points[1] = at;
+  }
+
+  press(pointer) {
+    const at = this.at(pointer);
+    if (!this.isArmed) this.points = [at, at];
+  }
+
+  drag(pointer) {
+    if (this.points.length) this.points[1] = this.at(pointer);
+  }
+
+  release(pointer, hasMoved) {
+    if (!this.points.length) return;
+    this.points[1] = this.at(pointer);
+    this.isArmed = !hasMoved && !this.isArmed;
+  }
+
+  leave() {
+    this.board.snapped = null;
+  }
+
+  cancel() {
+    const wasBusy = this.points.length > 0;
+    this.points = [];
+    this.isArmed = false;
+    return wasBusy;
+  }
+
+  key(event) {
+    if (event.key !== "Enter" || !this.board.isByKeyboard) return false;
+    const pointer = this.board.keyboardPointer(event);
+    if (!this.isArmed) this.press(pointer);
+    this.release(pointer, false);
+    return true;
+  }
+
+  items() {
+    const [from, to] = this.points;
+    if (!to) return [];
+    const { view } = this.board;
+    const [a, b] = [view.toPx(from), view.toPx(to)];
+    const [across, up] = minus(to, from);
+    const text = `${length(distance(from, to))}  (${length(Math.abs(across))} across, ${length(Math.abs(up))} up)`;
+    const isLow = Math.max(a[1], b[1]) > view.height - 40;
+    return [
+      { key: "under", tag: "path", class: "tape-under", d: path([a, b], false) },
+      { key: "tape", tag: "path", class: "tape", d: path([a, b], false) },
+      ...[a, b].map(([cx, cy], n) => ({ key: `t${n}`, tag: "circle", class: "tape-end", cx, cy, r: 3.5 })),
+      {
+        key: "text",
+        tag: "text",
+        class: "length is-tape",
+        x: (a[0] + b[0]) / 2,
+        y: isLow ? Math.min(a[1], b[1]) - 12 : Math.max(a[1], b[1]) + 22,
+        "text-anchor": "middle",
+        text,
+      },
+    ];
+  }
+}

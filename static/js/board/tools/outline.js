@@ -1,0 +1,161 @@
+/** The tool `Draw outline`: point after point, closed at the first; takes the place of the outline before. */
+
+import { replaceOutline } from "../edits.js";
+import { distance } from "../geometry.js";
+import { lengthLabel } from "../draw_handles.js";
+import { path } from "../sheet.js";
+import { atLength } from "../snap.js";
+import { Tool } from "./tool.js";
+
+const LEAST_CORNERS = 3;
+const SAME_M = 0.001;
+
+export class OutlineTool extends Tool {
+  /** @param {import("../board.js").Board} board */
+  constructor(board) {
+    super(board, "outline", "crosshair");
+    /** @type {[number, number][]} */
+    this.points = [];
+    /** Where the next point would be. @type {[number, number]|null} */
+    this.next = null;
+    /** A length that was typed (m). @type {number|null} */
+    this.typed = null;
+  }
+
+  get hint() {
+    if (!this.points.length) return "Click the corners one after the other; close at the first one.";
+    return this.points.length < LEAST_CORNERS
+      ? "Type a number for an exact length."
+      : "Click the first corner or press Enter to close. Backspace takes one back.";
+  }
+
+  get isBusy() {
+    return this.points.length > 0;
+  }
+
+  enter() {
+    this.board.store.select(null);
+    this.board.store.showStep(0);
+  }
+
+  hover(pointer) {
+    const last = this.points.at(-1) ?? null;
+    const close = this.points.length >= LEAST_CORNERS ? this.points[0] : null;
+    this.board.hover = null;
+    const { at } = this.board.snapTo(pointer, {
+      rings: [],
+      points: this.points.slice(close ? 1 : 0, -1),
+      close,
+      from: last,
+      guides: this.points,
+    });
+    this.next = last && this.typed !== null ? atLength(last, at, this.typed) : at;
+  }
+
+  press(pointer) {
+    this.hover(pointer);
+  }
+
+  drag(pointer) {
+    this.hover(pointer);
+  }
+
+  release(pointer) {
+    this.hover(pointer);
+    this.put();
+    if (pointer.isTouch) this.leave();
+  }
+
+  leave() {
+    this.next = null;
+    this.board.snapped = null;
+  }
+
+  /** The next point becomes a corner; the first one again closes the outline. */
+  put() {
+    const { next, points } = this;
+    this.board.closeTyped();
+    if (!next) return;
+    if (points.length >= LEAST_CORNERS && distance(next, points[0]) < SAME_M) this.close();
+    else if (!points.some((point) => distance(point, next) < SAME_M)) points.push(next);
+    else if (points.length >= LEAST_CORNERS && distance(next, points.at(-1)) < SAME_M) this.close();
+  }
+
+  async close() {
+    const { points } = this;
+    if (points.length < LEAST_CORNERS) {
+      this.board.store.refuse("An outline has at least three corners.");
+      return;
+    }
+    this.points = [];
+    this.leave();
+    this.board.choose("select");
+    this.board.showDraft((drawing) => replaceOutline(drawing, points));
+    await this.board.store.edit("Draw outline", (drawing) => replaceOutline(drawing, points));
+    this.board.dropDraft();
+  }
+
+  cancel() {
+    const wasBusy = this.isBusy;
+    this.points = [];
+    this.leave();
+    return wasBusy;
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    if (event.key === "Backspace" && this.isBusy) {
+      this.points.pop();
+      return true;
+    }
+    if (event.key !== "Enter") return false;
+    if (this.board.isByKeyboard) this.put();
+    else if (this.isBusy) this.close();
+    return true;
+  }
+
+  finish() {
+    this.put();
+  }
+
+  /** @param {number|null} metres */
+  type(metres) {
+    const last = this.points.at(-1);
+    this.typed = metres;
+    if (last && this.next && metres !== null) this.next = atLength(last, this.next, metres);
+  }
+
+  /** The way to where it would go on, for a length to be typed. */
+  get stretch() {
+    const last = this.points.at(-1);
+    return last && this.next ? [last, this.next] : null;
+  }
+
+  items() {
+    const { view } = this.board;
+    const points = this.points.map((point) => view.toPx(point));
+    const next = this.next && view.toPx(this.next);
+    const stretch = this.stretch;
+    return [
+      points.length > 1 && {
+        key: "fill",
+        tag: "path",
+        class: "sketch-fill",
+        d: path(next ? [...points, next] : points),
+      },
+      points.length > 0 && { key: "sketch", tag: "path", class: "sketch", d: path(points, false) },
+      points.length > 0 &&
+        next && { key: "rubber", tag: "path", class: "sketch is-rubber", d: path([points.at(-1), next], false) },
+      ...points.map(([cx, cy], n) => ({
+        key: `p${n}`,
+        tag: "circle",
+        class: `handle corner${n === 0 ? " is-first" : ""}`,
+        cx,
+        cy,
+        r: n === 0 && points.length >= LEAST_CORNERS ? 6 : 4,
+      })),
+      next && { key: "next", tag: "circle", class: "next-point", cx: next[0], cy: next[1], r: 3 },
+      stretch && lengthLabel("length", points.at(-1), next, distance(stretch[0], stretch[1])),
+    ];
+  }
+}

@@ -1,0 +1,112 @@
+/** The tool `Photo`: a picture under the board, moved by dragging, scaled by two points whose distance is known. */
+
+import { distance, minus, plus, times } from "../geometry.js";
+import { path } from "../sheet.js";
+import { Tool } from "./tool.js";
+
+export class PhotoTool extends Tool {
+  /** @param {import("../board.js").Board} board */
+  constructor(board) {
+    super(board, "photo", "default");
+    this.reset();
+  }
+
+  reset() {
+    /** Two points of the picture whose distance is asked for. @type {[number, number][]} */
+    this.points = [];
+    this.held = null;
+  }
+
+  get hint() {
+    if (!this.board.photo.shown) return "Choose a photo; it stays in this browser.";
+    return this.points.length === 1
+      ? "And the second point."
+      : "Click two points whose distance you know; drag to move the photo.";
+  }
+
+  enter() {
+    this.reset();
+    if (!this.board.photo.shown) this.board.photo.choose();
+  }
+
+  get isBusy() {
+    return this.points.length === 2;
+  }
+
+  hover(pointer) {
+    this.cursor = this.board.photo.shown ? "crosshair" : "default";
+    this.board.hover = null;
+    if (this.points.length === 1) this.next = pointer.at;
+  }
+
+  press(pointer) {
+    const { shown } = this.board.photo;
+    this.held = shown ? { from: pointer.at, at: /** @type {[number, number]} */ ([shown.x, shown.y]) } : null;
+    if (!shown) this.board.photo.choose();
+  }
+
+  drag(pointer) {
+    if (!this.held) return;
+    const [x, y] = plus(this.held.at, minus(pointer.at, this.held.from));
+    this.board.photo.change({ x, y });
+  }
+
+  release(pointer, hasMoved) {
+    if (!this.held || hasMoved) {
+      this.held = null;
+      return;
+    }
+    this.held = null;
+    this.points = this.points.length === 2 ? [pointer.at] : [...this.points, pointer.at];
+    if (this.points.length === 2) this.board.openTyped("");
+  }
+
+  /** The distance of the two points, as it really is. @param {number|null} metres */
+  type(metres) {
+    this.typed = metres;
+  }
+
+  /** Scale about the first point. */
+  finish() {
+    const [from, to] = this.points;
+    const { shown } = this.board.photo;
+    if (shown && to && this.typed) {
+      const factor = this.typed / distance(from, to);
+      const [x, y] = plus(from, times(minus([shown.x, shown.y], from), factor));
+      this.board.photo.change({ x, y, scale: shown.scale * factor });
+    }
+    this.board.closeTyped();
+    this.reset();
+  }
+
+  get stretch() {
+    return this.points.length === 2 ? this.points : null;
+  }
+
+  leave() {
+    this.next = null;
+  }
+
+  cancel() {
+    const wasBusy = this.points.length > 0;
+    this.reset();
+    return wasBusy;
+  }
+
+  key(event) {
+    if (event.key !== "Delete" && event.key !== "Backspace") return false;
+    this.board.photo.remove();
+    this.reset();
+    return true;
+  }
+
+  items() {
+    const { view } = this.board;
+    const all = this.points.length === 1 && this.next ? [...this.points, this.next] : this.points;
+    const points = all.map((point) => view.toPx(point));
+    return [
+      points.length > 1 && { key: "tape", tag: "path", class: "tape", d: path(points, false) },
+      ...points.map(([cx, cy], n) => ({ key: `t${n}`, tag: "circle", class: "tape-end", cx, cy, r: 3.5 })),
+    ];
+  }
+}

@@ -1,0 +1,170 @@
+/** The tool `Place`: the garment on the table, seen from above; it is dragged, and turned by its handle. */
+
+import { middleOf } from "../edits.js";
+import { boxOf, distance, isInside, minus, plus, times, toOuter, turned } from "../geometry.js";
+import { Gesture } from "../gesture.js";
+import { Tool } from "./tool.js";
+
+const HANDLE_PX = 34;
+const HIT_PX = 14;
+const TOUCH_PX = 24;
+const ROUND_M = 0.01;
+const SNAP_PX = 4;
+const SQUARE_RAD = (4 * Math.PI) / 180;
+const TURN_RAD = Math.PI / 12;
+const NUDGE_TURN_RAD = Math.PI / 36;
+
+export class PlaceTool extends Tool {
+  /** @param {import("../board.js").Board} board */
+  constructor(board) {
+    super(board, "place", "default");
+    /** @type {any} */
+    this.held = null;
+    this.gesture = null;
+  }
+
+  get hint() {
+    return "Drag the garment on the table; turn it by its handle. Shift turns by 15\u00B0.";
+  }
+
+  enter() {
+    this.board.store.select({ kind: "garment", ids: [] });
+  }
+
+  /** The garment's middle, article frame. */
+  get middle() {
+    return middleOf(this.board.drawing);
+  }
+
+  /** The handle's place and where it is tied to (px). */
+  get handle() {
+    const box = boxOf(this.board.drawing.outline.map(({ point }) => point));
+    if (!box) return null;
+    const { view } = this.board;
+    const foot = view.toPx([this.middle[0], box.high[1]]);
+    const beyond = view.toPx([this.middle[0], box.high[1] + HANDLE_PX / view.scale]);
+    return { foot, knob: beyond };
+  }
+
+  grasp(pointer) {
+    const handle = this.handle;
+    if (handle && distance(pointer.px, handle.knob) <= (pointer.isTouch ? TOUCH_PX : HIT_PX)) return "turn";
+    return isInside(pointer.at, [this.board.drawing.outline.map(({ point }) => point)]) ? "move" : null;
+  }
+
+  hover(pointer) {
+    this.board.hover = null;
+    const grasp = this.grasp(pointer);
+    this.cursor = grasp === "turn" ? "grab" : grasp ? "move" : "default";
+  }
+
+  press(pointer) {
+    const grasp = this.grasp(pointer);
+    const { view, drawing } = this.board;
+    const { placement } = drawing;
+    const plane = view.pxToPlane(pointer.px);
+    this.held = {
+      grasp,
+      plane,
+      px: pointer.px,
+      placement,
+      middle: this.middle,
+      centre: toOuter(placement, this.middle),
+    };
+  }
+
+  drag(pointer) {
+    if (!this.held) return;
+    if (!this.held.grasp) {
+      this.board.view.pan(minus(pointer.px, this.held.px));
+      this.held.px = pointer.px;
+      return;
+    }
+    const isTurn = this.held.grasp === "turn";
+    this.gesture ??= new Gesture(this.board, isTurn ? "Turn garment" : "Place garment");
+    const placement = isTurn ? this.turnedTo(pointer) : this.movedTo(pointer);
+    this.gesture.show((drawing) => {
+      drawing.placement = placement;
+    });
+  }
+
+  movedTo(pointer) {
+    const { placement, plane, centre } = this.held;
+    const [right, up] = minus(this.board.view.pxToPlane(pointer.px), plane);
+    const by = [up, -right]; // the plane's up is the table's x, its left the table's y
+    const kept = [0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer) - centre[axis]);
+    return { ...placement, x_m: placement.x_m + kept[0], y_m: placement.y_m + kept[1] };
+  }
+
+  /** The garment's middle goes onto whole centimetres, and onto the table's middle lines. */
+  rounded(value, pointer) {
+    if (pointer.ctrl || !this.board.snapper.isOn) return value;
+    const near = Math.abs(value) * this.board.view.scale < 2 * SNAP_PX ? 0 : Math.round(value / ROUND_M) * ROUND_M;
+    return near;
+  }
+
+  turnedTo(pointer) {
+    const { view } = this.board;
+    const centre = view.toPx(this.held.middle);
+    const [x, y] = minus(pointer.px, centre);
+    let yaw = Math.atan2(-y, x) - Math.PI; // the handle is the article's +y, the plane's up the table's x
+    if (pointer.shift) yaw = Math.round(yaw / TURN_RAD) * TURN_RAD;
+    else if (!pointer.ctrl && this.board.snapper.isOn) {
+      const square = Math.round(yaw / (Math.PI / 2)) * (Math.PI / 2);
+      if (Math.abs(yaw - square) < SQUARE_RAD) yaw = square;
+    }
+    return laid(this.held.centre, this.held.middle, yaw);
+  }
+
+  release() {
+    const { gesture } = this;
+    this.held = null;
+    this.gesture = null;
+    gesture?.commit();
+  }
+
+  cancel() {
+    const wasBusy = this.gesture !== null;
+    this.gesture?.cancel();
+    this.held = null;
+    this.gesture = null;
+    return wasBusy;
+  }
+
+  /** Arrow keys move it on the table; `,` and `.` turn it. @param {KeyboardEvent} event */
+  key(event) {
+    const { store, drawing } = this.board;
+    const by = this.board.nudgeOf(event);
+    const turn = { ",": NUDGE_TURN_RAD, ".": -NUDGE_TURN_RAD }[event.key];
+    if (by) {
+      const change = (changed) => {
+        changed.placement.x_m += by[1];
+        changed.placement.y_m -= by[0];
+      };
+      store.edit("Place garment", change, { coalesce: "nudge-place" });
+    } else if (turn) {
+      const { middle } = this;
+      const { placement } = drawing;
+      const wanted = laid(toOuter(placement, middle), middle, placement.yaw_rad + turn);
+      store.edit("Turn garment", (changed) => void (changed.placement = wanted), { coalesce: "nudge-turn" });
+    } else return false;
+    return true;
+  }
+
+  items() {
+    const handle = this.handle;
+    if (!handle) return [];
+    const { foot, knob } = handle;
+    return [
+      { key: "stem", tag: "path", class: "yaw-stem", d: `M${foot.join(" ")}L${knob.join(" ")}` },
+      { key: "knob", tag: "circle", class: "handle yaw-knob", cx: knob[0], cy: knob[1], r: 7 },
+    ];
+  }
+}
+
+/** The placement with which an article's point lies at a place of the table. */
+export function laid(at, middle, yaw) {
+  const yaw_rad = Math.atan2(Math.sin(yaw), Math.cos(yaw));
+  const [x_m, y_m] = plus(at, times(turned(middle, yaw_rad), -1));
+  return { x_m, y_m, yaw_rad };
+}

@@ -1,0 +1,82 @@
+/** Lengths as people write them: centimetres unless they say otherwise. */
+
+const METRES = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, '"': 0.0254 };
+const KEY = "pleat-unit";
+const SUM = /^[-+*/().\d\s]+$/;
+
+/** The unit that numbers are shown in, and mean when no unit is written. */
+export const unit = {
+  /** @returns {"cm"|"in"} */
+  get name() {
+    return localStorage.getItem(KEY) === "in" ? "in" : "cm";
+  },
+  set name(name) {
+    localStorage.setItem(KEY, name);
+    dispatchEvent(new Event("unit"));
+  },
+  get metres() {
+    return METRES[this.name];
+  },
+};
+
+/**
+ * A length that somebody wrote: `30`, `18in`, `91.4/2`, `1.2 m`.
+ * @param {string} text
+ * @returns {number|null} metres; null if it is no length
+ */
+export function parsed(text) {
+  const [, sum, suffix] = /^(.*?)\s*(mm|cm|in|m|")?$/.exec(text.trim().toLowerCase().replaceAll(",", ".")) ?? [];
+  const value = evaluated(sum ?? "");
+  return value === null ? null : value * (suffix ? METRES[suffix] : unit.metres);
+}
+
+/** The value of a sum of numbers with + - * / and brackets; null if it is none. @param {string} sum */
+export function evaluated(sum) {
+  if (!SUM.test(sum)) return null;
+  const words = sum.match(/\d+\.?\d*|\.\d+|[-+*/()]/g) ?? [];
+  const read = { words, at: 0 };
+  const value = terms(read);
+  return value !== null && read.at === words.length && Number.isFinite(value) ? value : null;
+}
+
+function terms(read) {
+  let value = factors(read);
+  while (value !== null && "+-".includes(read.words[read.at] ?? "?")) {
+    const sign = read.words[read.at++] === "+" ? 1 : -1;
+    const next = factors(read);
+    value = next === null ? null : value + sign * next;
+  }
+  return value;
+}
+
+function factors(read) {
+  let value = single(read);
+  while (value !== null && "*/".includes(read.words[read.at] ?? "?")) {
+    const isTimes = read.words[read.at++] === "*";
+    const next = single(read);
+    value = next === null ? null : isTimes ? value * next : value / next;
+  }
+  return value;
+}
+
+function single(read) {
+  const word = read.words[read.at++];
+  if (word === "-" || word === "+") {
+    const value = single(read);
+    return value === null ? null : word === "-" ? -value : value;
+  }
+  if (word === "(") {
+    const value = terms(read);
+    return read.words[read.at++] === ")" ? value : null;
+  }
+  return word === undefined || Number.isNaN(Number(word)) ? null : Number(word);
+}
+
+/** A length as text with its unit. @param {number} metres */
+export const length = (metres) => `${number(metres)} ${unit.name}`;
+
+/** A length as a number of the unit, to a tenth of a centimetre or a hundredth of an inch. @param {number} metres */
+export function number(metres) {
+  const value = (metres / unit.metres).toFixed(unit.name === "in" ? 2 : 1);
+  return Number(value) === 0 ? value.replace("-", "") : value;
+}

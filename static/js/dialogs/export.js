@@ -1,0 +1,62 @@
+/** `Export`: every format in which the document can be taken along. */
+
+import { button, element } from "../dom.js";
+import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
+
+/** Files that take a while to be made. */
+const SLOW = new Set(["recording.html"]);
+
+/** @param {import("../store.js").Store} store */
+export async function showExport(store) {
+  const list = element("ul", "exports");
+  list.setAttribute("aria-label", "Formats");
+  const stopped = new AbortController();
+  const dialog = openDialog("Export", "", list);
+  dialog.addEventListener("close", () => stopped.abort());
+  const answer = await fetch(`${store.path}/files`).catch(() => null);
+  if (!answer?.ok) {
+    list.append(element("li", "dialog-problem", answer ? sentenceOf(await answer.json()) : OFFLINE));
+    return;
+  }
+  list.append(...(await answer.json()).map((file) => row(store, file, stopped.signal)));
+}
+
+function row(store, file, signal) {
+  const url = `${store.path}/files/${file.what}`;
+  const said = element("small", "", file.available ? file.text : file.reason);
+  const name = element("span", "export-name", file.title, said);
+  return element("li", "export", name, verb(url, file, said, signal));
+}
+
+function verb(url, file, said, signal) {
+  if (!file.available || SLOW.has(file.what)) {
+    const slow = button("plain-button", () => record(slow, url, file, said, signal), "Save");
+    slow.disabled = !file.available;
+    slow.setAttribute("aria-label", `Save ${file.title}`);
+    return slow;
+  }
+  const link = element("a", "plain-button", "Save");
+  link.setAttribute("href", url);
+  link.setAttribute("download", file.filename);
+  link.setAttribute("aria-label", `Save ${file.title}`);
+  return link;
+}
+
+/** Fetch what takes a while, saying so. */
+async function record(pressed, url, file, said, signal) {
+  pressed.disabled = true;
+  said.textContent = "Being recorded...";
+  try {
+    const answer = await fetch(url, { signal });
+    if (!answer.ok) throw new Error(sentenceOf(await answer.json()));
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(await answer.blob());
+    link.download = file.filename;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    said.textContent = file.text;
+  } catch (error) {
+    said.textContent = error instanceof TypeError ? OFFLINE : String(error.message);
+  }
+  pressed.disabled = false;
+}

@@ -1,0 +1,71 @@
+/** The keys and gestures, on one page. */
+
+import { element } from "../dom.js";
+import { openDialog } from "./dialog.js";
+
+const SECTIONS = {
+  Tools: [
+    ["V", "Select"],
+    ["P", "Draw outline"],
+    ["F", "Draw fold"],
+    ["M", "Place on the table"],
+    ["T", "Measure"],
+    ["I", "Photo under the board"],
+    ["S", "Mirror"],
+    ["N", "Snapping on or off"],
+  ],
+  Drawing: [
+    ["Click", "Set a corner; the first one again closes"],
+    ["Drag", "A fold from edge to edge, or a point of the cloth to where it shall land"],
+    ["Alt + drag", "Grab the cloth also at its edge or corner"],
+    ["30  18in  91.4/2", "Exact length"],
+    ["Shift", "Steps of 15\u00B0"],
+    ["Ctrl", "No snapping"],
+    ["Backspace", "Take the last corner back"],
+    ["Esc", "Drop what was begun"],
+  ],
+  "Folds and selection": [
+    ["B  R", "Blue: all layers, red: last flap"],
+    ["X", "Flip: the other side moves"],
+    ["Delete", "Remove what is selected"],
+    ["Arrows", "1 mm, with Shift 1 cm"],
+    ["Double-click", "New corner on an edge"],
+    ["Tab", "Number at the selection"],
+    ["[  ]", "Moment before, after"],
+  ],
+  "Without a mouse": [
+    ["Arrows", "Lead the cross by 1 cm; Shift 10 cm, Alt 1 mm"],
+    ["Enter", "Set a point; twice at the same place closes"],
+    ["Alt + Enter", "Grab the cloth there"],
+    ["Tab", "From corner to corner, from fold to fold"],
+    [",  .", "Turn the garment on the table"],
+  ],
+  View: [
+    ["Wheel", "Zoom at the cursor"],
+    ["Space + drag", "Pan; so does the middle button"],
+    ["0", "Show the whole cloth"],
+    ["Space", "Play and pause"],
+  ],
+  Document: [
+    ["Ctrl + Z", "Undo"],
+    ["Ctrl + Shift + Z", "Redo; so does Ctrl + Y"],
+    ["Ctrl + S", "Save the garment as a file"],
+    ["?", "This page"],
+  ],
+};
+
+export function showHelp() {
+  const sections = Object.entries(SECTIONS).map(([title, keys]) =>
+    element(
+      "section",
+      "help-section",
+      element("h3", "", title),
+      element("dl", "keys", ...keys.flatMap(([key, text]) => [element("dt", "", key), element("dd", "", text)])),
+    ),
+  );
+  const more = element("p", "dialog-note", "Programs talk to Pleat by ");
+  const link = element("a", "", "its REST interface");
+  link.setAttribute("href", "/docs");
+  more.append(link, ".");
+  openDialog("Help", "is-wide", element("div", "help", ...sections), more);
+}

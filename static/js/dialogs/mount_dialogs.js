@@ -1,0 +1,39 @@
+/** The buttons `New`, `Import`, `Export` and help. */
+
+import { byId, element } from "../dom.js";
+import { icon } from "../icons.js";
+import { showExport } from "./export.js";
+import { showHelp } from "./help.js";
+import { acceptDrops, showImport } from "./import.js";
+import { showNew } from "./new.js";
+
+/** @param {import("../store.js").Store} store */
+export function mountDialogs(store) {
+  const verbs = {
+    startNew: () => showNew(),
+    startImport: () => showImport(store),
+    help: () => showHelp(),
+    save: () => save(store),
+  };
+  const put = (id, name, word, verb) => {
+    byId(id).append(icon(name), ...(word ? [element("span", "word", word)] : []));
+    byId(id).addEventListener("click", verb);
+  };
+  put("new", "new", "New", verbs.startNew);
+  put("import", "import", "Import", verbs.startImport);
+  put("export", "export", "Export", () => showExport(store));
+  put("help", "help", "", verbs.help);
+  acceptDrops(store);
+  return verbs;
+}
+
+/** The garment as a file, as it is drawn. @param {import("../store.js").Store} store */
+function save(store) {
+  if (!store.state) return;
+  const { garment } = store.state;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([`${JSON.stringify(garment, null, 2)}\n`], { type: "application/json" }));
+  link.download = `${garment.name}.json`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}

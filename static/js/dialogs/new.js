@@ -1,0 +1,121 @@
+/** `New`: a garment from a few measures, seen while they are written, or a blank board. */
+
+import { button, element } from "../dom.js";
+import { length, number, parsed, unit } from "../board/units.js";
+import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
+import { goToNew } from "./documents.js";
+import { picture } from "./picture.js";
+
+const WAIT_MS = 120;
+
+export async function showNew() {
+  const list = element("div", "templates");
+  const detail = element("div", "template-detail");
+  list.setAttribute("role", "listbox");
+  list.setAttribute("aria-label", "Templates");
+  openDialog("New garment", "is-wide", element("div", "new", list, detail));
+  const answer = await fetch("/api/templates").catch(() => null);
+  const templates = answer?.ok ? await answer.json() : [];
+  const entries = [...templates, null];
+  const choose = (index) => {
+    for (const [n, option] of [...list.children].entries()) option.setAttribute("aria-selected", String(n === index));
+    detail.replaceChildren(...(entries[index] ? measures(entries[index]) : blank()));
+  };
+  list.append(...entries.map((template, index) => tile(template, () => choose(index))));
+  choose(0);
+}
+
+function tile(template, onClick) {
+  const shown = template ? picture(template.outline, template.folds) : picture([], []);
+  const made = button("template", onClick, shown, element("span", "", template?.title ?? "Blank board"));
+  made.setAttribute("role", "option");
+  return made;
+}
+
+function blank() {
+  const said = element("p", "dialog-problem");
+  const go = button("main-button", () => create({}, said), "Start drawing");
+  return [
+    element("h3", "", "Blank board"),
+    element("p", "dialog-text", "Draw the outline yourself, corner by corner."),
+    said,
+    element("div", "dialog-buttons", go),
+  ];
+}
+
+/** The fields of a template, with the garment that they come to. */
+function measures(template) {
+  const said = element("p", "dialog-problem");
+  said.setAttribute("role", "alert");
+  const shown = element("div", "template-picture", picture(template.outline, template.folds));
+  const fields = template.measures.map((measure) => field(measure));
+  /** @type {any} */
+  let garment = null;
+  let turn = 0;
+  const ask = async () => {
+    const mine = (turn += 1);
+    const wanted = Object.fromEntries(fields.map(({ name, value }) => [name, value()]));
+    if (Object.values(wanted).includes(null)) {
+      said.textContent = "Write a length: 30, 18in or 91.4/2.";
+      return;
+    }
+    const made = await garmentOf(template.name, wanted);
+    if (mine !== turn) return;
+    garment = made.garment ?? null;
+    said.textContent = made.problem ?? "";
+    if (garment) shown.replaceChildren(picture(garment.outline, garment.folds));
+  };
+  let timer;
+  const soon = () => {
+    clearTimeout(timer);
+    timer = setTimeout(ask, WAIT_MS);
+  };
+  for (const { row } of fields) row.addEventListener("input", soon);
+  const form = /** @type {HTMLFormElement} */ (element("form", "template-form"));
+  const go = element("button", "main-button", "Create");
+  form.append(...fields.map(({ row }) => row), said, element("div", "dialog-buttons", go));
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    clearTimeout(timer);
+    await ask();
+    if (garment) create({ garment }, said);
+  });
+  return [
+    element("h3", "", template.title),
+    element("p", "dialog-text", template.text),
+    element("div", "template-columns", shown, form),
+  ];
+}
+
+function field({ name, label, text, default_m: first, min_m: least, max_m: most }) {
+  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
+  input.value = number(first);
+  input.autocomplete = "off";
+  input.title = `${text} (${number(least)} to ${length(most)})`;
+  const row = element(
+    "label",
+    "measure",
+    element("span", "measure-name", label, element("small", "", text)),
+    input,
+    element("span", "measure-unit", unit.name),
+  );
+  const value = () => (input.value === number(first) ? first : parsed(input.value));
+  return { name, row, value };
+}
+
+async function garmentOf(name, measures) {
+  const answer = await fetch(`/api/templates/${name}`, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify({ measures }),
+  }).catch(() => null);
+  if (!answer) return { problem: OFFLINE };
+  const told = await answer.json();
+  return answer.ok ? { garment: told.garment } : { problem: sentenceOf(told) };
+}
+
+async function create(wanted, said) {
+  const answer = await goToNew(wanted).catch(() => null);
+  if (!answer) said.textContent = OFFLINE;
+  else if (answer.status !== 201) said.textContent = sentenceOf(await answer.json());
+}

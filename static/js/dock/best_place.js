@@ -1,0 +1,56 @@
+/** The button `Best place`: looks for a place on the table where the plan is quicker, and offers it. */
+
+import { button, element } from "../dom.js";
+import { suggestionButton } from "./suggestion_button.js";
+import { SuggestionSearch } from "./suggestion_search.js";
+
+/** All places are tried as long as that lasts (s); then the best so far is told. */
+const LIMIT_S = 6;
+
+export class BestPlace {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    this.search = new SuggestionSearch();
+    this.button = button("chip", () => this.begin(), "Best place");
+    this.button.title = "Look for a place on the table where the plan is quicker";
+    this.note = element("p", "hint search-note");
+    this.note.setAttribute("aria-live", "polite");
+    this.offer = element("div", "suggestions");
+    this.end = button("quiet", () => this.close(), "Stop");
+    this.root = element("div", "best-place", this.note, this.offer, this.end);
+    this.search.addEventListener("change", () => this.show());
+    this.close();
+  }
+
+  begin() {
+    this.version = this.store.state.version;
+    this.search.start(this.store.state, { limit_s: LIMIT_S });
+  }
+
+  /** What was found is about one drawing only. */
+  follow() {
+    if (this.version !== null && this.version !== this.store.state?.version) this.close();
+  }
+
+  close() {
+    this.version = null;
+    this.store.setPreview(null);
+    this.search.stop();
+  }
+
+  show() {
+    const { found, isRunning, fault } = this.search;
+    const best = found.reduce((least, one) => (least && least.cost_s <= one.cost_s ? least : one), undefined);
+    this.root.hidden = this.version === null;
+    this.button.disabled = isRunning;
+    this.note.classList.toggle("is-searching", isRunning);
+    this.note.hidden = best !== undefined;
+    this.offer.hidden = best === undefined;
+    this.note.textContent = isRunning ? "Trying places on the table\u2026" : outcome(fault);
+    this.end.textContent = isRunning ? "Stop" : "Close";
+    this.offer.replaceChildren(...(best ? [suggestionButton(this.store, best, "is-first")] : []));
+  }
+}
+
+const outcome = (fault) => (fault ? `Nothing could be looked for: ${fault}.` : "No quicker place was found.");

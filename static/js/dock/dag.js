@@ -1,0 +1,187 @@
+/** The Fold-DAG as a graph: folds in columns by depth, done, available or waiting as the time goes. */
+
+import { element } from "../dom.js";
+import { columns, wayOf } from "./dag_layout.js";
+import { before, waitsFor } from "./fold_states.js";
+import { svg } from "./icons.js";
+import { COLOURS, foldName } from "./words.js";
+
+const NODE = { height: 34, gapX: 20, gapY: 8, edge: 8, line: 13 };
+/** Nodes are as wide as fits, within these (px); so much of that is not for letters, and a letter takes so much. */
+const WIDTH = { least: 78, most: 130, frame: 28, letter: 6.2 };
+const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits" };
+
+export class Dag {
+  /** @param {(id: string) => void} onSelect */
+  constructor(onSelect) {
+    this.onSelect = onSelect;
+    this.root = element("div", "dag");
+    /** @type {SVGElement[]} by fold */
+    this.nodes = [];
+    /** @type {{from: number, to: number, line: SVGElement}[]} */
+    this.edges = [];
+    /** @type {string[]} by fold */
+    this.states = [];
+    /** @type {Set<string>} ids */
+    this.selected = new Set();
+    this.shown = "";
+    new ResizeObserver(() => this.draw()).observe(this.root);
+  }
+
+  /**
+   * @param {any[]} folds of the drawing
+   * @param {any} plan or null
+   */
+  show(folds, plan) {
+    const wanted = JSON.stringify([folds.map(({ id, name, kind }) => [id, name, kind]), plan?.dag]);
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    this.folds = folds;
+    this.plan = plan;
+    this.drawn = 0;
+    this.draw();
+  }
+
+  /** Draw it, unless it is there already as wide as it should be. */
+  draw() {
+    const { folds, plan } = this;
+    const width = this.root.clientWidth;
+    if (!folds || !width || width === this.drawn) return;
+    this.drawn = width;
+    this.nodes = [];
+    this.edges = [];
+    const missing = folds.length ? "Known once the folds can be made." : "No folds yet.";
+    if (plan && folds.length) this.root.replaceChildren(this.graph(), this.key());
+    else this.root.replaceChildren(element("p", "hint", missing));
+    this.showStates(this.states);
+    this.showSelection(this.selected);
+  }
+
+  /** @param {string[]} states by fold */
+  showStates(states) {
+    this.states = states;
+    this.nodes.forEach((node, fold) => {
+      if (node.dataset.state === states[fold]) return;
+      node.dataset.state = states[fold];
+      node.setAttribute("aria-label", this.label(fold, states[fold]));
+    });
+    for (const { from, line } of this.edges) line.classList.toggle("is-done", states[from] === "done");
+  }
+
+  /** @param {Set<string>} ids of the folds that are selected */
+  showSelection(ids) {
+    this.selected = ids;
+    this.nodes.forEach((node, fold) => node.setAttribute("aria-pressed", String(ids.has(this.folds[fold].id))));
+  }
+
+  graph() {
+    const { edges } = this.plan.dag;
+    const laid = columns(this.folds.length, edges);
+    const tallest = Math.max(...laid.map((column) => column.length));
+    const room = (this.root.clientWidth - 2 * NODE.edge + NODE.gapX) / laid.length - NODE.gapX;
+    this.width = Math.min(Math.max(Math.floor(room), WIDTH.least), WIDTH.most);
+    const width = laid.length * (this.width + NODE.gapX) - NODE.gapX + 2 * NODE.edge;
+    const height = tallest * (NODE.height + NODE.gapY) - NODE.gapY + 2 * NODE.edge;
+    const at = (place) => this.at(place, height);
+    this.edges = edges.map(([from, to]) => ({ from, to, line: this.link(wayOf(laid, from, to).map(at)) }));
+    const own = new Map(laid.flat().flatMap((place) => (place.to < 0 ? [[place.fold, at(place)]] : [])));
+    this.nodes = this.folds.map((_, fold) => this.node(fold, own.get(fold)));
+    const drawn = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" });
+    drawn.setAttribute("aria-label", `Fold-DAG of ${this.folds.length} in ${laid.length} steps`);
+    const lines = svg("g", { "aria-hidden": "true" }, ...this.edges.map(({ line }) => line));
+    drawn.append(lines, ...this.nodes);
+    return element("div", "dag-scroll", drawn);
+  }
+
+  node(fold, { x, y }) {
+    const { kind } = this.folds[fold];
+    const name = foldName(this.folds[fold], fold);
+    const lines = twoLines(name, Math.floor((this.width - WIDTH.frame) / WIDTH.letter));
+    const top = NODE.height / 2 + 4 - ((lines.length - 1) * NODE.line) / 2;
+    const made = svg(
+      "g",
+      { class: "dag-node", "data-kind": kind, transform: `translate(${x} ${y})`, tabindex: 0, role: "button" },
+      svg("title", {}, name),
+      svg("rect", { width: this.width, height: NODE.height, rx: 6 }),
+      svg("path", { class: "dag-stroke", d: `M1.5 5v${NODE.height - 10}` }),
+      svg("text", { class: "dag-number", x: 13, y: NODE.height / 2 + 4 }, String(fold + 1)),
+      ...lines.map((line, index) => svg("text", { x: 23, y: top + index * NODE.line }, line)),
+    );
+    made.addEventListener("click", () => this.onSelect(this.folds[fold].id));
+    made.addEventListener("keydown", (event) => this.onKey(event, fold));
+    for (const [name, target] of [["pointerenter", fold], ["focus", fold], ["pointerleave", -1], ["blur", -1]]) {
+      made.addEventListener(String(name), () => this.highlight(Number(target)));
+    }
+    return made;
+  }
+
+  /** The upper left corner of a place. */
+  at({ depth, row }, height) {
+    const x = NODE.edge + depth * (this.width + NODE.gapX);
+    return { x, y: (height - NODE.height) / 2 + row * (NODE.height + NODE.gapY) };
+  }
+
+  /** An arrow from one node to another by way of the places between. */
+  link(places) {
+    const ends = places.map(({ x, y }) => ({ x0: x, x1: x + this.width, y: y + NODE.height / 2 }));
+    const [first, ...rest] = ends;
+    const last = ends[ends.length - 1];
+    let d = `M${first.x1} ${first.y}`;
+    let from = first;
+    for (const to of rest) {
+      const middle = (from.x1 + to.x0) / 2;
+      d += `C${middle} ${from.y} ${middle} ${to.y} ${to.x0} ${to.y}`;
+      if (to !== last) d += `H${to.x1}`;
+      from = to;
+    }
+    const tip = `M${last.x0 - 5} ${last.y - 3.5}L${last.x0} ${last.y}L${last.x0 - 5} ${last.y + 3.5}`;
+    return svg("path", { class: "dag-edge", d: d + tip });
+  }
+
+  /** Folds in words: what screen readers hear of a node. */
+  label(fold, state) {
+    const names = (others) => others.map((other) => foldName(this.folds[other], other)).join(" and ");
+    const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
+    const about = [foldName(this.folds[fold], fold), COLOURS[this.folds[fold].kind], STATES[state] ?? ""];
+    if (after.length) about.push(`after ${names(after)}`);
+    if (first.length) about.push(`before ${names(first)}`);
+    return about.filter(Boolean).join(", ");
+  }
+
+  onKey(event, fold) {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.onSelect(this.folds[fold].id);
+  }
+
+  /** Show a fold with what comes right before and after it. @param {number} fold -1: none */
+  highlight(fold) {
+    const near = new Set([fold, ...waitsFor(this.plan, fold), ...before(this.plan, fold)]);
+    this.root.classList.toggle("has-hover", fold >= 0);
+    this.nodes.forEach((node, other) => node.classList.toggle("is-near", near.has(other)));
+    for (const { from, to, line } of this.edges) line.classList.toggle("is-near", from === fold || to === fold);
+  }
+
+  key() {
+    const entries = Object.entries({ done: "done", available: "can be folded", waiting: "waits" });
+    const key = element("p", "dag-key", ...entries.map(([state, word]) => entry(state, word)));
+    key.setAttribute("aria-hidden", "true");
+    return key;
+  }
+}
+
+/** A name broken into at most two lines, shortened where it is longer. */
+function twoLines(name, letters) {
+  const cut = (text) => (text.length > letters ? `${text.slice(0, letters - 1)}\u2026` : text);
+  if (name.length <= letters) return [name];
+  const space = name.lastIndexOf(" ", letters);
+  return space > 0 ? [name.slice(0, space), cut(name.slice(space + 1))] : [cut(name)];
+}
+
+function entry(state, word) {
+  const sample = element("span", "dag-sample");
+  sample.dataset.state = state;
+  return element("span", "", sample, word);
+}
+

@@ -1,0 +1,85 @@
+/** What can be changed of the fold that is selected: colour, grip radius, name, place in the order. */
+
+import { parsed } from "../board/units.js";
+import { button, element } from "../dom.js";
+import { iconButton, relabel } from "./buttons.js";
+import { COLOURS, length, MOVED } from "./words.js";
+
+export class FoldFields {
+  /**
+   * @param {import("./fold_row.js").Verbs} verbs
+   * @param {() => void} onRename
+   */
+  constructor(verbs, onRename) {
+    this.verbs = verbs;
+    this.colours = Object.keys(COLOURS).map((kind) => this.colour(kind));
+    this.radios = element("div", "segments", ...this.colours);
+    this.radios.setAttribute("role", "radiogroup");
+    this.radios.addEventListener("keydown", (event) => this.turn(event));
+    this.radius = /** @type {HTMLInputElement} */ (element("input", "field fold-radius"));
+    this.radius.inputMode = "decimal";
+    this.radius.addEventListener("input", () => (this.isTyped = true));
+    this.radius.addEventListener("change", () => this.grip());
+    this.isTyped = false;
+    this.radius.addEventListener("keydown", (event) => event.stopPropagation());
+    this.up = iconButton("up", "", () => verbs.onMove(-1));
+    this.down = iconButton("down", "", () => verbs.onMove(1));
+    this.pen = iconButton("pen", "", onRename);
+    this.bin = iconButton("bin", "", verbs.onDelete);
+    const grip = element("label", "fold-grip", element("span", "", "Grip"), this.radius);
+    const tools = element("span", "fold-tools", this.pen, this.up, this.down, this.bin);
+    this.root = element("div", "fold-fields", this.radios, grip, tools);
+  }
+
+  /**
+   * @param {any} fold of the drawing
+   * @param {{called: string, isFirst: boolean, isLast: boolean, articleRadius: number}} now
+   */
+  show(fold, { called, isFirst, isLast, articleRadius }) {
+    for (const radio of this.colours) {
+      const isOn = radio.dataset.kind === fold.kind;
+      radio.setAttribute("aria-checked", String(isOn));
+      radio.tabIndex = isOn ? 0 : -1;
+    }
+    this.radios.setAttribute("aria-label", `Colour of ${called}`);
+    this.radius.placeholder = length(articleRadius);
+    this.told = fold.grip_radius_m === null ? "" : length(fold.grip_radius_m);
+    if (!this.isTyped) this.radius.value = this.told;
+    this.radius.setAttribute("aria-label", `Grip radius of ${called}`);
+    this.radius.title = "How far around it one grip holds the cloth; empty: as the garment's";
+    relabel(this.pen, `Rename ${called}`);
+    relabel(this.up, `Move ${called} up`);
+    relabel(this.down, `Move ${called} down`);
+    relabel(this.bin, `Delete ${called}`);
+    this.up.disabled = isFirst;
+    this.down.disabled = isLast;
+  }
+
+  colour(kind) {
+    const radio = button("segment", () => this.verbs.onColour(kind), COLOURS[kind]);
+    radio.dataset.kind = kind;
+    radio.setAttribute("role", "radio");
+    radio.title = `${COLOURS[kind]}: ${MOVED[kind]}`;
+    return radio;
+  }
+
+  /** @param {KeyboardEvent} event the arrows choose, as among radio buttons */
+  turn(event) {
+    if (!event.key.startsWith("Arrow") || event.altKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const other = this.colours.find((radio) => radio !== document.activeElement);
+    other?.focus();
+    other?.click();
+  }
+
+  /** Take the radius that was typed; what is no length is put back. */
+  grip() {
+    const text = this.radius.value.trim();
+    this.isTyped = false;
+    const metres = parsed(text);
+    if (text === "") this.verbs.onGrip(null);
+    else if (metres !== null && metres > 0) this.verbs.onGrip(metres);
+    else this.radius.value = this.told ?? "";
+  }
+}

@@ -1,0 +1,138 @@
+/** One fold in the list `Folds`: how far it is, its name, what it waits for; while selected, what can be changed. */
+
+import { button, element } from "../dom.js";
+import { iconButton, relabel } from "./buttons.js";
+import { FoldFields } from "./fold_fields.js";
+import { icon } from "./icons.js";
+import { COLOURS, foldName, MOVED } from "./words.js";
+
+const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits", none: "" };
+
+/**
+ * @typedef {object} Verbs
+ * @property {() => void} onSelect
+ * @property {() => void} onShow
+ * @property {(name: string) => void} onRename
+ * @property {(kind: string) => void} onColour
+ * @property {(radius: number|null) => void} onGrip
+ * @property {(by: number) => void} onMove
+ * @property {() => void} onDelete
+ */
+
+/**
+ * @typedef {object} Now
+ * @property {number} index
+ * @property {number} count of folds
+ * @property {number} articleRadius metres
+ * @property {{index: number, name: string}[]} waits what it waits for
+ * @property {string} problem what is wrong with it, or nothing
+ */
+
+export class FoldRow {
+  /**
+   * @param {string} id of the fold
+   * @param {Verbs} verbs
+   */
+  constructor(id, verbs) {
+    this.verbs = verbs;
+    this.mark = element("span", "fold-number");
+    this.stroke = element("span", "stroke");
+    this.name = button("fold-name", (event) => event.detail < 2 && verbs.onSelect());
+    this.name.addEventListener("dblclick", () => this.rename());
+    this.waits = element("span", "fold-waits");
+    this.eye = iconButton("eye", "", verbs.onShow);
+    this.fields = new FoldFields(verbs, () => this.rename());
+    this.line = element("div", "fold-line", this.mark, this.stroke, this.name, this.waits, this.eye);
+    this.root = element("li", "fold-row", this.line, this.fields.root);
+    this.root.dataset.fold = id;
+  }
+
+  /**
+   * @param {any} fold of the drawing
+   * @param {Now} now
+   */
+  show(fold, { index, count, articleRadius, waits, problem }) {
+    this.fold = fold;
+    this.index = index;
+    const called = foldName(fold, index);
+    if (!this.field) this.name.textContent = called;
+    this.root.dataset.kind = fold.kind;
+    this.root.classList.toggle("is-illegal", problem !== "");
+    this.name.title = problem || `${COLOURS[fold.kind]}, ${MOVED[fold.kind]}`;
+    this.waits.replaceChildren(...waits.map((other) => element("span", "badge", String(other.index + 1))));
+    this.waits.title = waits.length ? `After ${waits.map((other) => other.name).join(", ")}` : "";
+    this.waiting = waits.map((other) => other.name).join(" and ");
+    this.problem = problem;
+    this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, articleRadius });
+    relabel(this.eye, `Show the cloth before ${called}`);
+    this.showState(this.state ?? "none", true);
+  }
+
+  /**
+   * @param {keyof typeof STATES} state
+   * @param {boolean} always
+   */
+  showState(state, always = false) {
+    if (state === this.state && !always) return;
+    this.state = state;
+    this.root.dataset.state = state;
+    this.root.setAttribute("aria-current", String(state === "current"));
+    this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? icon("tick") : String(this.index + 1));
+    const told = [
+      `${this.index + 1}`,
+      `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
+      this.problem || STATES[state],
+      this.waiting && `after ${this.waiting}`,
+    ];
+    this.name.setAttribute("aria-description", told.filter(Boolean).join(", "));
+  }
+
+  /** @param {boolean} isSelected @param {boolean} isShown whether the board shows the moment before it */
+  showSelection(isSelected, isShown) {
+    this.root.classList.toggle("is-selected", isSelected);
+    this.name.setAttribute("aria-pressed", String(isSelected));
+    this.eye.setAttribute("aria-pressed", String(isShown));
+    this.fields.root.hidden = !isSelected;
+  }
+
+  /** @param {boolean} isStop whether Tab stops in this row */
+  setStop(isStop) {
+    for (const part of [this.name, this.eye]) part.tabIndex = isStop ? 0 : -1;
+  }
+
+  /** Turn the name into a field until Enter, Escape or leaving it. */
+  rename() {
+    if (this.field) return;
+    const field = /** @type {HTMLInputElement} */ (element("input", "field fold-rename"));
+    field.value = this.fold.name;
+    field.maxLength = 200;
+    field.placeholder = foldName({}, this.index);
+    field.setAttribute("aria-label", "Name of the fold");
+    this.field = field;
+    this.name.hidden = true;
+    this.name.after(field);
+    field.addEventListener("keydown", (event) => {
+      event.stopPropagation();
+      if (event.key === "Enter") this.endRename(true);
+      if (event.key === "Escape") this.endRename(false);
+    });
+    field.addEventListener("blur", () => this.endRename(true));
+    field.focus();
+    field.select();
+  }
+
+  /** @param {boolean} isKept */
+  endRename(isKept) {
+    const { field } = this;
+    if (!field) return;
+    this.field = undefined; // first: removing it blurs it
+    const hadFocus = document.activeElement === field;
+    const name = field.value.trim();
+    field.remove();
+    this.name.hidden = false;
+    if (hadFocus) this.name.focus();
+    if (!isKept || name === this.fold.name) return;
+    this.name.textContent = foldName({ name }, this.index);
+    this.verbs.onRename(name);
+  }
+}

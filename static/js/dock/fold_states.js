@@ -1,0 +1,47 @@
+/** How far each fold is at a time of the plan. */
+
+/** @typedef {"done"|"current"|"available"|"waiting"} FoldState */
+
+const INSTANT_S = 1e-9;
+
+/**
+ * @param {any} plan as in the message of kind `plan`, or null
+ * @param {number} t_s
+ * @returns {FoldState[]} one for each fold of the plan; without a plan none
+ */
+export function foldStates(plan, t_s) {
+  if (!plan) return [];
+  const done = new Set();
+  let current = -1;
+  for (const { kind, fold, start_s: start, duration_s: duration } of plan.primitives) {
+    if (kind !== "fold") continue;
+    if (t_s >= start + duration - INSTANT_S) done.add(fold);
+    else if (t_s > start) current = fold;
+  }
+  return Array.from({ length: plan.dag.folds }, (_, fold) => {
+    if (done.has(fold)) return "done";
+    if (fold === current) return "current";
+    return waitsFor(plan, fold).every((before) => done.has(before)) ? "available" : "waiting";
+  });
+}
+
+/**
+ * @param {any} plan or null
+ * @param {number} fold
+ * @returns {number[]} the folds that come right before it
+ */
+export function waitsFor(plan, fold) {
+  return edges(plan).flatMap(([from, to]) => (to === fold ? [from] : []));
+}
+
+/**
+ * @param {any} plan or null
+ * @param {number} fold
+ * @returns {number[]} the folds that come right after it
+ */
+export function before(plan, fold) {
+  return edges(plan).flatMap(([from, to]) => (from === fold ? [to] : []));
+}
+
+/** @param {any} plan or null @returns {[number, number][]} */
+const edges = (plan) => plan?.dag.edges ?? [];

@@ -1,0 +1,73 @@
+/** What base and arms do in a plan, as blocks on three lanes. */
+
+import { foldName, hands, length, place, seconds, where, whole } from "./words.js";
+
+/**
+ * What an arm or the base does in a primitive: `name` and, where there is room, `rest`, or where there is little a
+ * fold's `number`; `about` is all of it.
+ * @typedef {object} Block
+ * @property {number} index of the primitive
+ * @property {string} kind
+ * @property {string} colour of a fold
+ * @property {string} number
+ * @property {string} name
+ * @property {string} rest
+ * @property {string} about
+ * @property {number} start_s
+ * @property {number} duration_s
+ * @property {boolean} isHolding whether the hands hold on after it
+ */
+
+const MOVED_M = 0.001;
+
+/**
+ * @param {any} plan or null
+ * @param {any[]} folds the garment's
+ * @returns {{base: Block[], left: Block[], right: Block[]}}
+ */
+export function laneBlocks(plan, folds) {
+  const primitives = plan?.primitives ?? [];
+  const arm = (name) =>
+    primitives.flatMap((primitive, index) =>
+      primitive.grips.some((grip) => grip.arm === name) ? [armBlock(primitive, index, folds)] : [],
+    );
+  const base = primitives.flatMap((primitive, index) => baseBlock(primitive, index, primitives, folds) ?? []);
+  return { base, left: arm("left"), right: arm("right") };
+}
+
+function armBlock(primitive, index, folds) {
+  const isFold = primitive.kind === "fold";
+  const name = isFold ? foldName(folds[primitive.fold], primitive.fold) : "drag";
+  const number = isFold ? String(primitive.fold + 1) : "";
+  return block(primitive, index, folds, { name, number, colour: (isFold && folds[primitive.fold]?.kind) || "" });
+}
+
+/** What the base does meanwhile; during a fold it may back off or come nearer. */
+function baseBlock(primitive, index, primitives, folds) {
+  if (primitive.kind === "move") return block(primitive, index, folds, { name: place(primitive.to), kind: "move" });
+  const further = primitive.base.back_off_m - (primitives[index - 1]?.base.back_off_m ?? 0);
+  if (Math.abs(further) < MOVED_M) return null;
+  const [name, rest] = [length(Math.abs(further)), further > 0 ? "back" : "ahead"];
+  return block(primitive, index, folds, { name, rest, kind: "move", base: `the base drives ${name} ${rest}` });
+}
+
+function block(primitive, index, folds, told) {
+  const { name, number = "", rest = "", kind = primitive.kind, colour = "", base = "" } = told;
+  const { start_s: start, duration_s: duration, holds } = primitive;
+  const by = hands(primitive);
+  const parts = [whole(primitive, folds), by && `by ${by}`, `at ${where(primitive)}`, base, holds ? "holds on" : ""];
+  const when = `${seconds(start)} to ${seconds(start + duration)}`;
+  const about = [...parts.filter(Boolean), when].join(", ");
+  const isHolding = Boolean(holds) && kind !== "move";
+  return { index, kind, colour, number, name, rest, about, start_s: start, duration_s: duration, isHolding };
+}
+
+/**
+ * @param {any} plan or null
+ * @param {number} t_s
+ * @returns {number} the primitive that is going on, -1 without one; at the end the last
+ */
+export function primitiveAt(plan, t_s) {
+  const primitives = plan?.primitives ?? [];
+  return primitives.findLastIndex((primitive) => t_s >= primitive.start_s);
+}

@@ -1,0 +1,182 @@
+/** One lane each for the base and the two arms, with the slider over them and the playhead across. */
+
+import { unit } from "../board/units.js";
+import { button, element } from "../dom.js";
+import { laneBlocks, primitiveAt } from "./lane_blocks.js";
+import { axisTicks } from "./time_axis.js";
+import { hands, place, seconds, whole } from "./words.js";
+
+const LANES = /** @type {const} */ ([
+  ["base", "", "Base"],
+  ["left", "L", "Left arm"],
+  ["right", "R", "Right arm"],
+]);
+
+export class Lanes {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {import("./clock.js").Clock} clock
+   * @param {import("./time_slider.js").TimeSlider} slider
+   * @param {import("./shown_plan.js").ShownPlan} shown
+   */
+  constructor(store, clock, slider, shown) {
+    this.store = store;
+    this.clock = clock;
+    this.slider = slider;
+    this.told = shown;
+    this.axis = element("div", "axis");
+    this.axis.setAttribute("aria-hidden", "true");
+    this.about = element("div", "lane-about");
+    this.about.setAttribute("aria-hidden", "true");
+    const heads = [element("div", "playhead"), element("div", "playhead is-ghost")];
+    const over = element("div", "lanes-over", ...heads, this.about);
+    over.setAttribute("aria-hidden", "true");
+    const time = element("div", "lanes-time", this.axis, slider.root);
+    this.root = element("div", "lanes", element("span", "lane-name"), time);
+    /** @type {Map<string, HTMLElement>} */
+    this.lanes = new Map(LANES.map(([name, letter, words]) => [name, this.lane(name, letter, words)]));
+    this.root.append(over);
+    this.root.addEventListener("pointerdown", (event) => this.press(event));
+    this.root.addEventListener("pointermove", (event) => this.hover(event));
+    this.root.addEventListener("pointerleave", () => store.setHoverTime(null));
+    shown.addEventListener("change", () => this.show());
+    store.addEventListener("hover-time", () => this.showHover());
+    clock.addEventListener("tick", () => this.tick());
+  }
+
+  get plan() {
+    return this.told.plan;
+  }
+
+  get folds() {
+    return this.told.folds;
+  }
+
+  show() {
+    const wanted = JSON.stringify([unit.name, this.plan?.id, this.folds.map(({ name, kind }) => [name, kind])]);
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    this.duration = this.plan?.cost_s ?? 0;
+    for (const [name, blocks] of Object.entries(laneBlocks(this.plan, this.folds))) {
+      this.lanes.get(name)?.replaceChildren(...blocks.map((block) => this.block(block)));
+    }
+    this.stopAt(this.root.querySelector(".block"));
+    this.axis.replaceChildren(...axisTicks(this.duration).map((t_s) => this.tickMark(t_s)));
+    this.root.classList.toggle("is-empty", this.duration === 0);
+    this.tick();
+  }
+
+  tick() {
+    const now = this.clock.now;
+    this.root.style.setProperty("--head", String(this.share(now)));
+    const current = primitiveAt(this.plan, now);
+    if (current === this.current) return;
+    this.current = current;
+    for (const block of this.root.querySelectorAll(".block")) {
+      block.classList.toggle("is-current", Number(/** @type {HTMLElement} */ (block).dataset.index) === current);
+    }
+  }
+
+  lane(name, letter, words) {
+    const label = element("span", "lane-name", letter && element("b", "arm", letter), element("span", "", words));
+    const lane = element("div", "lane");
+    lane.dataset.lane = name;
+    lane.setAttribute("role", "group");
+    lane.setAttribute("aria-label", words);
+    this.root.append(label, lane);
+    return lane;
+  }
+
+  /** @param {import("./lane_blocks.js").Block} told */
+  block(told) {
+    const name = element("span", "block-name", told.name, element("span", "block-rest", ` ${told.rest}`));
+    const parts = told.number ? [element("span", "block-number", told.number), name] : [name];
+    const made = button("block", (event) => event.detail === 0 && this.slider.seek(told.start_s), ...parts);
+    made.dataset.index = String(told.index);
+    made.dataset.kind = told.kind;
+    if (told.colour) made.dataset.colour = told.colour;
+    made.classList.toggle("is-holding", told.isHolding);
+    made.style.left = `${100 * this.share(told.start_s)}%`;
+    made.style.width = `${100 * this.share(told.duration_s)}%`;
+    made.setAttribute("aria-label", told.about);
+    made.addEventListener("focus", () => made.matches(":focus-visible") && this.store.setHoverTime(told.start_s));
+    made.addEventListener("blur", () => this.store.setHoverTime(null));
+    made.addEventListener("keydown", (event) => this.walk(event, made));
+    made.addEventListener("focus", () => this.stopAt(made));
+    return made;
+  }
+
+  /** @param {number} t_s */
+  tickMark(t_s) {
+    const mark = element("span", "axis-tick", String(t_s));
+    mark.style.left = `${100 * this.share(t_s)}%`;
+    return mark;
+  }
+
+  /** @param {number} t_s */
+  share(t_s) {
+    return this.duration ? Math.min(t_s / this.duration, 1) : 0;
+  }
+
+  /** The time under the pointer (s); null beside the lanes or without a plan. @param {MouseEvent} event */
+  timeAt(event) {
+    const box = this.axis.getBoundingClientRect();
+    const share = (event.clientX - box.left) / box.width;
+    return this.duration && share >= 0 && share <= 1 ? share * this.duration : null;
+  }
+
+  /** A press goes to that time; pulled on, the time follows. @param {PointerEvent} event */
+  press(event) {
+    const t_s = this.timeAt(event);
+    if (t_s === null || event.button !== 0 || event.target === this.slider.root) return;
+    this.root.setPointerCapture(event.pointerId);
+    this.slider.seek(t_s);
+  }
+
+  /** @param {PointerEvent} event */
+  hover(event) {
+    const t_s = this.timeAt(event);
+    this.store.setHoverTime(event.pointerType === "touch" ? null : t_s);
+    if (t_s !== null && this.root.hasPointerCapture(event.pointerId)) this.slider.scrub(t_s);
+  }
+
+  showHover() {
+    const { hoverTime } = this.store;
+    this.root.classList.toggle("has-hover", hoverTime !== null && this.duration > 0);
+    if (hoverTime === null) return;
+    const share = this.share(hoverTime);
+    this.root.style.setProperty("--hover", String(share));
+    this.about.classList.toggle("is-left", share > 0.5);
+    const primitive = this.plan?.primitives[primitiveAt(this.plan, hoverTime)];
+    this.about.replaceChildren(element("b", "", seconds(hoverTime)), ` ${primitive ? doing(primitive, this.folds) : ""}`);
+  }
+
+  /** Tab stops at one block, the arrows lead on. @param {Element|null} stop */
+  stopAt(stop) {
+    for (const block of this.root.querySelectorAll(".block")) block.tabIndex = block === stop ? 0 : -1;
+  }
+
+  /** Arrows go from block to block along a lane and from lane to lane. */
+  walk(event, made) {
+    const lanes = [...this.lanes.values()].filter((lane) => lane.children.length);
+    const lane = lanes.indexOf(made.parentElement);
+    const along = { ArrowLeft: made.previousElementSibling, ArrowRight: made.nextElementSibling }[event.key];
+    const across = { ArrowUp: lanes[lane - 1], ArrowDown: lanes[lane + 1] }[event.key];
+    const target = along ?? (across && nearest(across, made));
+    if (!target) return;
+    event.preventDefault();
+    target.focus();
+  }
+}
+
+/** A primitive in a line: what, by which hands, from where. */
+function doing(primitive, folds) {
+  const at = primitive.kind === "move" ? "" : place(primitive.base.station);
+  return [whole(primitive, folds), hands(primitive), at].filter(Boolean).join(", ");
+}
+
+/** The block of a lane that begins closest to another block. */
+function nearest(lane, made) {
+  const gap = (block) => Math.abs(parseFloat(block.style.left) - parseFloat(made.style.left));
+  return [...lane.children].reduce((best, block) => (gap(block) < gap(best) ? block : best));
+}

@@ -1,0 +1,102 @@
+/** What stands where the plan would be: one sentence, what would help as buttons, and all the reasons on demand. */
+
+import { button, element } from "../dom.js";
+import { details, headline } from "./reasons.js";
+import { suggestionButton } from "./suggestion_button.js";
+import { ranked, SuggestionSearch } from "./suggestion_search.js";
+
+const SHOWN_MAX = 3;
+const REST_MS = 500;
+const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
+
+export class NoPlan {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    this.search = new SuggestionSearch();
+    this.sentence = element("p", "reason");
+    this.help = element("div", "suggestions");
+    this.help.setAttribute("role", "group");
+    this.help.setAttribute("aria-label", "Suggestions");
+    this.progress = element("p", "hint search-note");
+    this.progress.setAttribute("aria-live", "polite");
+    this.more = element("div", "suggestions");
+    this.all = element("ul", "reasons");
+    this.all.setAttribute("aria-label", "Reasons");
+    this.inFull = element("div", "in-full", this.all, this.more);
+    this.why = button("chip why", () => this.unfold(this.inFull.hidden), "Why?");
+    this.root = element("div", "no-plan", this.sentence, this.progress, this.help, this.inFull);
+    this.search.addEventListener("change", () => this.showFound());
+    for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
+    this.unfold(false);
+  }
+
+  /**
+   * @param {any} message of kind `plan`, without a plan
+   * @param {any} state of kind `document`
+   */
+  show(message, state) {
+    this.sentence.textContent = headline(message, state);
+    const all = details(message, state);
+    this.all.replaceChildren(...all.map((text) => element("li", "", text)));
+    this.why.hidden = all.length === 0;
+  }
+
+  /** Search while the drawing rests without a plan; anything else ends it. */
+  follow() {
+    const { plan: message, state } = this.store;
+    const isAnswered = state && message?.version === state.version && !state.gesture;
+    const rests = isAnswered && SEARCHABLE.has(message.status);
+    const wanted = rests ? state.version : null;
+    if (wanted === this.searched) return;
+    this.searched = wanted;
+    this.unfold(false);
+    this.store.setPreview(null);
+    if (rests) this.search.start(state, { delay_ms: REST_MS });
+    else this.search.stop();
+  }
+
+  showFound() {
+    const { found, isRunning, fault } = this.search;
+    const order = ranked(found);
+    const offered = order.slice(0, SHOWN_MAX);
+    const make = (one, index) => suggestionButton(this.store, one, index === 0 ? "is-first" : "");
+    if (!isUnderHand(this.help, found)) fill(this.help, offered, make);
+    fill(this.more, order.slice(SHOWN_MAX), make);
+    this.progress.classList.toggle("is-searching", isRunning);
+    this.progress.hidden = !isRunning && offered.length > 0;
+    this.progress.textContent = isRunning ? looking(offered.length) : this.nothing(fault);
+    this.progress.hidden ||= !isRunning && this.searched === null;
+  }
+
+  nothing(fault) {
+    return fault ? `Nothing could be looked for: ${fault}.` : "No single small change that was tried gives a plan.";
+  }
+
+  /** @param {boolean} isOpen */
+  unfold(isOpen) {
+    this.inFull.hidden = !isOpen;
+    this.why.setAttribute("aria-expanded", String(isOpen));
+  }
+}
+
+/** What is said while the search goes on; beside suggestions its bar says enough. */
+const looking = (offered) => (offered ? "" : "Looking for what would help\u2026");
+
+/** Whether somebody is about to press one of the buttons, which had better stay where they are as long as they hold. */
+function isUnderHand(root, found) {
+  return found.length > 0 && root.children.length > 0 && root.matches(":hover, :focus-within");
+}
+
+/** Buttons for suggestions; those that are there already are kept, so that the hand on one of them stays there. */
+function fill(root, suggestions, make) {
+  const known = new Map([...root.children].map((child) => [child.suggestion, child]));
+  const wanted = suggestions.map((one, index) => {
+    const made = known.get(one) ?? Object.assign(make(one, index), { suggestion: one });
+    made.classList.toggle("is-first", index === 0);
+    return made;
+  });
+  if (wanted.length !== root.children.length || wanted.some((made, index) => made !== root.children[index])) {
+    root.replaceChildren(...wanted);
+  }
+}

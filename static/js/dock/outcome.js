@@ -1,0 +1,92 @@
+/** The column of what planning came to: the plan and its numbers, or why there is none and what would help. */
+
+import { button, element } from "../dom.js";
+import { BestPlace } from "./best_place.js";
+import { NoPlan } from "./no_plan.js";
+import { numbers } from "./numbers.js";
+import { PlanList } from "./plan.js";
+import { Planning } from "./planning.js";
+import { NO_PLAN } from "./reasons.js";
+
+export class Outcome {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {import("./clock.js").Clock} clock
+   * @param {import("./shown_plan.js").ShownPlan} shown
+   * @param {(t_s: number) => void} onSeek
+   */
+  constructor(store, clock, shown, onSeek) {
+    this.store = store;
+    this.shown = shown;
+    this.title = element("h2", "", "Plan");
+    this.list = new PlanList(store, clock, onSeek);
+    this.empty = element("p", "hint");
+    this.numbers = element("section", "numbers");
+    this.numbers.setAttribute("aria-label", "Numbers");
+    this.place = new BestPlace(store);
+    this.none = new NoPlan(store);
+    this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
+    this.stop.title = "Stop planning; the next change is planned again";
+    const planning = new Planning(store);
+    planning.addEventListener("change", () => this.offerStop(planning.wait));
+    this.offerStop(planning.wait);
+    const head = element("header", "dock-head", this.title, this.none.why, this.place.button, this.stop);
+    const plan = element("div", "plan-scroll", this.place.root, this.empty, this.list.root);
+    this.solved = element("div", "outcome-solved", plan, this.numbers);
+    this.root = element("section", "dock-outcome", head, this.solved, this.none.root);
+    shown.addEventListener("change", () => this.show());
+    this.show();
+  }
+
+  /** @param {string} wait */
+  offerStop(wait) {
+    this.stop.hidden = wait !== "long";
+  }
+
+  show() {
+    const { plan: message, state } = this.store;
+    const isNone = Boolean(message && state && NO_PLAN.has(message.status));
+    const plan = message?.plan?.status === "solved" ? message.plan : null;
+    this.place.follow();
+    this.none.follow();
+    if (message && message.status === "planning" && !plan) this.wait();
+    else if (isNone) this.showNone(message, state);
+    else if (plan) this.showPlan(plan, message.before);
+  }
+
+  /** There is neither a plan nor a reason why not; a reason of before stays until then. */
+  wait() {
+    if (!this.none.root.hidden) return;
+    this.turn(false);
+    this.list.show(null, []);
+    this.numbers.replaceChildren();
+    this.empty.hidden = false;
+    this.empty.textContent = "Being worked out\u2026";
+    this.place.button.hidden = true;
+  }
+
+  showNone(message, state) {
+    this.turn(true);
+    this.list.show(null, []);
+    this.none.show(message, state);
+    this.place.button.hidden = true;
+  }
+
+  showPlan(plan, before) {
+    this.turn(false);
+    this.list.show(plan, this.shown.folds);
+    this.empty.hidden = plan.primitives.length > 0;
+    this.empty.textContent = "Nothing to do: there are no folds yet.";
+    this.place.button.hidden = plan.primitives.length === 0;
+    this.numbers.hidden = plan.primitives.length === 0;
+    this.numbers.replaceChildren(...numbers(plan, before));
+  }
+
+  /** @param {boolean} isNone */
+  turn(isNone) {
+    this.title.textContent = isNone ? "No plan" : "Plan";
+    this.solved.hidden = isNone;
+    this.none.root.hidden = !isNone;
+    if (!isNone) this.none.why.hidden = true;
+  }
+}

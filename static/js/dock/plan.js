@@ -1,0 +1,101 @@
+/** The list `Plan`: one row for each primitive; a click goes to its start. */
+
+import { unit } from "../board/units.js";
+import { button, element } from "../dom.js";
+import { icon } from "./icons.js";
+import { primitiveAt } from "./lane_blocks.js";
+import { briefly, hands, place, seconds, where, whole } from "./words.js";
+
+export class PlanList {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {import("./clock.js").Clock} clock
+   * @param {(t_s: number) => void} onSeek
+   */
+  constructor(store, clock, onSeek) {
+    this.store = store;
+    this.clock = clock;
+    this.onSeek = onSeek;
+    this.root = element("ol", "plan-list");
+    this.root.setAttribute("aria-label", "Plan");
+    this.current = -1;
+    clock.addEventListener("tick", () => this.tick());
+  }
+
+  /**
+   * @param {any} plan or null
+   * @param {any[]} folds of the drawing
+   */
+  show(plan, folds) {
+    const wanted = JSON.stringify([unit.name, plan?.id, folds.map(({ name, kind }) => [name, kind])]);
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    this.plan = plan;
+    this.root.replaceChildren(...(plan?.primitives ?? []).map((primitive) => this.row(primitive, folds)));
+    this.current = -1;
+    this.tick();
+  }
+
+  tick() {
+    const now = this.clock.now;
+    const current = primitiveAt(this.plan, now);
+    if (current !== this.current) this.mark(current);
+    const primitive = this.plan?.primitives[current];
+    const row = /** @type {HTMLElement|undefined} */ (this.root.children[current]);
+    if (!primitive || !row) return;
+    const share = Math.min((now - primitive.start_s) / primitive.duration_s, 1);
+    row.style.setProperty("--share", share.toFixed(4));
+  }
+
+  /** @param {number} current the primitive that is going on */
+  mark(current) {
+    const { children } = this.root;
+    [...children].forEach((row, index) => {
+      row.classList.toggle("is-done", index < current);
+      const shown = /** @type {HTMLElement} */ (row.firstElementChild);
+      if (index === current) shown.setAttribute("aria-current", "step");
+      else shown.removeAttribute("aria-current");
+    });
+    this.current = current;
+    const isMoving = this.clock.told.playing || this.clock.now > 0;
+    if (isMoving && children[current]) this.bringIntoView(/** @type {HTMLElement} */ (children[current]));
+  }
+
+  /** Scroll the list, and nothing else. @param {HTMLElement} row */
+  bringIntoView(row) {
+    const frame = this.root.parentElement;
+    if (!frame) return;
+    const [box, seen] = [row.getBoundingClientRect(), frame.getBoundingClientRect()];
+    if (box.top < seen.top) frame.scrollTop -= seen.top - box.top;
+    if (box.bottom > seen.bottom) frame.scrollTop += box.bottom - seen.bottom;
+  }
+
+  row(primitive, folds) {
+    const name = element("span", "plan-name", briefly(primitive, folds));
+    const by = hands(primitive);
+    const at = primitive.kind === "move" ? "" : place(primitive.base.station);
+    const about = element("span", "plan-about", ...[by && element("b", "arm", by), at].filter(Boolean));
+    const shown = button(
+      "plan-row",
+      () => this.onSeek(primitive.start_s),
+      icon(primitive.kind),
+      name,
+      about,
+      element("span", "plan-cost", seconds(primitive.duration_s)),
+    );
+    if (primitive.kind === "fold") shown.dataset.colour = folds[primitive.fold]?.kind ?? "";
+    shown.title = told(primitive, folds);
+    shown.setAttribute("aria-label", shown.title);
+    shown.addEventListener("pointerenter", () => this.store.setHoverTime(primitive.start_s));
+    shown.addEventListener("pointerleave", () => this.store.setHoverTime(null));
+    return element("li", "", shown);
+  }
+}
+
+/** A row as it is read out. */
+function told(primitive, folds) {
+  const by = hands(primitive);
+  const how = [by && `by ${by}`, `at ${where(primitive)}`, primitive.holds ? "holds on" : ""];
+  const parts = [whole(primitive, folds), ...how, seconds(primitive.duration_s)];
+  return parts.filter(Boolean).join(", ");
+}

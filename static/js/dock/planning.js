@@ -1,0 +1,45 @@
+/** How long planning has been going on, as far as it matters to who waits: not at all, noticeably, long. */
+
+const NOTICED_MS = 200;
+const LONG_MS = 1000;
+
+export class Planning extends EventTarget {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    /** @type {""|"short"|"noticed"|"long"} */
+    this.wait = "";
+    /** @type {number[]} */
+    this.timers = [];
+    for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.look());
+  }
+
+  /** Whether the plan that is shown is not that of the drawing. */
+  get isGoingOn() {
+    const { isLive, plan, state } = this.store;
+    return Boolean(isLive && plan && state && (plan.status === "planning" || plan.version < state.version));
+  }
+
+  look() {
+    if (!this.isGoingOn) this.end();
+    else if (!this.wait) this.begin();
+  }
+
+  begin() {
+    this.wait = "short";
+    const after = (wait, millis) => setTimeout(() => this.become(wait), millis);
+    this.timers = [after("noticed", NOTICED_MS), after("long", LONG_MS)];
+  }
+
+  end() {
+    for (const timer of this.timers) clearTimeout(timer);
+    this.become("");
+  }
+
+  become(wait) {
+    if (wait === this.wait) return;
+    this.wait = wait;
+    this.dispatchEvent(new Event("change"));
+  }
+}

@@ -1,0 +1,97 @@
+/** Why there is no plan, as one short sentence; the planner's own words have all the numbers. */
+
+import { capital, foldName, length, place, spoken } from "./words.js";
+
+/** Statuses for which there is no plan and nothing is being worked out. */
+export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
+
+const UP_DOWN = 0.5;
+
+const SAYS = {
+  out_of_reach: outOfReach,
+  too_many_grips: ({ needed_grip_radius_m: radius }) =>
+    `needs more hands than there are${radius ? `, unless one holds all within ${enough(radius)}` : ""}`,
+  grips_too_close: ({ short_by_m: short }) => `the two hands would be ${short ? `${length(short)} ` : ""}too close`,
+  red_needs_hold: ({ needed_grip_radius_m: radius }) =>
+    radius ? "the hands that still hold are too far from its corners" : "no hand still holds what it moves",
+  slips: ({ needed_friction: friction }) =>
+    `the cloth would slip off the table${friction ? `, unless friction were ${Math.ceil(100 * friction) / 100}` : ""}`,
+  collision: () => "the arms would touch something on every way tried",
+  line_off_table: ({ short_by_m: short }) => `its line lies ${short ? `${length(short)} ` : ""}beside the table`,
+  waits_for_fold: () => "waits for a fold that cannot be done",
+};
+
+/**
+ * @param {any} reason
+ * @param {{name?: string}[]} folds
+ */
+export function sentence(reason, folds) {
+  const says = SAYS[reason.code];
+  if (!says) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
+  const told = says(reason);
+  return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
+}
+
+/**
+ * What stands in the way first, in words.
+ * @param {any} message of kind `plan`
+ * @param {any} state of kind `document`
+ */
+export function headline(message, state) {
+  if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
+  if (message.status === "budget_exceeded") return "The time for searching ran out.";
+  const first = (message.plan?.reasons ?? []).find((reason) => reason.message);
+  if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
+  return `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
+}
+
+/**
+ * Everything that is known about why, in the planner's words.
+ * @param {any} message of kind `plan`
+ * @param {any} state of kind `document`
+ */
+export function details(message, state) {
+  const { folds } = state.drawing;
+  if (state.problems.some((problem) => problem.code === "outline_unfinished")) return [];
+  if (message.status === "illegal") return state.problems.map((problem) => problemSentence(problem, state.drawing));
+  const told = (message.plan?.reasons ?? []).map((reason) => reason.message).filter(Boolean);
+  return told.map((text) => `${capital(spoken(text, folds))}.`);
+}
+
+function problemSentence(problem, drawing) {
+  if (!problem) return "The drawing is not finished.";
+  if (problem.code === "outline_unfinished") {
+    if (drawing.outline.length) return "The outline needs three points or more.";
+    return "Nothing is drawn yet: draw an outline (P), or begin with a template.";
+  }
+  const about = problem.fold === null ? subject(problem.field) : foldName(drawing.folds[problem.fold], problem.fold);
+  return `${capital(about)}: ${spoken(problem.message, drawing.folds)}.`;
+}
+
+function subject(field) {
+  return field.startsWith("outline") ? "outline" : field.replaceAll("_", " ");
+}
+
+/** A radius that will do: rounded up. */
+const enough = (radius) => length(Math.ceil(1000 * radius) / 1000);
+const firstClause = (text) => text.split(";")[0];
+
+function outOfReach(reason) {
+  const { arm, station, short_by_m: short, comfort_m: comfort } = reason;
+  if (reason.cause === "comfort_only") {
+    return `within reach${from(station)} only with ${length(comfort ?? 0)} of comfort (${limit(reason) || "too far"})`;
+  }
+  const why = [cause(reason), limit(reason)].filter(Boolean).join(", ");
+  const by = short ? `${length(short)} short` : "out of reach";
+  return `the ${arm ?? "nearest"} hand is ${by}${why ? ` (${why})` : ""}${from(station)}`;
+}
+
+const from = (station) => (station ? `, at best from ${place(station)}` : "");
+const limit = ({ joint }) => (joint ? `${joint} limit` : "");
+
+function cause({ cause: name, towards }) {
+  const up = towards && Math.abs(towards[2]) > UP_DOWN ? (towards[2] < 0 ? " up" : " down") : "";
+  if (name === "too_far") return `too far${up}`;
+  if (name === "too_near") return `too near${up}`;
+  return name === "own_body" ? "its own body is in the way" : "";
+}

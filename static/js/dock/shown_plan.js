@@ -1,0 +1,36 @@
+/**
+ * The plan that is shown, with the folds that it is about.
+ *
+ * While the next plan is being worked out the one before stays; the drawing's folds may have other names, numbers and
+ * colours by then.
+ */
+
+export class ShownPlan extends EventTarget {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    /** @type {any} the plan in the message of kind `plan`, solved or not; null: there is none */
+    this.plan = null;
+    /** @type {any[]} the folds of the drawing that it is a plan of */
+    this.folds = [];
+    for (const name of ["document", "plan"]) store.addEventListener(name, () => this.look());
+    addEventListener("unit", () => this.look());
+  }
+
+  /** Whether it is about the drawing's folds, in their order. */
+  get fits() {
+    const now = this.store.state?.drawing.folds ?? [];
+    const isSame = this.folds.length === now.length && this.folds.every((fold, index) => fold.id === now[index].id);
+    return isSame && this.plan?.dag.folds === now.length;
+  }
+
+  look() {
+    const plan = this.store.plan?.plan ?? null;
+    const { state } = this.store;
+    const isNew = plan?.id !== this.plan?.id;
+    if (state && (isNew || plan?.version === state.version)) this.folds = state.drawing.folds;
+    this.plan = plan;
+    this.dispatchEvent(new Event("change"));
+  }
+}

@@ -1,0 +1,30 @@
+/** A suggestion as a button: pointed at, its effect is shown; pressed, it is done as one step. */
+
+import { button, element } from "../dom.js";
+import { applyChange } from "./suggestion_change.js";
+import { seconds, spoken } from "./words.js";
+
+/**
+ * @param {import("../store.js").Store} store
+ * @param {import("./suggestion_search.js").Suggestion} suggestion
+ * @param {string} className
+ * @returns {HTMLButtonElement}
+ */
+export function suggestionButton(store, suggestion, className) {
+  const { change, cost_s: cost, is_assumption: isAssumed, message } = suggestion;
+  const what = spoken(message.replace(/: [\d.]+ s$/, ""), store.state.drawing.folds);
+  const apply = () => {
+    store.setPreview(null);
+    store.edit(label(what), (drawing) => applyChange(drawing, change));
+  };
+  const parts = [element("span", "suggestion-what", what), element("span", "suggestion-cost", seconds(cost))];
+  const made = button(`suggestion ${className}`, apply, ...parts);
+  if (isAssumed) parts[0].prepend(element("span", "tag", "assumption"), " ");
+  made.dataset.kind = suggestion.kind;
+  for (const name of ["pointerenter", "focus"]) made.addEventListener(name, () => store.setPreview(change));
+  for (const name of ["pointerleave", "blur"]) made.addEventListener(name, () => store.setPreview(null));
+  return made;
+}
+
+const LONGEST = 200;
+const label = (what) => what.slice(0, LONGEST);

@@ -1,0 +1,88 @@
+/** Plans and folds in words. Folds are counted from 1 for people; programs count them from 0. */
+
+import { number, unit } from "../board/units.js";
+
+export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };
+export const COLOURS = { blue: "Blue", red: "Red" };
+export const MOVED = { blue: "all layers", red: "last flap" };
+
+const BACKED_OFF_M = 0.001;
+
+/** @param {number} value seconds */
+export const seconds = (value) => `${value.toFixed(1)} s`;
+
+/** A length in the unit of the page, no digits too many. @param {number} metres */
+export const length = (metres) => `${Number(number(metres))} ${unit.name}`;
+
+/** @param {string} station as in `front_left` */
+export const place = (station) => station.replaceAll("_", " ");
+
+/** @param {string} text */
+export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/**
+ * What a fold is called.
+ * @param {{name?: string}|undefined} fold
+ * @param {number} index
+ */
+export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
+
+/**
+ * A sentence of the planner with the folds called as the page calls them.
+ * @param {string} text as in `fold 0 'half': ...`
+ * @param {{name?: string}[]} folds
+ */
+export function spoken(text, folds) {
+  return folds.reduce((told, fold, index) => {
+    const quoted = `${index} '${fold.name ?? ""}'`;
+    const name = fold.name ? `\u201C${fold.name}\u201D` : `fold ${index + 1}`;
+    return told.replaceAll(`fold ${quoted}`, name).replaceAll(quoted, name);
+  }, text);
+}
+
+/**
+ * What a primitive does.
+ * @param {any} primitive
+ * @param {any[]} folds the garment's
+ */
+export function what(primitive, folds) {
+  if (primitive.kind === "fold") return foldName(folds[primitive.fold], primitive.fold);
+  if (primitive.kind === "drag") return `${length(primitive.distance_m)} towards the robot`;
+  return `${place(primitive.from)} to ${place(primitive.to)}`;
+}
+
+/**
+ * The same where space is scarce.
+ * @param {any} primitive
+ * @param {any[]} folds the garment's
+ */
+export function briefly(primitive, folds) {
+  if (primitive.kind === "drag") return `Drag ${length(primitive.distance_m)}`;
+  return primitive.kind === "move" ? `Drive to ${place(primitive.to)}` : what(primitive, folds);
+}
+
+/**
+ * The same with what kind of thing it is.
+ * @param {any} primitive
+ * @param {any[]} folds the garment's
+ */
+export const whole = (primitive, folds) => `${KINDS[primitive.kind]}: ${what(primitive, folds)}`;
+
+/**
+ * By which hands, as in `L + R`.
+ * @param {any} primitive
+ */
+export const hands = (primitive) =>
+  primitive.grips
+    .map((grip) => grip.arm[0].toUpperCase())
+    .sort()
+    .join(" + ");
+
+/**
+ * Where the base ends up.
+ * @param {any} primitive
+ */
+export function where(primitive) {
+  const { station, back_off_m: backOff } = primitive.base;
+  return `${place(station)}${backOff > BACKED_OFF_M ? `, ${length(backOff)} back` : ""}`;
+}

@@ -1,0 +1,44 @@
+/** Line drawings for buttons: 20 x 20, drawn in the text's colour. */
+
+const PATHS = {
+  select: "M5 3l10 7-4.4.9L13 16l-2 1-2.4-5.2L5 15z",
+  outline:
+    "M4 15l3-10 9 2-2 9z M4 15m-1.5 0a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0-3 0 M16 7m-1.5 0a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0-3 0",
+  fold: "M3 16V4h14l-14 12z M7 16h10V7.5 M3 16L17 4",
+  place:
+    "M10 3v14M3 10h14M10 3L8 5.2M10 3l2 2.2M10 17l-2-2.2M10 17l2-2.2M3 10l2.2-2M3 10l2.2 2M17 10l-2.2-2M17 10l-2.2 2",
+  mirror: "M10 2.5v15 M8 5L3 15h5z M12 5l5 10h-5z",
+  snap: "M5 3v6a5 5 0 0 0 10 0V3 M5 6.5h3 M12 6.5h3 M8 3v6a2 2 0 0 0 4 0V3 M5 3h3 M12 3h3",
+  measure: "M3 13.5L13.5 3 17 6.5 6.5 17z M6 10.5l1.6 1.6 M8.5 8l2.4 2.4 M11 5.5l1.6 1.6",
+  photo: "M3 5h14v11H3z M3 13.5l4-4 3.5 3.5 2.5-2.5 4 3.5 M12.5 8m-1.2 0a1.2 1.2 0 1 0 2.4 0a1.2 1.2 0 1 0-2.4 0",
+  undo: "M7.5 4L4 7.5 7.5 11 M4 7.5h8a4.2 4.2 0 0 1 0 8.5H8",
+  redo: "M12.5 4L16 7.5 12.5 11 M16 7.5H8a4.2 4.2 0 0 0 0 8.5h4",
+  new: "M5 3h7l3.5 3.5V17H5z M12 3v3.5h3.5 M10 9v5 M7.5 11.5h5",
+  import: "M10 3v9 M6.5 8.5L10 12l3.5-3.5 M4 13v4h12v-4",
+  export: "M10 12V3 M6.5 6.5L10 3l3.5 3.5 M4 13v4h12v-4",
+  moon: "M15.5 12A6.5 6.5 0 0 1 8 4.5a6.5 6.5 0 1 0 7.5 7.5z",
+  sun: "M10 6.5a3.5 3.5 0 1 0 0 7a3.5 3.5 0 1 0 0-7z M10 2v2M10 16v2M2 10h2M16 10h2M4.3 4.3l1.4 1.4M14.3 14.3l1.4 1.4M4.3 15.7l1.4-1.4M14.3 5.7l1.4-1.4",
+  help: "M7.5 7.5a2.5 2.5 0 1 1 3.6 2.2c-.7.4-1.1.9-1.1 1.8 M10 14.4v.2",
+  fit: "M3 7V3h4 M13 3h4v4 M17 13v4h-4 M7 17H3v-4",
+  back: "M12 4.5L6.5 10l5.5 5.5",
+  next: "M8 4.5l5.5 5.5L8 15.5",
+  flip: "M4 7h11l-3-3 M16 13H5l3 3",
+  close: "M5 5l10 10 M15 5L5 15",
+  more: "M5 10h.01M10 10h.01M15 10h.01",
+  trash: "M4 6h12 M8 6V4h4v2 M6 6l.7 11h6.6L14 6",
+};
+
+/**
+ * @param {keyof typeof PATHS} name
+ * @returns {SVGElement}
+ */
+export function icon(name) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 20 20");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", PATHS[name]);
+  svg.append(path);
+  return svg;
+}

@@ -1,0 +1,50 @@
+/** On a phone one of board and stage is large and the other a small inset; the dock is a sheet that pulls up. */
+
+import { byId } from "./dom.js";
+
+const PHONE = "(max-width: 720px)";
+const PULL_PX = 24;
+
+export function mountPhone() {
+  const phone = matchMedia(PHONE);
+  const work = byId("work");
+  const swap = byId("swap");
+  const grip = byId("sheet");
+
+  const show = () => {
+    const isStageLarge = work.classList.contains("is-stage-large");
+    swap.hidden = !phone.matches;
+    swap.setAttribute("aria-label", isStageLarge ? "Show the board large" : "Show the stage large");
+  };
+  const open = (isOpen) => {
+    document.body.classList.toggle("is-sheet-open", isOpen);
+    grip.setAttribute("aria-expanded", String(isOpen));
+    grip.setAttribute("aria-label", isOpen ? "Hide folds and timeline" : "Show folds and timeline");
+  };
+  const isOpen = () => document.body.classList.contains("is-sheet-open");
+
+  swap.addEventListener("click", () => {
+    work.classList.toggle("is-stage-large");
+    show();
+  });
+  let from = null;
+  let hasPulled = false;
+  grip.addEventListener("pointerdown", (event) => {
+    from = event.clientY;
+    hasPulled = false;
+    grip.setPointerCapture(event.pointerId);
+  });
+  grip.addEventListener("pointermove", (event) => {
+    if (from === null || Math.abs(event.clientY - from) < PULL_PX) return;
+    hasPulled = true;
+    open(event.clientY < from);
+  });
+  grip.addEventListener("lostpointercapture", () => (from = null));
+  grip.addEventListener("click", () => {
+    if (!hasPulled) open(!isOpen());
+    hasPulled = false;
+  });
+  phone.addEventListener("change", show);
+  open(false);
+  show();
+}

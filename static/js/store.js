@@ -1,0 +1,199 @@
+/**
+ * What the page knows: the document, its plan and playback as the server told them last, and what the reader looks at.
+ * Parts listen to its events and call its verbs; none of them talks to another.
+ *
+ * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "hover-time", "preview",
+ * "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
+ */
+
+import { EditQueue } from "./edit_queue.js";
+import { Live } from "./live.js";
+
+/** @typedef {[number, number]} Point article frame, metres */
+/**
+ * @typedef {{kind: "vertex"|"edge"|"fold"|"garment", ids: string[]}} Selection
+ * An edge is named by the vertex that it starts at.
+ */
+
+export class Store extends EventTarget {
+  /** @param {string} id the document's */
+  constructor(id) {
+    super();
+    this.id = id;
+    /** @type {any} the server's `document` message */
+    this.state = null;
+    /** @type {any} the server's `plan` message */
+    this.plan = null;
+    /** @type {any} the server's `playback` message */
+    this.playback = null;
+    this.isLive = false;
+    /** @type {Selection|null} */
+    this.selection = null;
+    /** Which moment of the folds the board shows: 0 = spread out. */
+    this.step = 0;
+    /** @type {Set<string>} */
+    this.overlays = new Set();
+    /** @type {number|null} seconds */
+    this.hoverTime = null;
+    /** @type {any} a suggestion's change that is pointed at */
+    this.preview = null;
+    this.queue = new EditQueue(this);
+    this.live = this.listen();
+  }
+
+  /** The path of the document's resources. */
+  get path() {
+    return `/api/documents/${this.id}`;
+  }
+
+  /** The number of moments that can be shown, at least one. */
+  get moments() {
+    return Math.max(this.state?.steps.length ?? 0, 1);
+  }
+
+  /** @returns {Live} */
+  listen() {
+    const live = new Live(this.id);
+    let isFirst = true; // after a restart the server's versions may begin lower
+    live.addEventListener("open", () => {
+      isFirst = true;
+      this.isLive = true;
+      this.tell("connection");
+    });
+    live.addEventListener("lost", () => {
+      this.isLive = false;
+      this.tell("connection");
+    });
+    live.addEventListener("gone", () => this.tell("gone"));
+    const told = (event) => /** @type {CustomEvent} */ (event).detail;
+    live.addEventListener("problem", (event) => this.refuse(told(event).detail));
+    live.addEventListener("document", (event) => {
+      this.take(told(event), isFirst);
+      isFirst = false;
+    });
+    live.addEventListener("plan", (event) => {
+      this.plan = told(event);
+      this.tell("plan");
+    });
+    live.addEventListener("playback", (event) => {
+      this.playback = told(event);
+      this.tell("playback");
+    });
+    return live;
+  }
+
+  /**
+   * Take over what the server says about the document, unless something newer is known.
+   * @param {any} state
+   * @param {boolean} always whether it is the truth however old it looks
+   */
+  take(state, always = false) {
+    if (!always && this.state && state.version < this.state.version) return;
+    this.state = state;
+    this.forgetWhatIsGone();
+    this.tell("document");
+  }
+
+  /** @param {Selection|null} selection */
+  select(selection) {
+    if (JSON.stringify(selection) === JSON.stringify(this.selection)) return;
+    this.selection = selection;
+    this.tell("selection");
+  }
+
+  /** @param {number} step is kept within what can be shown */
+  showStep(step) {
+    const kept = Math.min(Math.max(step, 0), this.moments - 1);
+    if (kept === this.step) return;
+    this.step = kept;
+    this.tell("step");
+  }
+
+  /**
+   * @param {string} name
+   * @param {boolean} on
+   */
+  setOverlay(name, on) {
+    if (this.overlays.has(name) === on) return;
+    if (on) this.overlays.add(name);
+    else this.overlays.delete(name);
+    this.tell("overlays");
+  }
+
+  /** @param {number|null} t_s */
+  setHoverTime(t_s) {
+    if (t_s === this.hoverTime) return;
+    this.hoverTime = t_s;
+    this.tell("hover-time");
+  }
+
+  /** @param {any} change */
+  setPreview(change) {
+    this.preview = change;
+    this.tell("preview");
+  }
+
+  /**
+   * Change the drawing. Changes are sent one after the other; of a gesture's previews that wait only the last one.
+   * All changes of a gesture are made to the drawing as it was before the gesture.
+   * @param {string} label the name of the step
+   * @param {(drawing: any) => any} change alters the copy it is given, or returns another drawing
+   * @param {{phase?: "preview"|"commit", coalesce?: string|null, gesture?: string|null}} how
+   * @returns {Promise<any>} the state after it; null when it was refused, or when a later preview took its place
+   */
+  edit(label, change, { phase = "commit", coalesce = null, gesture = null } = {}) {
+    return this.queue.edit({ label, change, phase, coalesce, gesture });
+  }
+
+  /** Take a gesture's previews back. @param {string} gesture */
+  cancel(gesture) {
+    return this.queue.cancel(gesture);
+  }
+
+  /** Settled when all that was asked for so far is done. */
+  settled() {
+    return this.queue.push({ run: async () => this.state });
+  }
+
+  undo() {
+    return this.queue.post("undo");
+  }
+
+  redo() {
+    return this.queue.post("redo");
+  }
+
+  /**
+   * Another garment in place of this one.
+   * @param {string|object} garment its name, or a garment file
+   * @param {string|null} label the name of the step
+   */
+  open(garment, label = null) {
+    return this.queue.open(garment, label);
+  }
+
+  /** @param {{do: string, [field: string]: unknown}} command */
+  command(command) {
+    this.live.send(command);
+  }
+
+  /** Tell the reader that something was not done. @param {string} detail a sentence */
+  refuse(detail) {
+    this.dispatchEvent(new CustomEvent("refused", { detail }));
+  }
+
+  forgetWhatIsGone() {
+    const { outline, folds } = this.state.drawing;
+    if (this.selection && this.selection.kind !== "garment") {
+      const known = new Set((this.selection.kind === "fold" ? folds : outline).map((item) => item.id));
+      const ids = this.selection.ids.filter((id) => known.has(id));
+      this.select(ids.length ? { kind: this.selection.kind, ids } : null);
+    }
+    this.showStep(this.step);
+  }
+
+  /** @param {string} name */
+  tell(name) {
+    this.dispatchEvent(new Event(name));
+  }
+}

@@ -1,0 +1,69 @@
+import base64
+import math
+import re
+from typing import Any
+
+import msgspec
+import pytest
+import zstandard
+
+from app.files.recording import HOLD_S, recording
+from planner import load_garment, make_plan
+from planner.plan.plan import Plan
+
+DATA = re.compile(r'__VISER_EMBED_DATA__="([A-Za-z0-9+/=]+)"')
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(load_garment("hand-towel"))
+
+
+@pytest.fixture(scope="module")
+def page(plan: Plan) -> str:
+    return recording(plan, 2.0, lambda: False, is_dark=True).decode()
+
+
+@pytest.fixture(scope="module")
+def film(page: str) -> dict[str, Any]:
+    """What the page plays, as viser packs it: sizes, then messages with their times, then numbers."""
+    packed = base64.b64decode(DATA.search(page).group(1))
+    whole = zstandard.ZstdDecompressor().decompress(packed[8:])
+    length = int.from_bytes(whole[:8], "little")
+    return msgspec.msgpack.decode(whole[8 : 8 + length])
+
+
+def test_the_recording_lasts_as_long_as_the_plan_and_a_moment_more(plan: Plan, film: dict[str, Any]):
+    assert film["durationSeconds"] == pytest.approx(plan.cost_s + HOLD_S)
+
+
+def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, film: dict[str, Any]):
+    times = {round(t, 6) for t, _ in film["messages"]}
+    frames = {round(number / 2.0, 6) for number in range(math.ceil(2.0 * plan.cost_s))}
+    assert times <= frames | {round(plan.cost_s, 6)}
+    # The hands move nearly always: while they do, a frame has something to say.
+    assert len(times) > 0.9 * len(frames)
+
+
+def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]):
+    names = {message.get("name") for _, message in film["messages"]}
+    kinds = {message["type"] for _, message in film["messages"]}
+    assert {"/cloth/front", "/robot"} <= names
+    assert "SetCameraPositionMessage" in kinds
+
+
+def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str):
+    assert "<title>Hand towel - Pleat</title>" in page
+    assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="(?!data:)', page)
+    assert "darkMode:true" in page
+
+
+def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan):
+    asked = []
+
+    def should_stop() -> bool:
+        asked.append(True)
+        return len(asked) > 3
+
+    assert recording(plan, 10.0, should_stop, is_dark=False) == b""
+    assert len(asked) == 4

@@ -1,0 +1,65 @@
+"""One document in one window, on which test after test works: a page takes its time to load."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import httpx
+from playwright.sync_api import Browser, Page, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import PATIENCE_MS, Sheet
+
+
+class Desk(Sheet):
+    """A document on which one garment after the other is laid."""
+
+    def __init__(self, page: Page, server: Served) -> None:
+        """A new document on a blank board."""
+        made = httpx.post(f"{server.url}/api/documents", json={}).raise_for_status()
+        super().__init__(server.url, made.json()["id"])
+        self.page = page
+
+    def garment(self, name: str) -> dict[str, Any]:
+        """A garment's file."""
+        found: dict[str, Any] = httpx.get(self.page_url.partition("/d/")[0] + f"/api/garments/{name}").json()
+        return found
+
+    def lay(self, garment: dict[str, Any]) -> None:
+        """Begin anew, as one step, with nothing selected and all of the garment in view."""
+        page, hand = self.page, Hand(self.page)
+        if page.url != self.page_url:
+            page.goto(self.page_url)
+        for _ in range(3):
+            page.keyboard.press("Escape")
+        hand.tool("Draw outline")  # it shows the cloth spread out
+        for garment_or_nothing in ({"name": "nothing", "outline": [[0, 0], [1, 0], [0, 1]]}, garment):
+            body = {"garment": garment_or_nothing, "label": "Begin"}
+            httpx.put(f"{self.path}/garment", json=body).raise_for_status()
+        expect_step(page, "Begin")
+        expect(page.locator(".corner")).to_have_count(len(garment["outline"]))
+        expect(page.locator(".fold-focus")).to_have_count(len(garment["folds"]))
+        page.mouse.move(0, 0)
+        for name in ("Blue: all layers", "Select", "Fit"):
+            hand.tool(name)
+        page.evaluate("new Promise(requestAnimationFrame)")
+
+
+@contextmanager
+def window(browser: Browser) -> Iterator[Page]:
+    """A page without a stage; any error in it fails the test that comes last."""
+    faults: list[str] = []
+    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    context.route("**/viser/**", lambda route: route.abort())
+    context.on("weberror", lambda error: faults.append(str(error.error)))
+    yield context.new_page()
+    context.close()
+    assert faults == []
+
+
+def expect_step(page: Page, name: str) -> None:
+    """The last step has this name."""
+    expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", f"Undo: {name} (Ctrl+Z)")

@@ -1,0 +1,38 @@
+"""A hand on the drafting board that knows where the article frame is on the screen."""
+
+from playwright.sync_api import Locator, Page
+
+Point = tuple[float, float]
+
+# A vest-like garment of seven corners, 0.5 x 0.6 m: its neck is the corner in the middle of the top.
+SEVEN = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.4), (0.375, 0.6), (0.25, 0.5), (0.125, 0.6), (0.0, 0.4)]
+
+
+class Hand:
+    """Points in metres of the article frame, wherever the board shows them."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.board: Locator = page.get_by_role("application", name="Drafting board")
+
+    def px(self, point: Point) -> Point:
+        """Where a point of the article frame is in the window."""
+        box = self.board.bounding_box()
+        assert box is not None
+        x0, y0 = (float(part) for part in str(self.board.get_attribute("data-origin-px")).split(","))
+        scale = float(str(self.board.get_attribute("data-px-per-m")))
+        return box["x"] + x0 + point[0] * scale, box["y"] + y0 - point[1] * scale
+
+    def click(self, point: Point) -> None:
+        self.page.mouse.click(*self.px(point))
+
+    def drag(self, start: Point, end: Point, *, is_released: bool = True) -> None:
+        self.page.mouse.move(*self.px(start))
+        self.page.mouse.down()
+        self.page.mouse.move(*self.px(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)), steps=3)
+        self.page.mouse.move(*self.px(end), steps=3)
+        if is_released:
+            self.page.mouse.up()
+
+    def tool(self, name: str) -> None:
+        self.page.get_by_role("button", name=name, exact=True).click()

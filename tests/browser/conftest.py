@@ -1,0 +1,110 @@
+"""A browser and a server for tests without a stage: the page then loads at once and leaves the processor free."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, Playwright, expect, sync_playwright
+
+from tests.app.conftest import Served
+
+PATIENCE_MS = 20_000
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"]
+
+Garment = str | dict[str, Any] | None
+
+
+@pytest.fixture(scope="session")
+def playwright() -> Iterator[Playwright]:
+    """There can be but one in a process."""
+    with sync_playwright() as started:
+        yield started
+
+
+@pytest.fixture(scope="session")
+def chromium(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
+    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+    yield opened
+    opened.close()
+
+
+@pytest.fixture(scope="session")
+def designer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    server = Served(tmp_path_factory.mktemp("designer"))
+    yield server
+    server.stop()
+
+
+class Sheet:
+    """A document, as the server has it."""
+
+    def __init__(self, url: str, document: str) -> None:
+        self.page_url = f"{url}/d/{document}"
+        self.path = f"{url}/api/documents/{document}"
+
+    @property
+    def state(self) -> dict[str, Any]:
+        state: dict[str, Any] = httpx.get(self.path).json()
+        return state
+
+    @property
+    def drawing(self) -> dict[str, Any]:
+        drawing: dict[str, Any] = self.state["drawing"]
+        return drawing
+
+    @property
+    def fold_names(self) -> list[str]:
+        return [fold["name"] for fold in self.drawing["folds"]]
+
+    @property
+    def can_undo(self) -> str | None:
+        """The name of the step that would be undone."""
+        label: str | None = self.state["history"]["can_undo"]
+        return label
+
+    def edit(self, change: Callable[[dict[str, Any]], None]) -> None:
+        """Change the drawing behind the page's back."""
+        state = self.state
+        change(state["drawing"])
+        body = {"base_version": state["version"], "label": "Elsewhere", "drawing": state["drawing"]}
+        httpx.put(f"{self.path}/drawing", json=body).raise_for_status()
+
+
+@pytest.fixture(scope="session")
+def new_sheet(designer: Served) -> Callable[[Garment], Sheet]:
+    """Makes documents: on a garment, or blank."""
+
+    def made(garment: Garment) -> Sheet:
+        asked = {} if garment is None else {"garment": garment}
+        answer = httpx.post(f"{designer.url}/api/documents", json=asked).raise_for_status()
+        return Sheet(designer.url, answer.json()["id"])
+
+    return made
+
+
+@pytest.fixture
+def context(chromium: Browser) -> Iterator[BrowserContext]:
+    """Windows for one test."""
+    with windows(chromium) as opened:
+        yield opened
+
+
+@contextmanager
+def windows(chromium: Browser, **options: Any) -> Iterator[BrowserContext]:
+    """Windows without a stage; any error in a page fails the test."""
+    faults: list[str] = []
+    opened = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
+    opened.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    opened.route("**/viser/**", lambda route: route.abort())
+    opened.on("weberror", lambda error: faults.append(str(error.error)))
+    yield opened
+    opened.close()
+    assert faults == []
+
+
+@pytest.fixture
+def page(context: BrowserContext) -> Page:
+    return context.new_page()

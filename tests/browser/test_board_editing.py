@@ -1,0 +1,337 @@
+"""What is drawn is changed by hand: dragged, nudged, typed, snapped, mirrored, dropped, undone."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import Desk, expect_step, window
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import Sheet
+
+# The T-shirt's corners and folds, as its file has them (m).
+SLEEVE_TIP = (0.61, 0.572)
+BOTTOM_RIGHT = (0.457, 0.0)
+PX_M = 0.003
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser) -> Iterator[Page]:
+    with window(chromium) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def desk(page: Page, designer: Served) -> Desk:
+    return Desk(page, designer)
+
+
+@pytest.fixture
+def shirt(page: Page, desk: Desk) -> Desk:
+    desk.lay(desk.garment("t-shirt"))
+    return desk
+
+
+@pytest.fixture
+def cloth(page: Page, desk: Desk) -> Desk:
+    """The T-shirt's outline without its folds: nothing to be planned."""
+    desk.lay({**desk.garment("t-shirt"), "folds": []})
+    return desk
+
+
+def corner(sheet: Sheet, index: int) -> list[float]:
+    point: list[float] = sheet.drawing["outline"][index]["point"]
+    return point
+
+
+def fold(sheet: Sheet, index: int) -> dict[str, list[float]]:
+    found = sheet.drawing["folds"][index]
+    return {end: found[end]["point"] for end in ("start", "end")}
+
+
+def expect_no_step(page: Page) -> None:
+    """No step has been made since the garment was laid on the board."""
+    expect_step(page, "Begin")
+
+
+def test_a_dragged_corner_goes_along_with_folds_and_plan_as_one_step(page: Page, shirt: Desk) -> None:
+    Hand(page).drag(SLEEVE_TIP, (0.633, 0.531))
+    expect_step(page, "Move vertex")
+    assert corner(shirt, 6) == pytest.approx([0.633, 0.531], abs=PX_M)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.keyboard.press("Control+z")
+    expect_no_step(page)
+    assert corner(shirt, 6) == list(SLEEVE_TIP)
+    page.keyboard.press("Control+Shift+Z")
+    expect_step(page, "Move vertex")
+    assert corner(shirt, 6) == pytest.approx([0.633, 0.531], abs=PX_M)
+
+
+def test_a_corner_pulled_into_the_cloth_is_told_of_where_it_is(page: Page, shirt: Desk) -> None:
+    Hand(page).drag(BOTTOM_RIGHT, (-0.08, 0.2))
+    expect(page.get_by_role("status")).to_contain_text("No plan: ")
+    expect(page.locator(".callout")).to_contain_text("cross")
+    expect(page.locator(".problem-cross")).not_to_have_count(0)
+    expect(page.locator(".problem-line")).not_to_have_count(0)
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator(".callout")).to_be_hidden()
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+
+
+def test_escape_drops_a_drag_without_a_step(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    before = page.locator(".corner").nth(6).get_attribute("cx")
+    hand.drag(SLEEVE_TIP, (0.66, 0.5), is_released=False)
+    page.wait_for_timeout(200)  # so that previews have reached the server
+    assert cloth.state["gesture"] == "Move vertex"
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    expect_no_step(page)
+    expect(page.locator(".corner").nth(6)).to_have_attribute("cx", str(before))
+    page.wait_for_function(f"fetch('{cloth.path}').then((a) => a.json()).then((s) => s.gesture === null)")
+    assert cloth.state["history"] == {"can_undo": "Begin", "can_redo": None}
+    assert corner(cloth, 6) == list(SLEEVE_TIP)
+
+
+def test_a_second_window_follows_the_drag_of_the_first(page: Page, cloth: Desk) -> None:
+    other = page.context.new_page()
+    other.goto(cloth.page_url)
+    shown = other.locator(".corner").nth(6)
+    expect(other.locator(".corner")).to_have_count(10)
+    before = shown.get_attribute("cx")
+    hand = Hand(page)
+    hand.drag(SLEEVE_TIP, (0.66, 0.5), is_released=False)
+    expect(shown).not_to_have_attribute("cx", str(before))
+    page.mouse.up()
+    expect_step(other, "Move vertex")
+    other.get_by_role("button", name="Undo").click()
+    expect_no_step(page)
+    expect(shown).to_have_attribute("cx", str(before))
+    other.close()
+
+
+def test_the_view_stays_where_it_is_when_the_drawing_changes(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    page.mouse.move(*hand.px((0.2, 0.3)))
+    page.mouse.wheel(0, -240)
+    page.wait_for_timeout(100)
+    before = [hand.board.get_attribute(name) for name in ("data-origin-px", "data-px-per-m")]
+    cloth.edit(lambda drawing: drawing["outline"][6].update(point=[0.9, 0.6]))
+    expect(page.locator(".corner").nth(6)).to_have_attribute("aria-label", "Vertex 7: 90.0, 60.0 cm")
+    assert [hand.board.get_attribute(name) for name in ("data-origin-px", "data-px-per-m")] == before
+
+
+def test_the_wheel_zooms_at_the_cursor_and_the_origin_is_told_truly(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    at = tuple(round(part) for part in hand.px(SLEEVE_TIP))  # a wheel's place is in whole pixels
+    page.mouse.move(*at)
+    x0, y0 = hand.px((0.0, 0.0))
+    before = float(str(hand.board.get_attribute("data-px-per-m")))
+    page.mouse.wheel(0, -300)
+    page.wait_for_function(f"Number(document.getElementById('drafting-board').dataset.pxPerM) > {1.2 * before}")
+    under = ((at[0] - x0) / before, (y0 - at[1]) / before)  # what was under the cursor, article frame
+    assert hand.px(under) == pytest.approx(at, abs=0.01)
+    box = page.locator(".corner").nth(6).bounding_box()
+    assert box is not None
+    assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(hand.px(SLEEVE_TIP), abs=1.0)
+
+
+def test_numbers_at_the_selection_move_a_corner_exactly(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.keyboard.press("Tab")
+    expect(page.get_by_label("x of the vertex")).to_be_focused()
+    page.keyboard.type("25in")
+    page.keyboard.press("Enter")
+    expect_step(page, "Move vertex")
+    assert corner(cloth, 6) == pytest.approx([25 * 0.0254, 0.572], abs=1e-9)
+
+
+def test_what_is_no_number_is_refused_in_words(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.get_by_label("x of the vertex").fill("wide")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("is no number")
+    expect(page.get_by_label("x of the vertex")).to_have_value("61.0")
+    expect_no_step(page)
+
+
+def test_an_edge_gets_the_length_that_is_typed(page: Page, cloth: Desk) -> None:
+    Hand(page).click((0.2, 0.0))
+    page.get_by_label("Length of the edge").fill("91.4/2+2")
+    page.keyboard.press("Enter")
+    expect_step(page, "Set edge length")
+    # The edge runs from the last corner (0.457, 0) to the first (0, 0), which moves: 47.7 cm.
+    assert corner(cloth, 0) == pytest.approx([0.457 - 0.477, 0.0], abs=1e-9)
+
+
+def test_a_number_typed_while_drawing_is_the_length(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    page.keyboard.press("p")
+    hand.click((0.0, -0.05))
+    page.mouse.move(*hand.px((0.31, -0.05)))
+    page.keyboard.type("18in")
+    page.keyboard.press("Enter")
+    page.mouse.move(*hand.px((0.457, 0.4)))
+    page.keyboard.type("30")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Enter")
+    expect(page.locator(".corner")).to_have_count(3)
+    first, second, third = (corner(cloth, index) for index in range(3))
+    assert second[0] - first[0] == pytest.approx(18 * 0.0254, abs=1e-6)
+    assert ((third[0] - second[0]) ** 2 + (third[1] - second[1]) ** 2) ** 0.5 == pytest.approx(0.3, abs=1e-9)
+
+
+def test_arrow_keys_nudge_and_a_run_of_them_is_one_step(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    for key in ("ArrowRight", "ArrowRight", "Shift+ArrowUp"):
+        page.keyboard.press(key)
+    expect_step(page, "Move vertex")
+    page.wait_for_function("document.querySelectorAll('.number-at input')[1].value === '58.2'")
+    assert corner(cloth, 6) == pytest.approx([0.612, 0.582], abs=1e-9)
+    page.keyboard.press("Control+z")
+    expect_no_step(page)
+    assert corner(cloth, 6) == list(SLEEVE_TIP)
+
+
+def test_a_double_click_puts_a_corner_on_an_edge_and_delete_takes_it_away(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    page.mouse.dblclick(*hand.px((0.2, 0.0)))
+    expect(page.locator(".corner")).to_have_count(11)
+    expect_step(page, "Add vertex")
+    page.keyboard.press("Delete")
+    expect(page.locator(".corner")).to_have_count(10)
+    expect_step(page, "Delete vertex")
+    assert corner(cloth, 0) == [0.0, 0.0]
+
+
+def test_the_end_of_a_fold_is_dragged_along_the_boundary(page: Page, shirt: Desk) -> None:
+    hand = Hand(page)
+    hand.click((0.1, 0.15))
+    expect(page.locator(".fold.is-selected")).to_have_count(1)
+    hand.drag((0.1, 0.0), (0.07, 0.03))
+    expect_step(page, "Move fold")
+    assert fold(shirt, 2)["start"] == pytest.approx([0.07, 0.0], abs=PX_M)
+    assert fold(shirt, 2)["end"] == pytest.approx([0.1, 0.61], abs=1e-9)
+
+
+def test_a_whole_fold_is_dragged_and_keeps_to_the_cloth(page: Page, shirt: Desk) -> None:
+    Hand(page).drag((0.2, 0.305), (0.2, 0.25))
+    expect_step(page, "Move fold")
+    found = fold(shirt, 4)
+    assert found["start"] == pytest.approx([0.357, 0.25], abs=PX_M)
+    assert found["end"] == pytest.approx([0.1, 0.25], abs=PX_M)
+
+
+def test_flip_and_red_act_on_the_selected_fold(page: Page, shirt: Desk) -> None:
+    before = fold(shirt, 4)
+    hand = Hand(page)
+    hand.click((0.2, 0.305))
+    hand.tool("Flip")
+    expect_step(page, "Flip fold")
+    assert fold(shirt, 4) == {"start": before["end"], "end": before["start"]}
+    hand.tool("Red: last flap")
+    expect_step(page, "Make fold red")
+    assert shirt.drawing["folds"][4]["kind"] == "red"
+
+
+def test_a_fold_mirrored_is_linked_with_its_twin(page: Page, desk: Desk) -> None:
+    square = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]
+    side = {"name": "left side", "kind": "blue", "start": [0.15, 0.0], "end": [0.15, 0.6]}
+    desk.lay({"name": "square", "outline": square, "folds": [side]})
+    hand = Hand(page)
+    hand.click((0.15, 0.1))
+    hand.tool("Mirror")
+    expect_step(page, "Mirror fold")
+    # The axis is at x = 0.3, and the mirrored fold runs the other way, so that its left is the outer side.
+    assert fold(desk, 1)["start"] == pytest.approx([0.45, 0.6], abs=1e-6)
+    assert fold(desk, 1)["end"] == pytest.approx([0.45, 0.0], abs=1e-6)
+    assert desk.drawing["folds"][1]["name"] == "right side"
+    hand.drag((0.15, 0.3), (0.1, 0.3))
+    expect_step(page, "Move fold")
+    assert fold(desk, 0)["start"] == pytest.approx([0.1, 0.0], abs=PX_M)
+    assert fold(desk, 1)["end"][0] == pytest.approx(0.6 - fold(desk, 0)["start"][0], abs=1e-6)
+
+
+def test_a_point_grabbed_and_dropped_makes_the_fold_that_takes_it_there(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    hand.drag((0.13, 0.07), (0.13, 0.43))
+    expect_step(page, "Draw fold")
+    # The crease halves the way: y = 0.25, and what is below it moves.
+    found = fold(cloth, 0)
+    assert found["start"] == pytest.approx([0.457, 0.25], abs=PX_M)
+    assert found["end"] == pytest.approx([0.0, 0.25], abs=PX_M)
+    expect(page.locator(".strip-moment")).to_have_text("After 1: bottom up")
+
+
+def test_the_first_fold_is_not_drawn_red_and_the_reason_is_told(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    hand.tool("Red: last flap")
+    hand.drag((0.2, 0.0), (0.2, 0.61))
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("first fold cannot be red")
+    assert cloth.drawing["folds"] == []
+
+
+def test_the_snap_in_force_is_named_and_control_suspends_it(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Measure")
+    middle = hand.px((0.2285, 0.0))
+    page.mouse.move(middle[0] + 4, middle[1] + 4)
+    expect(page.locator(".snap-name")).to_have_text("midpoint")
+    page.keyboard.down("Control")
+    page.mouse.move(middle[0] + 5, middle[1] + 4)
+    expect(page.locator(".snap-name")).to_have_count(0)
+    page.keyboard.up("Control")
+    page.mouse.move(middle[0] + 4, middle[1] + 4)
+    page.mouse.down()
+    page.mouse.move(*hand.px((0.2285, 0.3)), steps=3)
+    page.mouse.move(*hand.px((0.2285, 0.61)), steps=3)
+    page.mouse.up()
+    expect(page.locator(".length.is-tape")).to_contain_text("61.0 cm")
+
+
+def test_the_garment_is_placed_on_the_table_and_turned(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Place")
+    page.keyboard.press("ArrowUp")
+    expect_step(page, "Place garment")
+    assert cloth.drawing["placement"]["x_m"] == pytest.approx(-0.598 + 0.001, abs=1e-9)
+    page.get_by_label("Turn in degrees").fill("90")
+    page.keyboard.press("Enter")
+    expect_step(page, "Turn garment")
+    placement = cloth.drawing["placement"]
+    assert placement["yaw_rad"] == pytest.approx(1.5707963267948966, abs=1e-9)
+    # Turned about the middle of its box, (0.229, 0.305): that point keeps its place on the table.
+    assert placement["x_m"] - 0.305 == pytest.approx(-0.597 + 0.229, abs=1e-9)
+    assert placement["y_m"] + 0.229 == pytest.approx(-0.305 + 0.305, abs=1e-9)
+
+
+def test_the_moments_of_the_folds_are_stepped_through(page: Page, shirt: Desk) -> None:
+    after = page.get_by_role("button", name="Step after")
+    after.click()
+    expect(page.locator(".strip-moment")).to_have_text("After 1: left sleeve")
+    expect(page.locator(".cloth.is-back")).to_have_count(1)
+    expect(page.locator(".corner")).to_have_count(0)
+    for _ in range(4):
+        after.click()
+    expect(after).to_be_disabled()
+    expect(page.locator(".strip-moment")).to_have_text("After 5: bottom up")
+
+
+def test_tab_walks_from_fold_to_fold_and_corner_to_corner_and_enter_edits(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="Fit").focus()
+    for _ in range(2):
+        page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Fold 1: left sleeve, Blue: all layers")).to_be_focused()
+    expect(page.locator(".fold.is-selected")).to_have_count(1)
+    for _ in range(5):
+        page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Vertex 1: 0.0, 0.0 cm")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.get_by_label("x of the vertex")).to_be_focused()
+    page.keyboard.type("-1")
+    page.keyboard.press("Enter")
+    expect_step(page, "Move vertex")
+    assert corner(shirt, 0) == pytest.approx([-0.01, 0.0], abs=1e-9)

@@ -1,0 +1,149 @@
+"""Garments come from templates and files and leave as files; dialogs say what is wrong."""
+
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import ezdxf
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import Desk, expect_step, window
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import Sheet
+
+SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" viewBox="0 0 400 300">
+  <path d="M0 0H400V300H0Z" fill="none" stroke="black"/>
+  <line x1="100" y1="300" x2="100" y2="0" stroke="blue"/>
+</svg>"""
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser) -> Iterator[Page]:
+    with window(chromium) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def desk(page: Page, designer: Served) -> Desk:
+    return Desk(page, designer)
+
+
+@pytest.fixture
+def shirt(page: Page, desk: Desk) -> Desk:
+    desk.lay(desk.garment("t-shirt"))
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    return desk
+
+
+def choose_file(page: Page, name: str, content: str) -> None:
+    page.get_by_role("button", name="Import", exact=True).click()
+    file = {"name": name, "mimeType": "application/octet-stream", "buffer": content.encode()}
+    page.get_by_label("File", exact=True).set_input_files([file])  # type: ignore[list-item]
+
+
+def test_a_template_with_other_measures_becomes_a_new_document(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    dialog = page.get_by_role("dialog", name="New garment")
+    dialog.get_by_role("option", name="Towel").click()
+    fields = dialog.locator(".measure .field")
+    fields.nth(0).fill("20in")
+    dialog.get_by_role("button", name="Create").click()
+    page.wait_for_url(lambda url: url != shirt.page_url)
+    expect(page.get_by_role("combobox", name="Garment")).not_to_have_value("t-shirt")
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    found = Sheet(page.url.partition("/d/")[0], page.url.rpartition("/")[2])
+    sides = [abs(corner["point"][0]) for corner in found.drawing["outline"]]
+    assert max(sides) - min(sides) == pytest.approx(20 * 0.0254, abs=1e-9)
+    assert shirt.can_undo == "Begin"
+
+
+def test_a_measure_out_of_range_is_refused_in_words(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    dialog = page.get_by_role("dialog", name="New garment")
+    dialog.locator(".measure .field").nth(0).fill("9 m")
+    expect(dialog.get_by_role("alert")).not_to_be_empty()
+    page.keyboard.press("Escape")
+    expect(dialog).to_have_count(0)
+
+
+def test_the_blank_board_is_one_of_the_templates(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    page.get_by_role("option", name="Blank board").click()
+    page.get_by_role("button", name="Start drawing").click()
+    expect(page.locator(".blank")).to_be_visible()
+
+
+def test_an_svg_is_imported_as_one_step_and_undone(page: Page, shirt: Desk) -> None:
+    choose_file(page, "square.svg", SVG)
+    page.get_by_role("button", name="Open here").click()
+    expect(page.locator(".corner")).to_have_count(4)
+    expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", "Undo: Import square.svg (Ctrl+Z)")
+    # 400 x 300 mm; the line runs from the lower edge up, 100 mm from the left, so what is left of it moves.
+    drawing = shirt.drawing
+    xs = [corner["point"][0] for corner in drawing["outline"]]
+    ys = [corner["point"][1] for corner in drawing["outline"]]
+    assert (max(xs) - min(xs), max(ys) - min(ys)) == pytest.approx((0.4, 0.3), abs=1e-9)
+    (fold,) = drawing["folds"]
+    assert fold["kind"] == "blue"
+    assert fold["start"]["point"][0] - min(xs) == pytest.approx(0.1, abs=1e-9)
+    assert fold["end"]["point"][1] - fold["start"]["point"][1] == pytest.approx(0.3, abs=1e-9)
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator(".corner")).to_have_count(10)
+
+
+def test_a_drawing_without_units_asks_for_them(page: Page, shirt: Desk) -> None:
+    pattern = ezdxf.new("R2000", units=0)
+    pattern.modelspace().add_lwpolyline([(0, 0), (50, 0), (50, 40), (0, 40)], close=True, dxfattribs={"layer": "1"})
+    written = io.StringIO()
+    pattern.write(written)
+    choose_file(page, "plain.dxf", written.getvalue())
+    page.get_by_role("button", name="cm: 50.0 cm x 40.0 cm").click()
+    page.get_by_role("button", name="Open here").click()
+    expect(page.locator(".corner")).to_have_count(4)
+    assert max(corner["point"][0] for corner in shirt.drawing["outline"]) == pytest.approx(0.5, abs=1e-9)
+
+
+def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
+    choose_file(page, "broken.svg", "<svg><path")
+    expect(page.get_by_role("dialog").get_by_role("alert")).to_contain_text("broken.svg")
+    assert shirt.can_undo == "Begin"
+
+
+def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
+    page.get_by_role("button", name="Export", exact=True).click()
+    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(6)
+    saved = {}
+    for link in page.get_by_role("dialog").locator(".export a").all():
+        with page.expect_download() as download:
+            link.click()
+        path = tmp_path / download.value.suggested_filename
+        download.value.save_as(path)
+        saved[path.name] = path.read_text()
+    assert sorted(saved) == ["t-shirt-plan.csv", "t-shirt-plan.json", "t-shirt.fold", "t-shirt.json", "t-shirt.svg"]
+    assert len(json.loads(saved["t-shirt.json"])["outline"]) == 10
+    assert json.loads(saved["t-shirt-plan.json"])["status"] == "solved"
+    expect(page.get_by_role("button", name="Save Recording (HTML)")).to_be_enabled()
+
+
+def test_control_s_saves_the_garment_as_it_is_drawn(page: Page, shirt: Desk, tmp_path: Path) -> None:
+    hand = Hand(page)
+    hand.click((0.61, 0.572))
+    page.get_by_label("x of the vertex").fill("64")
+    page.keyboard.press("Enter")
+    expect_step(page, "Move vertex")
+    with page.expect_download() as download:
+        page.keyboard.press("Control+s")
+    download.value.save_as(tmp_path / "saved.json")
+    outline = json.loads((tmp_path / "saved.json").read_text())["outline"]
+    assert [0.64, 0.572] in outline
+
+
+def test_help_tells_the_keys_and_goes_away(page: Page, shirt: Desk) -> None:
+    page.keyboard.press("?")
+    dialog = page.get_by_role("dialog", name="Help")
+    expect(dialog).to_contain_text("Ctrl + Shift + Z")
+    page.keyboard.press("Escape")
+    expect(dialog).to_have_count(0)

@@ -1,0 +1,162 @@
+"""The page round the board: splitter, phone, lost server, photo, what is looked at."""
+
+import struct
+import zlib
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import Desk, window
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import Garment, Sheet
+
+
+def chunk(kind: bytes, content: bytes) -> bytes:
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+
+# A grey picture of 2 x 1 pixels.
+HEADER = chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 1, 8, 0, 0, 0, 0))
+PNG = b"\x89PNG\r\n\x1a\n" + HEADER + chunk(b"IDAT", zlib.compress(b"\x00\x40\x80")) + chunk(b"IEND", b"")
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser) -> Iterator[Page]:
+    with window(chromium) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def desk(page: Page, designer: Served) -> Desk:
+    return Desk(page, designer)
+
+
+@pytest.fixture
+def towel(desk: Desk) -> Desk:
+    desk.lay(desk.garment("hand-towel"))
+    return desk
+
+
+def width(page: Page) -> float:
+    box = page.get_by_role("application", name="Drafting board").bounding_box()
+    assert box is not None
+    return box["width"]
+
+
+def test_the_splitter_is_moved_by_the_arrow_keys_and_the_mouse_and_remembered(page: Page, towel: Desk) -> None:
+    splitter = page.get_by_role("separator", name="Board and stage")
+    first = width(page)
+    splitter.focus()
+    page.keyboard.press("ArrowRight")
+    assert width(page) > first + 5
+    box = splitter.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 3, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(box["x"] - 197, box["y"] + 100, steps=4)
+    page.mouse.up()
+    pulled = width(page)
+    assert pulled == pytest.approx(first - 180, abs=15)
+    page.reload()
+    expect(page.locator(".corner")).to_have_count(4)
+    assert width(page) == pytest.approx(pulled, abs=1)
+
+
+def test_a_change_without_a_server_is_told_of_and_not_shown_as_done(page: Page, towel: Desk) -> None:
+    hand = Hand(page)
+    hand.click((0.0, 0.0))
+    before = page.locator(".corner").first.get_attribute("aria-label")
+    page.context.set_offline(True)
+    page.keyboard.press("ArrowRight")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("server cannot be reached")
+    expect(page.locator(".corner").first).to_have_attribute("aria-label", str(before))
+    page.context.set_offline(False)
+    page.keyboard.press("ArrowRight")
+    expect(page.locator(".corner").first).to_have_attribute("aria-label", "Vertex 1: 0.1, 0.0 cm")
+
+
+def test_a_photo_lies_under_the_board_and_is_scaled_by_two_points(page: Page, towel: Desk) -> None:
+    hand = Hand(page)
+    with page.expect_file_chooser() as chooser:
+        hand.tool("Photo")
+    chooser.value.set_files([{"name": "photo.png", "mimeType": "image/png", "buffer": PNG}])
+    photo = page.locator("image.photo")
+    expect(photo).to_have_count(1)
+    scale = float(str(hand.board.get_attribute("data-px-per-m")))
+    assert float(str(photo.get_attribute("width"))) == pytest.approx(0.8 * scale, rel=1e-6)
+    hand.click((0.1, 0.1))
+    hand.click((0.3, 0.1))
+    page.get_by_label("Length", exact=True).fill("10")
+    page.keyboard.press("Enter")
+    # Two points 20 cm apart are said to be 10 cm apart, so the photo is half as wide.
+    page.wait_for_function(f"Math.abs(document.querySelector('image.photo').width.baseVal.value - {0.4 * scale}) < 3")
+    page.wait_for_timeout(400)  # it is kept a little later
+    page.reload()
+    expect(photo).to_have_count(1)
+    hand.tool("Photo")
+    page.keyboard.press("Delete")
+    expect(photo).to_have_count(0)
+
+
+def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page, towel: Desk) -> None:
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect(page.locator(".must-hold")).to_have_count(0)
+    first = towel.drawing["folds"][0]
+    (ax, ay), (bx, by) = first["start"]["point"], first["end"]["point"]
+    Hand(page).click((0.8 * ax + 0.2 * bx, 0.8 * ay + 0.2 * by))
+    # Half a rectangle is lifted by its two far corners (figure 1 of the paper): one grip each.
+    expect(page.locator(".must-hold")).to_have_count(2)
+    expect(page.locator("circle.grip")).to_have_count(2)
+
+
+def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Desk) -> None:
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.get_by_role("button", name="Reach", exact=True).click()
+    expect(page.locator(".reach")).to_have_count(2)
+    page.get_by_role("button", name="Reach", exact=True).click()
+    expect(page.locator(".reach")).to_have_count(0)
+
+
+@pytest.fixture
+def phone(chromium: Browser) -> Iterator[Page]:
+    context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    context.set_default_timeout(20_000)
+    context.route("**/viser/**", lambda route: route.abort())
+    yield context.new_page()
+    context.close()
+
+
+def test_on_a_phone_the_views_are_swapped_and_the_sheet_is_pulled_up(
+    phone: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    phone.goto(new_sheet("hand-towel").page_url)
+    expect(phone.locator(".corner")).to_have_count(4)
+    assert width(phone) == 390
+    hand = Hand(phone)
+    before = hand.px((0.0, 0.0))
+    scale = hand.board.get_attribute("data-px-per-m")
+    phone.get_by_role("button", name="Show the stage large").tap()
+    assert width(phone) < 120
+    phone.get_by_role("button", name="Show the board large").tap()
+    assert width(phone) == 390
+    expect(hand.board).to_have_attribute("data-px-per-m", str(scale))
+    assert hand.px((0.0, 0.0)) == pytest.approx(before, abs=1)
+    expect(phone.get_by_role("button", name="Play")).to_have_count(0)
+    phone.get_by_role("button", name="Show folds and timeline").tap()
+    expect(phone.get_by_role("button", name="Play")).to_be_visible()
+    expect(phone.get_by_role("list", name="Folds")).to_be_attached()
+    phone.get_by_role("button", name="Hide folds and timeline").tap()
+    expect(phone.get_by_role("button", name="Play")).to_have_count(0)
+
+
+def test_nothing_is_wider_than_a_phone(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    phone.goto(new_sheet("t-shirt").page_url)
+    expect(phone.locator(".corner")).to_have_count(10)
+    assert phone.evaluate("document.documentElement.scrollWidth") == 390
+    for name in ("New", "Import", "Export", "Undo", "Help"):
+        box = phone.get_by_role("button", name=name, exact=True).bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390

@@ -1,0 +1,82 @@
+"""The dock on windows of all sizes, for fingers, and for readers who want no motion."""
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.conftest import Garment, Sheet, windows
+from tests.browser.napkin import napkin
+
+SPILT = """() => {
+  const dock = document.getElementById("dock");
+  const spilt = dock.scrollWidth > dock.clientWidth ? ["#dock"] : [];
+  for (const part of dock.querySelectorAll("section, header, .fold-list, .plan-scroll, .numbers, .lanes")) {
+    if (part.offsetParent && part.scrollWidth > part.clientWidth + 1) spilt.push(part.className);
+  }
+  return spilt;
+}"""
+PHONE = {"width": 390, "height": 844}
+
+
+@pytest.fixture(scope="module")
+def wide(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Page]:
+    with windows(chromium, reduced_motion="reduce") as context:
+        page = context.new_page()
+        page.goto(new_sheet(napkin()).page_url)
+        expect(page.get_by_role("slider", name="Time")).to_be_enabled()
+        yield page
+
+
+@pytest.fixture(scope="module")
+def phone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Page]:
+    """A phone with the sheet pulled up."""
+    with windows(chromium, viewport=PHONE, has_touch=True, is_mobile=True) as context:
+        page = context.new_page()
+        page.goto(new_sheet(napkin()).page_url)
+        page.locator("#sheet").tap()
+        expect(page.get_by_role("slider", name="Time")).to_be_enabled()
+        yield page
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (960, 600), (721, 450), (720, 450)])
+def test_nothing_spills_at_any_width_nor_at_200_per_cent(wide: Page, width: int, height: int) -> None:
+    wide.set_viewport_size({"width": width, "height": height})
+    assert wide.evaluate(SPILT) == []
+
+
+def test_nothing_spills_on_a_phone(phone: Page) -> None:
+    assert phone.evaluate(SPILT) == []
+
+
+def test_a_fold_is_pulled_by_its_number_with_a_finger(phone: Page) -> None:
+    rows = phone.get_by_role("list", name="Folds").get_by_role("listitem")
+    rows.nth(0).scroll_into_view_if_needed()
+    start = rows.nth(0).locator(".fold-number").bounding_box()
+    end = rows.nth(1).bounding_box()
+    assert start is not None
+    assert end is not None
+    x = start["x"] + start["width"] / 2
+    finger = phone.context.new_cdp_session(phone)
+
+    def touch(kind: str, y: float | None) -> None:
+        points = [] if y is None else [{"x": x, "y": y}]
+        finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    y = start["y"] + start["height"] / 2
+    below = end["y"] + 0.9 * end["height"]
+    touch("touchStart", y)
+    for share in (0.25, 0.5, 0.75, 1.0):
+        touch("touchMove", y + share * (below - y))
+    touch("touchEnd", None)
+    expect(rows.locator(".fold-name")).to_have_text(["right", "left", "half"])
+
+
+def test_with_reduced_motion_nothing_eases(wide: Page) -> None:
+    moving = wide.evaluate(
+        """() => [...document.querySelectorAll("#dock *")].filter((part) => {
+          const { transitionDuration, animationName } = getComputedStyle(part);
+          return parseFloat(transitionDuration) > 0 || animationName !== "none";
+        }).length"""
+    )
+    assert moving == 0

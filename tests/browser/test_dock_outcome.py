@@ -1,0 +1,169 @@
+"""What planning came to: the plan and its numbers, or why there is none and what would help."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.app.conftest import Served
+from tests.app.samples import towel
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.napkin import napkin
+
+FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
+
+
+@pytest.fixture
+def stuck(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
+    """A towel at the far end of the table, and a robot that may stand at the near one only."""
+    sheet = new_sheet(towel(placement=FAR))
+    sheet.edit(keep_front_alone)
+    page.goto(sheet.page_url)
+    expect(page.get_by_role("status")).to_contain_text("No plan: Half: ")
+    return sheet
+
+
+def keep_front_alone(drawing: dict[str, Any]) -> None:
+    drawing["scene"]["stations"] = {"front": drawing["scene"]["stations"]["front"]}
+
+
+def planned(page: Page, sheet: Sheet) -> float:
+    """The page with a plan of a sheet, and its cost (s)."""
+    page.goto(sheet.page_url)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    return cost_s(page)
+
+
+def cost_s(page: Page) -> float:
+    text = page.get_by_role("status").inner_text()
+    found = re.search(r", ([\d.]+) s$", text)
+    assert found is not None
+    return float(found[1])
+
+
+def suggestions(page: Page) -> Locator:
+    return page.get_by_role("group", name="Suggestions").get_by_role("button")
+
+
+def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sheet) -> None:
+    expect(page.locator(".reason")).to_contain_text(re.compile(r"^Half: the (left|right) hand is [\d.]+ cm short"))
+    expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).to_have_count(0)
+    move = suggestions(page).filter(has_text="Move the garment")
+    move.first.click()
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    assert (stuck.can_undo or "").startswith("Move the garment ")
+    assert stuck.drawing["placement"]["x_m"] < FAR["x_m"]
+    expect(page.get_by_text("no plan before")).to_be_visible()
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_role("status")).to_contain_text("No plan: Half: ")
+    assert stuck.drawing["placement"] == FAR
+
+
+def test_an_edit_ends_the_search_for_what_would_help(page: Page, stuck: Sheet) -> None:
+    expect(suggestions(page)).not_to_have_count(0)
+    with page.expect_event("requestfailed", lambda request: request.url.endswith("/api/suggestions")):
+        stuck.edit(lambda drawing: drawing["folds"].clear())
+    expect(page.get_by_role("status")).to_contain_text("Planned: 0 primitives")
+    expect(page.get_by_text("Nothing to do")).to_be_visible()
+
+
+def test_why_unfolds_all_the_reasons(page: Page, stuck: Sheet) -> None:
+    expect(page.get_by_role("list", name="Reasons")).to_be_hidden()
+    page.get_by_role("button", name="Why?").click()
+    reasons = page.get_by_role("list", name="Reasons").get_by_role("listitem")
+    expect(reasons.first).to_be_visible()
+    expect(reasons.first).to_contain_text("\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: ")
+    page.get_by_role("button", name="Why?").click()
+    expect(reasons.first).to_be_hidden()
+
+
+def test_the_numbers_say_what_the_cost_is_made_of_and_how_it_changed(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(napkin())
+    before_s = planned(page, sheet)
+    numbers = page.get_by_role("region", name="Numbers")
+    expect(numbers).to_contain_text(f"{before_s:.1f} s")
+    spent = [float(text.split()[0]) for text in numbers.locator(".is-parts dd").all_inner_texts()]
+    assert sum(spent) == pytest.approx(before_s, abs=0.05 * len(spent) + 0.05)
+    sheet.edit(lambda drawing: drawing["folds"].pop())
+    changed = numbers.locator(".total-change")
+    expect(changed).to_contain_text("less than before")
+    saved = float(changed.inner_text().split()[0])
+    assert saved == pytest.approx(before_s - cost_s(page), abs=0.11)
+    for name in ("Expanded", "Explored", "IK queries", "Search", "Joint paths"):
+        expect(numbers.get_by_text(name, exact=True)).to_be_visible()
+
+
+def test_a_difference_is_told_with_its_sign_in_words(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { difference } = await import("/static/js/dock/numbers.js");
+          const before = (cost_s) => ({ version: 1, status: cost_s === null ? "infeasible" : "solved", cost_s });
+          return [null, before(null), before(40), before(41.5), before(40.02)].map((one) => difference(40, one));
+        }"""
+    )
+    assert told == ["", "no plan before", "same as before", "1.5 s less than before", "same as before"]
+
+
+def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    order = page.evaluate(
+        """async () => {
+          const { ranked } = await import("/static/js/dock/suggestion_search.js");
+          const one = (kind, size, cost_s, is_assumption = false) => ({ kind, size, cost_s, is_assumption });
+          const found = [one("friction", 1, 20, true), one("station", 1, 42), one("placement", 0.6, 10),
+            one("placement", 0.5, 12), one("placement", 0.7, 11)];
+          return ranked(found).map(({ kind, size }) => [kind, size]);
+        }"""
+    )
+    # The nearest place first; then the other kind; then the further place, which is quicker (the third is not).
+    assert order == [["placement", 0.5], ["station", 1], ["placement", 0.6], ["friction", 1]]
+
+
+def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { details } = await import("/static/js/dock/reasons.js");
+          const plan = { reasons: [{ message: "" }, { message: "fold 0 'half': too far" }] };
+          return details({ status: "infeasible", plan }, { drawing: { folds: [{ name: "half" }] }, problems: [] });
+        }"""
+    )
+    assert told == ["\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: too far."]
+
+
+def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    sheet = new_sheet(towel(placement={**FAR, "x_m": -0.1}))
+    sheet.edit(keep_front_alone)
+    before_s = planned(page, sheet)
+    page.get_by_role("button", name="Best place").click()
+    expect(page.get_by_text("Trying places")).to_be_visible()
+    page.locator(".best-place .suggestion").click()
+    expect(page.locator(".total-change")).to_contain_text("less than before")
+    assert cost_s(page) < before_s
+    assert (sheet.can_undo or "").startswith("Move the garment ")
+    expect(page.locator(".best-place")).to_be_hidden()
+
+
+def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, stuck: Sheet) -> None:
+    drawing = stuck.drawing
+    folds = [*drawing["folds"], {**drawing["folds"][0], "id": "f9", "name": "again"}]
+    wanted = httpx.get(stuck.path).json()["garment"]["folds"][0]
+    shifted = {**wanted, "name": "again", "start": [0.4, 0.2], "end": [0.0, 0.2], "grip_radius_m": 0.3}
+    changed = page.evaluate(
+        """async ([drawing, folds]) => {
+          const { applyChange } = await import("/static/js/dock/suggestion_change.js");
+          applyChange(drawing, { garment: { folds } });
+          return drawing.folds;
+        }""",
+        [{**drawing, "folds": folds}, [wanted, shifted]],
+    )
+    assert changed[0] == folds[0]
+    assert changed[1]["id"] == "f9"
+    assert changed[1]["start"] == {"point": [0.4, 0.2]}
+    assert changed[1]["grip_radius_m"] == 0.3

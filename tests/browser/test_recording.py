@@ -1,0 +1,52 @@
+"""A recording plays by itself: opened from the disk, with nothing to ask for anywhere."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Playwright
+
+from app.files.recording import recording
+from planner import load_garment, make_plan
+
+FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+PATIENCE_MS = 60_000
+
+MESHES = """() => {
+  const robot = window.__viserMutable?.nodeRefFromName["/robot"];
+  let meshes = 0;
+  robot?.traverse((part) => { meshes += part.isMesh ? 1 : 0; });
+  return meshes;
+}"""
+HAND = """() => {
+  const names = Object.keys(window.__viserMutable.nodeRefFromName);
+  const hand = window.__viserMutable.nodeRefFromName[names.find((name) => name.endsWith("l_gripper_tool_frame"))];
+  hand.updateWorldMatrix(true, false);
+  return hand.matrixWorld.elements.slice(12, 15);
+}"""
+
+
+@pytest.fixture
+def saved(tmp_path: Path) -> Path:
+    path = tmp_path / "hand-towel.html"
+    path.write_bytes(recording(make_plan(load_garment("hand-towel")), 5.0, lambda: False, is_dark=False))
+    return path
+
+
+def test_a_recording_plays_from_the_disk_and_asks_for_nothing(
+    saved: Path, playwright: Playwright, chromium_path: str | None
+) -> None:
+    asked: list[str] = []
+    faults: list[str] = []
+    browser = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+    page = browser.new_page(viewport={"width": 400, "height": 300})
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto(saved.as_uri())
+    assert page.title() == "Hand towel - Pleat"
+    page.wait_for_function(f"({MESHES})() > 20", timeout=PATIENCE_MS)
+    first = page.evaluate(HAND)
+    moved = f"({HAND})().some((value, axis) => Math.abs(value - {first}[axis]) > 0.05)"
+    page.wait_for_function(moved, timeout=PATIENCE_MS)
+    browser.close()
+    assert faults == []
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
