@@ -12,7 +12,7 @@ READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types test-quick test test-long browser bench figures lock clean
+.PHONY: help run check format lint types imports test-quick test test-long browser bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -21,7 +21,7 @@ help: ## this list
 run: $(READY) ## serve the designer on http://127.0.0.1:8000
 	@exec $(BIN)/pleat serve
 
-check: lint types test-quick ## format, lint, types, and the tests that are quick and need no browser
+check: lint types imports ## format, lint, types, and which package may import which
 
 format: $(READY_DEV) ## put the code into its format
 	$(BIN)/ruff format .
@@ -34,7 +34,10 @@ lint: $(READY_DEV)
 types: $(READY_DEV)
 	$(BIN)/mypy
 
-test-quick: $(READY_DEV)
+imports: $(READY_DEV)
+	$(PYTEST) tests/test_imports.py
+
+test-quick: $(READY_DEV) ## the tests that are quick and need no browser
 	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow"
 
 test: $(READY_DEV) browser ## every test, the property laws on a few hundred random cases
