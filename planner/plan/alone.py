@@ -11,9 +11,9 @@ one question: from anywhere along that line? The few that survive are asked in f
 and adds none, so it never denies what can be done.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice, permutations
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,17 +21,11 @@ from numpy.typing import NDArray
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key
-from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
-from planner.primitives.fold_trial import (
-    FoldTrial,
-    fold_trials,
-    geometric_obstacle,
-    geometric_obstacles,
-    grips_obstacle,
-    held_covers,
-)
+from planner.plan.alone_cases import Case, Cases
+from planner.primitives.drag_grips import dragged, longest_drag
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, geometric_obstacles
 from planner.primitives.fold_way import attempt_of, can_follow
-from planner.primitives.state import Held, State
+from planner.primitives.state import State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 _SETS_MAX = 64
@@ -47,18 +41,6 @@ _GUESSES, _GUESSED_DRAGS = 3, 10
 
 _EXTREMES = (1.0, 2.0, 0.0)
 """The moments of a fold that fail first: the apex, the end, the start."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Case:
-    """A set of folds done, and what is held for the fold (nothing: free hands)."""
-
-    done: int
-    held: tuple[Held, ...]
-
-    def state(self, station: int, offset: FloatArray) -> State:
-        place = (float(offset[0]), float(offset[1]))
-        return State(self.done, place, station, 0, self.held, is_dragged=bool(self.held))
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +65,7 @@ class Alone:
         self._station = station
         self._offsets = drag_offsets(work)
         self._places = self._offsets
+        self._cases = Cases(work, station, self._offsets)
         self._answers: dict[_Asked, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
@@ -92,7 +75,7 @@ class Alone:
         if sets is None or len(self._offsets) > _OFFSETS_MAX or work.sequence.folds[fold].is_red:
             return False
         before = work.obstacles.taken_away(fold)
-        guesses = (case for done in sets for case in islice(self._cases(done, fold), _GUESSES))
+        guesses = (case for done in sets for case in islice(self._cases.of(done, fold), _GUESSES))
         if any(self._is_possible_nearby(case, fold) for case in guesses):
             work.obstacles.put_back(before)
             return False
@@ -111,9 +94,11 @@ class Alone:
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
         stations = range(len(self._work.scene.stations))
-        return any(self._is_possible(case, fold, station) for case in self._cases(done, fold) for station in stations)
+        return any(
+            self._is_possible(case, fold, station) for case in self._cases.of(done, fold) for station in stations
+        )
 
-    def _is_possible_nearby(self, case: _Case, fold: int) -> bool:
+    def _is_possible_nearby(self, case: Case, fold: int) -> bool:
         """A quick guess: whether a fold can be done from the first station where drags from there may bring it."""
         steps = min(longest_drag(self._work), _GUESSED_DRAGS)
         places = [dragged(self._work, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
@@ -138,58 +123,7 @@ class Alone:
             for obstacle in geometric_obstacles(work, State(done, nearest, self._station, 0), fold):
                 work.obstacles.note(obstacle)
 
-    def _cases(self, done: int, fold: int) -> Iterator[_Case]:
-        """Free hands, then whatever a drag that starts anywhere may leave held."""
-        obstacle = grips_obstacle(self._work, State(done, (0.0, 0.0), self._station, 0), fold)
-        if obstacle is None:
-            yield _Case(done, ())
-        else:
-            self._work.obstacles.note(obstacle)
-        seen: set[tuple[object, ...]] = set()
-        for held in self._holds(done, fold):
-            key = tuple(h.key for h in held)
-            if key not in seen:
-                seen.add(key)
-                yield _Case(done, held)
-
-    def _holds(self, done: int, fold: int) -> Iterator[tuple[Held, ...]]:
-        """What drags may leave held that serves a fold.
-
-        While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
-        gripped, so what must be held in the fold has to be within a grip's radius of the table.
-        """
-        work = self._work
-        silhouette = work.sequence.cloth(done).silhouette
-        is_whole_seen = False
-        for offset in ((float(x), float(y)) for x, y in self._offsets):
-            is_whole = work.table_in_article(offset).contains(silhouette)
-            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(done, fold, offset)):
-                continue
-            is_whole_seen |= is_whole
-            for station in range(len(work.scene.stations)):
-                yield from self._serving(done, fold, offset, station)
-
-    def _serving(self, done: int, fold: int, offset: Point2, station: int) -> Iterator[tuple[Held, ...]]:
-        work = self._work
-        towards = towards_robot(work, station)
-        if hangs_ahead(work, done, offset, towards):
-            return
-        for cover in drag_covers(work, done, offset, towards).covers:
-            for arms in permutations(range(len(work.reach.arm_names)), len(cover)) if cover else ():
-                held = tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
-                if held_covers(work, done, fold, held):
-                    yield held
-
-    def _is_near(self, done: int, fold: int, offset: Point2) -> bool:
-        """Whether all that must be held in a fold lies within a grip's radius of the table."""
-        work = self._work
-        arms = len(work.reach.arm_names)
-        vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
-        radius = work.sequence.folds[fold].grip_radius_m + LENGTH_M
-        edges = work.table_in_article(offset).edges
-        return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)
-
-    def _is_possible(self, case: _Case, fold: int, station: int) -> bool:
+    def _is_possible(self, case: Case, fold: int, station: int) -> bool:
         if self._should_stop():
             return True
         anywhere = case.state(station, np.zeros(2))
@@ -203,7 +137,7 @@ class Alone:
             self._work.obstacles.note_attempt(attempt_of(anywhere, trial, self._places))
         return False
 
-    def _stages(self, case: _Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
+    def _stages(self, case: Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
         """How many of apex, end and start can be reached, one after the other, at each place."""
         unrolled = trial.path.swept(trial.points, np.array(_EXTREMES)[:, None])
         stages = np.zeros(len(self._places), dtype=np.int64)

@@ -1,0 +1,93 @@
+"""With what in the hands a fold may be begun, wherever drags have carried the article."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
+from planner.primitives.fold_trial import grips_obstacle, held_covers
+from planner.primitives.state import Held, State
+from planner.primitives.work import Work
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A set of folds done, and what is held for the next (nothing: free hands).
+
+    Attributes:
+        done: the folds done, as a bit mask.
+        held: what is held.
+    """
+
+    done: int
+    held: tuple[Held, ...]
+
+    def state(self, station: int, offset: FloatArray) -> State:
+        """The same with the robot at a station and the article dragged so far (m)."""
+        place = (float(offset[0]), float(offset[1]))
+        return State(self.done, place, station, 0, self.held, is_dragged=bool(self.held))
+
+
+class Cases:
+    """Finds the cases of one planning problem."""
+
+    def __init__(self, work: Work, station: int, offsets: FloatArray) -> None:
+        """Begun at a station, drags can carry the article by such offsets, shape (n, 2), m."""
+        self._work = work
+        self._station = station
+        self._offsets = offsets
+
+    def of(self, done: int, fold: int) -> Iterator[Case]:
+        """Free hands, then whatever a drag that starts anywhere may leave held."""
+        obstacle = grips_obstacle(self._work, State(done, (0.0, 0.0), self._station, 0), fold)
+        if obstacle is None:
+            yield Case(done, ())
+        else:
+            self._work.obstacles.note(obstacle)
+        seen: set[tuple[object, ...]] = set()
+        for held in self._holds(done, fold):
+            key = tuple(h.key for h in held)
+            if key not in seen:
+                seen.add(key)
+                yield Case(done, held)
+
+    def _holds(self, done: int, fold: int) -> Iterator[tuple[Held, ...]]:
+        """What drags may leave held that serves a fold.
+
+        While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
+        gripped, so what must be held in the fold has to be within a grip's radius of the table.
+        """
+        work = self._work
+        silhouette = work.sequence.cloth(done).silhouette
+        is_whole_seen = False
+        for offset in ((float(x), float(y)) for x, y in self._offsets):
+            is_whole = work.table_in_article(offset).contains(silhouette)
+            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(done, fold, offset)):
+                continue
+            is_whole_seen |= is_whole
+            for station in range(len(work.scene.stations)):
+                yield from self._serving(done, fold, offset, station)
+
+    def _serving(self, done: int, fold: int, offset: Point2, station: int) -> Iterator[tuple[Held, ...]]:
+        work = self._work
+        towards = towards_robot(work, station)
+        if hangs_ahead(work, done, offset, towards):
+            return
+        for cover in drag_covers(work, done, offset, towards).covers:
+            for arms in permutations(range(len(work.reach.arm_names)), len(cover)) if cover else ():
+                held = tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
+                if held_covers(work, done, fold, held):
+                    yield held
+
+    def _is_near(self, done: int, fold: int, offset: Point2) -> bool:
+        """Whether all that must be held in a fold lies within a grip's radius of the table."""
+        work = self._work
+        arms = len(work.reach.arm_names)
+        vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+        radius = work.sequence.folds[fold].grip_radius_m + LENGTH_M
+        edges = work.table_in_article(offset).edges
+        return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)
