@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +50,11 @@ class FoldTrial:
     sweeps: FloatArray
     tools: FloatArray
     approaches: tuple[NDArray[np.int64], ...]
+
+    @cached_property
+    def hands(self) -> tuple[object, ...]:
+        """What tells it from other trials: arms, tool paths and approaches."""
+        return (self.arms, np.round(self.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in self.approaches))
 
     def is_like(self, other: "FoldTrial") -> bool:
         """Whether the same arms take the same grips, maybe elsewhere on the table."""

@@ -55,7 +55,12 @@ class DragWay:
     picks: FloatArray
     approaches: NDArray[np.int64]
 
-    @property
+    @cached_property
+    def hands(self) -> tuple[object, ...]:
+        """What tells it from other ways: arms, picks and approaches."""
+        return (self.arms, np.round(self.picks / LENGTH_M).tobytes(), self.approaches.tobytes())
+
+    @cached_property
     def stands(self) -> list[int]:
         """The back-offs from which all grips are in reach."""
         return [int(b) for b in np.flatnonzero((self.approaches >= 0).all(axis=1))]
@@ -155,12 +160,11 @@ class DragStep:
             if approaches != chosen:
                 yield replace(self, approaches=approaches)
 
-    @property
+    @cached_property
     def situation(self) -> tuple[object, ...]:
         """What it has in common with the same motions of the hands while the base stands elsewhere."""
         length = self.after.back_off - self.first_stand
-        hands = (self.way.arms, np.round(self.way.picks / LENGTH_M).tobytes(), self.way.approaches.tobytes())
-        return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, hands)
+        return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, self.way.hands)
 
     def begun_in(self, state: State) -> "DragStep":
         """The same from another state of the same situation."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.geometry.tolerance import ANGLE_RAD
 from planner.primitives.base_legs import legs
 from planner.primitives.fold_question import FoldQuestions
 from planner.primitives.fold_variants import fold_spread, fold_variants
@@ -103,15 +103,14 @@ class FoldStep:
             driven = variant.steps - abs(variant.first - self.before.back_off)
             yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 
-    @property
+    @cached_property
     def situation(self) -> tuple[object, ...]:
         """What it has in common with the same motions of the hands while the base stands elsewhere.
 
         Which other folds are done does not matter, as long as the hands do the same.
         """
         trial = self.way.trial
-        hands = (trial.arms, np.round(trial.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in trial.approaches))
-        return (self.kind, trial.fold, self.before.hold, self.before.station, self.before.place, hands)
+        return (self.kind, trial.fold, self.before.hold, self.before.station, self.before.place, trial.hands)
 
     def begun_in(self, state: State) -> "FoldStep":
         """The same from another state of the same situation."""

@@ -39,9 +39,8 @@ class Code(StrEnum):
 
 def situation(state: State) -> Situation:
     """What of a state matters to whether a fold is possible, places to the grid."""
-    x, y = state.offset
-    held = tuple([h.key for h in state.held])
-    return (state.done, grid_key(x), grid_key(y), held, state.is_dragged, state.back_off if held else -1)
+    done, x, y, _, back_off, held, is_dragged = state.key
+    return (done, x, y, held, is_dragged, back_off if held else -1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -1,9 +1,16 @@
 """What the search tells apart: folds done, placement, where the base stands, what is held."""
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
+
+HeldKey: TypeAlias = tuple[int, int, int]
+"""A grip to the grid: the arm, and where it holds."""
+
+StateKey: TypeAlias = tuple[int, int, int, int, int, tuple[HeldKey, ...], bool]
+"""A state to the grid: folds done, place (x, y), station, back-off, what is held, whether from a drag."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,7 +25,7 @@ class Held:
 
     arm: int
     point: Point2
-    key: tuple[int, int, int] = field(init=False, repr=False)
+    key: HeldKey = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Work out the key."""
@@ -45,7 +52,7 @@ class State:
     back_off: int
     held: tuple[Held, ...] = ()
     is_dragged: bool = False
-    key: tuple[object, ...] = field(init=False, repr=False)
+    key: StateKey = field(init=False, repr=False)
     _hash: int = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -64,7 +71,7 @@ class State:
     @property
     def place(self) -> tuple[int, int]:
         """Where the article lies, in steps of the grid."""
-        return grid_key(self.offset[0]), grid_key(self.offset[1])
+        return self.key[1], self.key[2]
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same to the grid."""
