@@ -324,7 +324,7 @@ def test_tab_walks_from_fold_to_fold_and_corner_to_corner_and_enter_edits(page: 
     page.get_by_role("button", name="Fit").focus()
     for _ in range(2):
         page.keyboard.press("Tab")
-    expect(page.get_by_role("button", name="Fold 1: left sleeve, Blue: all layers")).to_be_focused()
+    expect(page.get_by_role("button", name="Fold 1: left sleeve, blue")).to_be_focused()
     expect(page.locator(".fold.is-selected")).to_have_count(1)
     for _ in range(5):
         page.keyboard.press("Tab")
@@ -335,3 +335,29 @@ def test_tab_walks_from_fold_to_fold_and_corner_to_corner_and_enter_edits(page: 
     page.keyboard.press("Enter")
     expect_step(page, "Move vertex")
     assert corner(shirt, 0) == pytest.approx([-0.01, 0.0], abs=1e-9)
+
+
+def test_the_robot_starts_where_it_is_clicked_beside_the_table(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Place")
+    name = page.locator(".station-name", has_text="front right").bounding_box()
+    assert name is not None
+    page.mouse.click(name["x"] + name["width"] / 2, name["y"] + name["height"] / 2)
+    expect_step(page, "Start at front right")
+    assert cloth.drawing["start_station"] == "front_right"
+    expect(page.locator(".station-name", has_text="(start)")).to_have_text("front right (start)")
+
+
+def test_a_fold_just_drawn_gets_its_twin_by_mirror(page: Page, desk: Desk) -> None:
+    square = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]
+    desk.lay({"name": "square", "outline": square, "folds": []})
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    hand.drag((0.15, 0.0), (0.15, 0.6))
+    expect_step(page, "Draw fold")
+    hand.tool("Mirror")
+    expect_step(page, "Mirror fold")
+    # The axis is at x = 0.3: the quarter from the left has its twin a quarter from the right.
+    assert fold(desk, 1)["start"] == pytest.approx([0.45, 0.6], abs=PX_M)
+    assert [found["status"] for found in desk.state["solved"]] == ["legal", "legal"]
+    expect(page.locator(".strip-moment")).to_have_text("After 2: right over")

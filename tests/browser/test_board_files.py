@@ -147,3 +147,15 @@ def test_help_tells_the_keys_and_goes_away(page: Page, shirt: Desk) -> None:
     expect(dialog).to_contain_text("Ctrl + Shift + Z")
     page.keyboard.press("Escape")
     expect(dialog).to_have_count(0)
+
+
+def test_the_garment_is_renamed_as_one_step(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="Rename").click()
+    dialog = page.get_by_role("dialog", name="Rename garment")
+    dialog.get_by_label("Name").fill("Été: Lena's shirt")
+    page.keyboard.press("Enter")
+    expect_step(page, "Rename garment")
+    expect(page.get_by_role("combobox", name="Garment").locator("option:checked")).to_have_text("Été: Lena's shirt")
+    # Letters lose their accents, all else becomes dashes.
+    assert shirt.drawing["name"] == "ete-lena-s-shirt"
+    assert shirt.drawing["title"] == "Été: Lena's shirt"

@@ -160,3 +160,28 @@ def test_nothing_is_wider_than_a_phone(phone: Page, new_sheet: Callable[[Garment
         assert box is not None
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
+
+
+def test_every_name_that_others_look_for_is_there_once(page: Page, desk: Desk) -> None:
+    desk.lay(desk.garment("t-shirt"))
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    names = "Draw outline,Draw fold,Select,Undo,Redo,Play,Blue: all layers,Red: last flap,Flip,New,Import,Export"
+    for name in names.split(","):
+        expect(page.get_by_role("button", name=name)).to_have_count(1)
+    expect(page.get_by_role("combobox", name="Garment")).to_have_count(1)
+    expect(page.get_by_role("slider", name="Time")).to_have_count(1)
+    for name in ("Folds", "Plan"):
+        expect(page.get_by_role("list", name=name)).to_have_count(1)
+    expect(page.get_by_role("application", name="Drafting board")).to_have_count(1)
+
+
+def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, desk: Desk) -> None:
+    desk.lay(desk.garment("scarf-halved"))
+    status = page.get_by_role("status")
+    expect(status).to_contain_text("No plan: ")
+    expect(page.locator(".reason-arm")).to_have_text("R")
+    # The middle of a halved scarf is lifted to half its length: the hand cannot get up there.
+    expect(page.locator(".reason-text")).to_contain_text("too high")
+    short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
+    expect(status).to_contain_text(f"the right hand is {short} short")
+    expect(page.locator(".table-line")).to_have_count(1)

@@ -3,7 +3,7 @@
 import { element } from "../dom.js";
 import { Callout } from "./callout.js";
 import { drawAll, LAYERS } from "./draw_all.js";
-import { mirrorCorners, mirrorFolds, mirrorOutline } from "./edits.js";
+import { mirrorCorners, mirrorOutline } from "./edits.js";
 import { FoldPaint } from "./fold_paint.js";
 import { Framing } from "./framing.js";
 import { Keyboard } from "./keyboard.js";
@@ -182,11 +182,11 @@ export class Board extends Shown {
     return true;
   }
 
+  /** The folds that are meant, or the selected corners, or the outline's left half. */
   mirror() {
     const { kind, ids = [] } = this.store.selection ?? {};
-    if (!this.drawing.outline.length) return;
-    if (kind === "fold") this.store.edit("Mirror fold", (drawing) => mirrorFolds(drawing, ids));
-    else if (kind === "vertex") this.store.edit("Mirror vertices", (drawing) => mirrorCorners(drawing, ids));
+    if (!this.drawing.outline.length || this.paint.mirror()) return;
+    if (kind === "vertex") this.store.edit("Mirror vertices", (drawing) => mirrorCorners(drawing, ids));
     else this.store.edit("Mirror outline", mirrorOutline);
   }
 

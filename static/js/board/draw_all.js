@@ -6,7 +6,7 @@ import { drawFolds, drawGhost } from "./draw_folds.js";
 import { drawGrid } from "./draw_grid.js";
 import { drawHandles } from "./draw_handles.js";
 import { drawCursor, drawPreview } from "./draw_marks.js";
-import { drawTable } from "./draw_table.js";
+import { drawTable, drawTableEdge } from "./draw_table.js";
 
 /** The layers, the lowest first. */
 export const LAYERS = [
@@ -32,13 +32,18 @@ export function drawAll(board) {
   view.lay(board.isPlacing ? board.drawing.placement : null);
   sheets.grid.draw(drawGrid(board));
   sheets.photo.draw(board.isPlacing ? [] : board.photo.items(view));
-  sheets.table.draw(board.isPlacing ? drawTable(board) : []);
+  sheets.table.draw(board.isPlacing ? drawTable(board) : drawTableEdge(board, "table is-faint"));
   sheets.under.draw(board.overlays.under());
   sheets.cloth.draw(drawCloth(board));
   sheets.over.draw(board.overlays.over());
   sheets.ghost.draw(drawGhost(board));
   sheets.folds.draw(drawFolds(board));
-  sheets.findings.draw([...drawChecks(board), ...drawProblems(board), ...drawReason(board)]);
+  sheets.findings.draw([
+    ...drawTableEdge(board, "table-line"),
+    ...drawChecks(board),
+    ...drawProblems(board),
+    ...drawReason(board),
+  ]);
   sheets.preview.draw(drawPreview(board));
   sheets.handles.draw(drawHandles(board));
   sheets.tool.draw(tool.items());

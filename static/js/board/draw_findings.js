@@ -1,11 +1,15 @@
 /** What the planner found: what must be held and where hands grip, what is wrong, how far the hands fall short. */
 
-import { distance, left, minus, plus, times, toInner, unit as direction } from "./geometry.js";
+import { left, minus, plus, times, toInner, unit as direction } from "./geometry.js";
+import { dimension } from "./draw_dimension.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
 const CROSS_PX = 6;
-const LEAST_ARROW_PX = 14;
+/** Higher up than this is said in words (m). */
+const ON_TABLE_M = 0.05;
+/** A direction with less of it along the table than this is not shown on the board. */
+const LEVEL = 0.5;
 
 /** Must-hold corners and grips of the fold that is looked at. @param {import("./board.js").Board} board */
 export function drawChecks(board) {
@@ -85,12 +89,7 @@ export function drawReason(board) {
   const from = board.view.toPx(at);
   /** @type {import("./sheet.js").Item[]} */
   const items = [crossAt("reason", from, 8)];
-  const missing = reason.towards && reason.short_by_m;
-  if (missing) {
-    const [x, y] = plus(reason.point, times(reason.towards, reason.short_by_m));
-    const tip = toInner(placement, [x, y]);
-    items.push(...arrow(from, board.view.toPx(tip), `${length(reason.short_by_m)} short`));
-  }
+  items.push(...shortfall(board.view, placement, reason, from));
   if (reason.arm)
     items.push({
       key: "arm",
@@ -103,26 +102,14 @@ export function drawReason(board) {
   return items;
 }
 
-/** A dimension: an arrow with ticks and its length. */
-function arrow(a, b, text) {
-  const along = direction(minus(b, a));
-  const tip = distance(a, b) < LEAST_ARROW_PX ? plus(a, times(along, LEAST_ARROW_PX)) : b;
-  const aside = times(left(along), 4);
-  const back = minus(tip, times(along, 8));
-  const d = path([a, tip], false) + path([plus(back, aside), tip, minus(back, aside)], false);
-  const tick = path([plus(tip, times(left(along), 9)), minus(tip, times(left(along), 9))], false);
-  const beyond = plus(tip, times(along, 10));
-  const anchor = Math.abs(along[0]) < 0.5 ? "middle" : along[0] > 0 ? "start" : "end";
-  return [
-    { key: "missing", tag: "path", class: "reason-arrow", d: d + tick },
-    {
-      key: "missing:text",
-      tag: "text",
-      class: "reason-text",
-      x: beyond[0],
-      y: beyond[1] + (along[1] > 0.5 ? 12 : 4),
-      "text-anchor": anchor,
-      text,
-    },
-  ];
+/** How much is missing: along the table as an arrow, upwards or downwards in words alone. */
+function shortfall(view, placement, { point, towards, short_by_m: short }, from) {
+  if (!towards || !short) return [];
+  const high = point[2] >= ON_TABLE_M ? `, ${length(point[2])} up` : "";
+  if (Math.hypot(towards[0], towards[1]) < LEVEL) {
+    const text = `${length(short)} too ${towards[2] < 0 ? "high" : "low"}${high}`;
+    return [{ key: "missing", tag: "text", class: "reason-text", x: from[0] + 16, y: from[1] + 4, text }];
+  }
+  const [x, y] = plus(point, times(towards, short));
+  return dimension("missing", from, view.toPx(toInner(placement, [x, y])), `${length(short)} short${high}`);
 }

@@ -41,8 +41,7 @@ function foldHandles(board) {
     if (index < step) return [];
     const ends = [view.toPx(fold.start.point), view.toPx(fold.end.point)];
     const isSelected = board.isSelected("fold", fold.id);
-    const colour = fold.kind === "red" ? "Red: last flap" : "Blue: all layers";
-    const label = `Fold ${index + 1}: ${fold.name || "no name"}, ${colour}`;
+    const label = `Fold ${index + 1}: ${fold.name || "no name"}, ${fold.kind}`;
     const state = `is-${fold.kind}${isSelected ? " is-selected" : ""}${step > 0 && index > step ? " is-later" : ""}`;
     return [
       {

@@ -1,8 +1,11 @@
 /** Marks that come and go: the snap in force by its name, and what a suggestion would change. */
 
+import { dimension } from "./draw_dimension.js";
 import { foldItems } from "./draw_folds.js";
 import { path } from "./sheet.js";
-import { toInner, toOuter } from "./geometry.js";
+import { distance, toInner, toOuter } from "./geometry.js";
+import { middleOf } from "./edits.js";
+import { length } from "./units.js";
 
 /** @param {import("./board.js").Board} board */
 export function drawCursor({ snapped, view, said }) {
@@ -31,10 +34,14 @@ export function drawCursor({ snapped, view, said }) {
  */
 export function drawPreview({ store, view, drawing }) {
   const { placement, garment } = store.preview ?? {};
+  /** @type {import("./sheet.js").Item[]} */
   const items = [];
   if (placement) {
     const ring = drawing.outline.map(({ point }) => view.toPx(toInner(drawing.placement, toOuter(placement, point))));
+    const middle = middleOf(drawing);
+    const wanted = toInner(drawing.placement, toOuter(placement, middle));
     items.push({ key: "placed", tag: "path", class: "preview", d: path(ring) });
+    items.push(...dimension("moved", view.toPx(middle), view.toPx(wanted), length(distance(middle, wanted))));
   }
   for (const [index, fold] of (garment?.folds ?? []).entries()) {
     items.push(

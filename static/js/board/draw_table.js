@@ -1,8 +1,10 @@
 /** The table from above with the places where the robot may stand; only while the garment is being placed. */
 
+import { toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 
-const BASE_M = 0.33;
+/** How large the robot is drawn (m). */
+export const BASE_M = 0.33;
 
 /** @param {import("./board.js").Board} board */
 export function drawTable({ view, drawing }) {
@@ -16,6 +18,26 @@ export function drawTable({ view, drawing }) {
     { key: "middle", tag: "path", class: "table-middle", d: path(middle, false) + path(across, false) },
     ...Object.entries(stations).flatMap(([name, pose]) => station(view, name, pose, name === drawing.start_station)),
   ];
+}
+
+/**
+ * The table's edge where the cloth lies, if that matters: there is no plan, or another place is pointed at.
+ * @param {import("./board.js").Board} board
+ * @param {"table is-faint"|"table-line"} look the top under the cloth, or its edge over it
+ */
+export function drawTableEdge({ store, view, drawing, isPlacing }, look) {
+  const hasNoPlan = store.plan?.status === "infeasible" || store.plan?.status === "budget_exceeded";
+  if (isPlacing || !drawing.outline.length || !(hasNoPlan || store.preview?.placement)) return [];
+  const [deep, wide] = [drawing.scene.table.depth_m / 2, drawing.scene.table.width_m / 2];
+  /** @type {[number, number][]} */
+  const corners = [
+    [-deep, -wide],
+    [deep, -wide],
+    [deep, wide],
+    [-deep, wide],
+  ];
+  const ring = corners.map((corner) => view.toPx(toInner(drawing.placement, corner)));
+  return [{ key: "edge", tag: "path", class: look, d: path(ring) }];
 }
 
 /** @param {import("./view.js").View} view @param {...[number, number]} points of the table's frame */

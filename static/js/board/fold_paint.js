@@ -1,6 +1,6 @@
 /** How folds are drawn: which layers they take, which side moves; of the selected folds, or else of the next. */
 
-import { flipFolds, paintFolds } from "./edits.js";
+import { flipFolds, mirrorFolds, paintFolds } from "./edits.js";
 
 export class FoldPaint {
   /** @param {import("./board.js").Board} board */
@@ -22,6 +22,13 @@ export class FoldPaint {
     return selection?.kind === "fold" ? selection.ids : [];
   }
 
+  /** The selected folds; while folds are being drawn the one drawn last. */
+  get meant() {
+    const { tool } = this.board;
+    const isJustDrawn = tool.name === "fold" && !tool.isBusy && this.board.fold(tool.last);
+    return this.chosen.length || !isJustDrawn ? this.chosen : [tool.last];
+  }
+
   /** @param {"blue"|"red"} kind */
   put(kind) {
     const ids = this.chosen;
@@ -34,12 +41,24 @@ export class FoldPaint {
 
   /** The other side moves: of the selected folds, the one being drawn, the one drawn last, or the next one. */
   flip() {
-    const { tool, store } = this.board;
-    const last = tool.name === "fold" && !tool.isBusy && this.board.fold(tool.last) ? [tool.last] : [];
-    const ids = this.chosen.length ? this.chosen : last;
-    if (ids.length) store.edit("Flip fold", (drawing) => flipFolds(drawing, ids));
+    const ids = this.meant;
+    if (ids.length) this.board.store.edit("Flip fold", (drawing) => flipFolds(drawing, ids));
     else this.turnOver(!this.isFlipped);
     this.board.render();
+  }
+
+  /** A twin for each fold that is meant, on the garment's other side. @returns {boolean} whether there was one */
+  mirror() {
+    const { board } = this;
+    const ids = this.meant;
+    if (!ids.length) return false;
+    const isDrawing = board.tool.name === "fold";
+    board.store
+      .edit("Mirror fold", (drawing) => mirrorFolds(drawing, ids))
+      .then(() => {
+        if (isDrawing) board.store.showStep(board.store.moments - 1);
+      });
+    return true;
   }
 
   /** @param {boolean} isFlipped */
@@ -49,6 +68,9 @@ export class FoldPaint {
   }
 
   askAgain() {
-    if (this.board.tool.isBusy) this.board.tool.ask();
+    const { tool, svg } = this.board;
+    if (!tool.isBusy) return;
+    tool.ask();
+    svg.focus({ preventScroll: true }); // the stroke goes on
   }
 }

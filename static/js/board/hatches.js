@@ -7,7 +7,7 @@ const WIDTH_PX = 7;
 /** @returns {SVGElement} */
 export function hatches() {
   const defs = svg("defs");
-  for (const name of ["back", "ghost", "places"]) {
+  for (const name of ["back", "ghost"]) {
     const pattern = svg("pattern", {
       id: `hatch-${name}`,
       width: WIDTH_PX,

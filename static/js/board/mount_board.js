@@ -30,6 +30,7 @@ export function boardKeys(board) {
     b: () => board.paint.put("blue"),
     r: () => board.paint.put("red"),
     x: () => board.paint.flip(),
+    escape: () => board.escape(),
     0: () => board.framing.fit(),
     "[": () => board.store.showStep(board.store.step - 1),
     "]": () => board.store.showStep(board.store.step + 1),

@@ -6,6 +6,7 @@ import { showExport } from "./export.js";
 import { showHelp } from "./help.js";
 import { acceptDrops, showImport } from "./import.js";
 import { showNew } from "./new.js";
+import { showRename } from "./rename.js";
 
 /** @param {import("../store.js").Store} store */
 export function mountDialogs(store) {
@@ -23,6 +24,7 @@ export function mountDialogs(store) {
   put("import", "import", "Import", verbs.startImport);
   put("export", "export", "Export", () => showExport(store));
   put("help", "help", "", verbs.help);
+  put("rename", "rename", "", () => showRename(store));
   acceptDrops(store);
   return verbs;
 }

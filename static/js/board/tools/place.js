@@ -1,5 +1,6 @@
 /** The tool `Place`: the garment on the table, seen from above; it is dragged, and turned by its handle. */
 
+import { BASE_M } from "../draw_table.js";
 import { middleOf } from "../edits.js";
 import { boxOf, distance, isInside, minus, plus, times, toOuter, turned } from "../geometry.js";
 import { Gesture } from "../gesture.js";
@@ -24,7 +25,7 @@ export class PlaceTool extends Tool {
   }
 
   get hint() {
-    return "Drag the garment on the table; turn it by its handle. Shift turns by 15\u00B0.";
+    return "Drag the garment, turn it by its handle (Shift: by 15\u00B0), click where the robot shall start.";
   }
 
   enter() {
@@ -52,10 +53,17 @@ export class PlaceTool extends Tool {
     return isInside(pointer.at, [this.board.drawing.outline.map(({ point }) => point)]) ? "move" : null;
   }
 
+  /** The station whose robot is drawn there. */
+  station(pointer) {
+    const { view, drawing } = this.board;
+    const isThere = ([, { x_m, y_m }]) => distance(pointer.px, view.tableToPx([x_m, y_m])) <= BASE_M * view.scale;
+    return Object.entries(drawing.scene.stations).find(isThere)?.[0] ?? null;
+  }
+
   hover(pointer) {
     this.board.hover = null;
-    const grasp = this.grasp(pointer);
-    this.cursor = grasp === "turn" ? "grab" : grasp ? "move" : "default";
+    const grasp = this.grasp(pointer) ?? this.station(pointer);
+    this.cursor = { turn: "grab", move: "move" }[grasp] ?? (grasp ? "pointer" : "default");
   }
 
   press(pointer) {
@@ -116,8 +124,13 @@ export class PlaceTool extends Tool {
     return laid(this.held.centre, this.held.middle, yaw);
   }
 
-  release() {
+  release(pointer, hasMoved) {
     const { gesture } = this;
+    const { store, drawing } = this.board;
+    const station = this.held && !this.held.grasp && !hasMoved ? this.station(pointer) : null;
+    if (station && station !== drawing.start_station) {
+      store.edit(`Start at ${station.replaceAll("_", " ")}`, (changed) => void (changed.start_station = station));
+    }
     this.held = null;
     this.gesture = null;
     gesture?.commit();

@@ -1,0 +1,40 @@
+/** What the garment is called; its file is named after that. */
+
+import { element } from "../dom.js";
+import { openDialog } from "./dialog.js";
+
+const LONGEST_NAME = 63;
+const LONGEST_TITLE = 200;
+
+/** @param {import("../store.js").Store} store */
+export function showRename(store) {
+  if (!store.state) return;
+  const input = /** @type {HTMLInputElement} */ (element("input", "field title-field"));
+  input.value = store.state.drawing.title;
+  input.maxLength = LONGEST_TITLE;
+  input.required = true;
+  input.autocomplete = "off";
+  const form = element(
+    "form",
+    "rename",
+    element("label", "", element("span", "dialog-text", "Name"), input),
+    element("div", "dialog-buttons", element("button", "main-button", "Rename")),
+  );
+  const dialog = openDialog("Rename garment", "", form);
+  input.select();
+  input.focus();
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const title = input.value.trim();
+    if (!title) return;
+    store.edit("Rename garment", (drawing) => Object.assign(drawing, { title, name: fileName(title) }));
+    dialog.close();
+  });
+}
+
+/** The name of a garment's file: small letters without accents, digits and dashes. @param {string} title */
+function fileName(title) {
+  const plain = title.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase();
+  const dashed = plain.replace(/[^a-z0-9]+/g, "-").replace(/^-+/, "");
+  return dashed.slice(0, LONGEST_NAME).replace(/-+$/, "") || "garment";
+}

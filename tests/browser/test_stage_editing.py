@@ -1,0 +1,124 @@
+"""Editing in the stage of the real page, with the mouse: what is seen there is asked of the stage's own scene."""
+
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import Browser, FrameLocator, Page, Playwright, expect
+
+from planner.geometry.pose import Point2, Pose2
+from tests.app.conftest import Served
+from tests.browser.conftest import Sheet
+
+FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic"]
+PATIENCE_MS = 30_000
+
+IN_STAGE = "document.getElementById('stage').contentWindow.__viserMutable"
+IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
+CAMERA = f"() => {IN_STAGE}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
+TO_PICTURE = f"""(place) => {{
+  const viser = {IN_STAGE}, world = viser.nodeRefFromName[""];
+  const seen = world.position.clone().set(...place).applyMatrix4(world.matrixWorld).project(viser.camera);
+  const frame = document.getElementById("stage").getBoundingClientRect();
+  const picture = viser.canvas.getBoundingClientRect();
+  return [
+    frame.x + picture.x + ((seen.x + 1) / 2) * picture.width,
+    frame.y + picture.y + ((1 - seen.y) / 2) * picture.height,
+  ];
+}}"""
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    server = Served(tmp_path_factory.mktemp("data"))
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="module")
+def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
+    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
+def page(browser: Browser, served: Served) -> Iterator[Page]:
+    """The page with its stage, planned; it fails on any error in the page."""
+    faults: list[str] = []
+    page = browser.new_page(viewport={"width": 900, "height": 500})
+    page.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto(served.url)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.wait_for_function(IS_THERE, arg="/cloth/front")
+    yield page
+    page.close()
+    assert faults == []
+
+
+def until(condition: Callable[[], Any]) -> None:
+    deadline = time.monotonic() + PATIENCE_MS / 1000
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def still_camera(page: Page) -> str:
+    """Where the camera is, once it has come to rest."""
+    before = ""
+    while (now := str(page.evaluate(CAMERA))) != before:
+        before = now
+        page.wait_for_timeout(300)
+    return now
+
+
+def corner_in_picture(page: Page, sheet: Sheet, index: int) -> Point2:
+    drawing = sheet.drawing
+    placed = Pose2(**drawing["placement"]).to_outer(np.array(drawing["outline"][index]["point"]))
+    x, y = page.evaluate(TO_PICTURE, [*placed.tolist(), 0.0015])
+    return (x, y)
+
+
+def choose(stage: FrameLocator, mode: str) -> None:
+    stage.get_by_label("Mode").locator("visible=true").click()
+    stage.get_by_role("option", name=mode).click()
+
+
+def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Page, served: Served) -> None:
+    sheet, stage = Sheet(served.url, page.url.rpartition("/")[2]), page.frame_locator("#stage")
+    before = sheet.drawing
+    opening = still_camera(page)
+    stage.get_by_text("Table").locator("visible=true").click()
+    stage.get_by_role("button", name="Top").click()
+    until(lambda: page.evaluate(CAMERA) != opening)
+    above = still_camera(page)
+    choose(stage, "Move points")
+    page.wait_for_function(IS_THERE, arg="/editor/handles")
+
+    x, y = corner_in_picture(page, sheet, 0)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 10, y - 6)
+    page.mouse.move(x + 20, y - 12)
+    until(lambda: sheet.state["gesture"] == "Move vertex")
+    page.mouse.up()
+    until(lambda: sheet.state["gesture"] is None)
+    assert sheet.can_undo == "Move vertex"
+    u, v = corner_in_picture(page, sheet, 0)
+    assert (u, v) == pytest.approx((x + 20, y - 12), abs=1.0)
+    assert [c["point"] for c in sheet.drawing["outline"][1:]] == [c["point"] for c in before["outline"][1:]]
+
+    stage.get_by_role("button", name="Undo: Move vertex").click()
+    until(lambda: sheet.drawing == before)
+
+    page.mouse.move(x + 60, y - 60)  # on the cloth, where there is no corner
+    page.mouse.down()
+    page.mouse.move(x + 90, y - 90)
+    page.mouse.up()
+    expect(stage.get_by_text("There is no corner there")).to_be_visible()
+    assert sheet.drawing == before
+    assert still_camera(page) == above
