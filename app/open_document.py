@@ -10,7 +10,8 @@ from app.job_pool import JobPool
 from app.plan_store import PlanStore
 from app.player import Player
 from app.replanner import Replanner
-from app.ui.stage import Stage
+from app.ui.editor.desk import Desk
+from app.ui.stage import OPENING, Stage
 from planner.robot.pr2 import load_robot
 
 ROBOT = "pr2"
@@ -41,7 +42,8 @@ class OpenDocument:
         with self._lock:
             if self._shown is None:
                 stage = Stage(self._card, self.document.state.drawing.scene)
-                self._shown = (stage, Player(self.document, stage))
+                desk = Desk(self.document, stage.server, self._card, OPENING)
+                self._shown = (stage, Player(self.document, stage, desk))
             return self._shown[0]
 
     @property

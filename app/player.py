@@ -6,6 +6,7 @@ import time
 
 from app.document import Document
 from app.document_state import DocumentState, Film
+from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
 from planner.cloth.garment import Garment
@@ -19,12 +20,22 @@ _log = logging.getLogger(__name__)
 
 
 class Player:
-    """A thread that is the only one to write on a stage."""
+    """A thread that is the only one to write on a stage.
 
-    def __init__(self, document: Document, stage: Stage) -> None:
-        """Start showing at once; ends with `close`."""
+    What visitors of the stage ask for is done by the same thread, before it draws.
+    """
+
+    def __init__(self, document: Document, stage: Stage, desk: Desk | None = None) -> None:
+        """Start showing at once; ends with `close`.
+
+        Args:
+            document: what is shown.
+            stage: where.
+            desk: those who edit on the stage.
+        """
         self._document = document
         self._stage = stage
+        self._desk = desk
         self._changed = threading.Event()
         self._is_closed = False
         self._due_s = 0.0
@@ -33,6 +44,8 @@ class Player:
         self._spread: Garment | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
+        if desk is not None:
+            desk.on_asked(self._changed.set)
         self._thread = threading.Thread(target=self._run, name="player", daemon=True)
         self._thread.start()
 
@@ -64,7 +77,14 @@ class Player:
         return self._due_s - now_s
 
     def _update(self) -> None:
+        if self._desk is not None:
+            self._desk.work()
         state = self._document.state
+        self._show(state)
+        if self._desk is not None:
+            self._desk.show(state)
+
+    def _show(self, state: DocumentState) -> None:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._stage.set_theme(is_dark=state.is_dark)

@@ -1,8 +1,9 @@
 """The way to a stage: its page and websocket under `/viser/{document}`, passed on to its own viser server.
 
 The page is one file, the same for all stages. It works out where its websocket is from its own address less
-the trailing slash, so page and websocket differ by that slash alone. Its panel of controls and its notices
-have no place in our frame: the style that we add hides all but the canvas.
+the trailing slash, so page and websocket differ by that slash alone. Its notices, and on a phone its panel of
+controls, have no place in our frame: the style that we add hides all but the canvas and the panels that float. A
+frame is narrower than a window, so what viser takes for a phone is made narrower too.
 """
 
 import asyncio
@@ -29,7 +30,12 @@ _GOING_AWAY = 1001
 _NOT_FOUND = 4404
 _HIDE = (
     b"<style>#root * { visibility: hidden }"
-    b"#root canvas, #root canvas ~ div, #root canvas ~ div * { visibility: visible }</style>"
+    b"#root canvas, #root canvas ~ div, #root canvas ~ div *, "
+    b"#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
+)
+_NARROW = (
+    b"<script>{ const asked = window.matchMedia.bind(window);"
+    b' window.matchMedia = (query) => asked(query.replace("(max-width: 36em)", "(max-width: 25em)")); }</script>'
 )
 
 
@@ -66,7 +72,7 @@ async def connect_stage(websocket: WebSocket, name: str) -> None:
 
 @functools.lru_cache(maxsize=1)
 def _bare_page() -> bytes:
-    return VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + b"</head>", 1)
+    return VISER_PAGE.read_bytes().replace(b"<head>", b"<head>" + _NARROW, 1).replace(b"</head>", _HIDE + b"</head>", 1)
 
 
 def _dial(stage: Stage, subprotocols: list[str]) -> connect:

@@ -14,9 +14,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.plan.frame import ClothSurface
 
-FRONT = "/cloth/front"
-BACK = "/cloth/back"
-EDGES = "/cloth/edges"
+ROOT = "/cloth"
 
 _EDGE_PX = 1.5
 _SIDES = np.array([[0, 1], [1, 2], [2, 0]])
@@ -27,13 +25,13 @@ _NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
 class ClothView:
     """Shows one cloth surface at a time."""
 
-    def __init__(self, server: viser.ViserServer) -> None:
-        """Build the nodes, still without cloth."""
-        add_mesh = server.scene.add_mesh_simple
-        self._front = add_mesh(FRONT, _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
-        self._back = add_mesh(BACK, _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
-        self._edges = server.scene.add_line_segments(
-            EDGES,
+    def __init__(self, scene: viser.SceneApi, root: str = ROOT) -> None:
+        """Build the nodes ``front``, ``back`` and ``edges`` below a root, still without cloth."""
+        add_mesh = scene.add_mesh_simple
+        self._front = add_mesh(f"{root}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
+        self._back = add_mesh(f"{root}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
+        self._edges = scene.add_line_segments(
+            f"{root}/edges",
             np.zeros((1, 2, 3)),
             (0, 0, 0),
             thickness=_EDGE_PX,
@@ -45,6 +43,11 @@ class ClothView:
         """Change to other colours."""
         self._front.color, self._back.color = paint(palette.cloth_front), paint(palette.cloth_back)
         self._edges.colors = ink(palette.cloth_edge)
+
+    def set_visible(self, *, is_visible: bool) -> None:
+        """Have it seen or not."""
+        for node in (self._front, self._back, self._edges):
+            node.visible = is_visible
 
     def show(self, cloth: ClothSurface) -> None:
         """Put this surface in place of the one before."""

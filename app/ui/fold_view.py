@@ -39,9 +39,11 @@ class FoldView:
 
     def show_garment(self, garment: Garment) -> None:
         """Take the folds of another garment; `place` then says where they are."""
+        before, self._folds = self._folds, garment.folds
+        if [fold.is_red for fold in before] == [fold.is_red for fold in garment.folds]:
+            return  # a fold that is being moved does not flicker
         for line in self._lines:
             line.remove()
-        self._folds = garment.folds
         self._lines = [self._add_line(index, fold) for index, fold in enumerate(garment.folds)]
 
     def place(

@@ -5,6 +5,7 @@ follows. It knows nothing of clocks: whoever owns it says which frame to show.
 """
 
 import numpy as np
+import viser
 from viser.infra import StateSerializer
 
 from app.ui.cloth_view import ClothView
@@ -16,6 +17,7 @@ from app.ui.private_viser import start_private_viser
 from app.ui.progress import Stint, stints
 from app.ui.robot_view import RobotView
 from app.ui.table_view import TableView
+from app.ui.viewpoint import Viewpoint
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
@@ -25,8 +27,7 @@ from planner.plan.plan import Plan
 from planner.primitives.scene import Scene
 from planner.robot.card import RobotCard
 
-CAMERA_FROM = (0.80, 2.07, 1.80)
-CAMERA_TO = (-0.68, 0.01, -0.01)
+OPENING = Viewpoint(position=(0.80, 2.07, 1.80), look_at=(-0.68, 0.01, -0.01))
 CAMERA_FOV_RAD = 0.72
 """The table and the robot fit into a view of 2:1, also while the robot is backed off."""
 
@@ -50,7 +51,7 @@ class Stage:
         with self._server.atomic():
             self._look()
             self._table = TableView(self._server, scene)
-            self._cloth = ClothView(self._server)
+            self._cloth = ClothView(self._server.scene)
             self._folds = FoldView(self._server)
             self._robot = RobotView(self._server, card, floor_z_m)
             self._grips = GripView(self._server, self._robot.hands, floor_z_m)
@@ -58,6 +59,11 @@ class Stage:
         self._stints: tuple[Stint, ...] = ()
         self._marked: Stint | None = None
         self.set_theme(is_dark=False)
+
+    @property
+    def server(self) -> viser.ViserServer:
+        """Its viser server."""
+        return self._server
 
     @property
     def has_watchers(self) -> bool:
@@ -120,7 +126,7 @@ class Stage:
     def _look(self) -> None:
         add_lights(self._server)
         camera = self._server.initial_camera
-        camera.position, camera.look_at = CAMERA_FROM, CAMERA_TO
+        camera.position, camera.look_at = OPENING.position, OPENING.look_at
         camera.fov = CAMERA_FOV_RAD
 
     def _waiting_joints(self) -> dict[str, float]:

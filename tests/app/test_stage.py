@@ -149,6 +149,20 @@ def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(stage: Stage, nam
         assert not handle.visible, mark
 
 
+def test_a_fold_that_is_moved_keeps_its_line_so_that_it_does_not_flicker(stage: Stage, plan: Plan) -> None:
+    garment, base = plan.garment, Scene().stations[0][1]
+    cloth = lying_cloth(garment, Scene().table)
+    stage.show_garment(garment, cloth, base)
+    line, before = stage._server.scene.get_handle_by_name("/folds/0"), line_points(stage, 0)
+    first, *others = garment.folds
+    moved = replace(first, start=(first.start[0], first.start[1] + 0.05))
+    stage.show_garment(replace(garment, folds=(moved, *others)), cloth, base)
+    assert stage._server.scene.get_handle_by_name("/folds/0") is line
+    assert len(line_points(stage, 0)) < len(before)  # 0.05 m shorter, in steps of 0.01 m
+    stage.show_garment(replace(garment, folds=(first, *others[:-1], replace(others[-1], kind="red"))), cloth, base)
+    assert stage._server.scene.get_handle_by_name("/folds/0") is not line
+
+
 def test_a_hands_letter_goes_along_with_it(stage: Stage, plan: Plan) -> None:
     for arm in CARD.arms:
         assert stage._robot.hands[arm.name].endswith(arm.tool_frame)

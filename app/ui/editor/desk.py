@@ -1,0 +1,110 @@
+"""All who look at one stage, and what they ask for.
+
+viser calls back in a thread of its own, which must never wait: all it does here is to put what is asked for into a
+tray. The thread that writes on the stage empties the tray, changes the document, and draws. So there is one
+thread that edits and draws, in the order in which things were done, and neither a lock nor half a change.
+"""
+
+import logging
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import viser
+
+from app.document import Document
+from app.document_state import DocumentState
+from app.ui.editor.seat import Seat
+from app.ui.viewpoint import Viewpoint
+from planner.robot.card import RobotCard
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """Something to be done.
+
+    Attributes:
+        visitor: whose it is.
+        act: what.
+        is_passing: whether it may be left out when the same visitor has moved on already.
+    """
+
+    visitor: int
+    act: Callable[[], None]
+    is_passing: bool
+
+    def done(self) -> None:
+        """Do it; what goes wrong there is nobody else's business."""
+        try:
+            self.act()
+        except Exception:
+            _log.exception("what a visitor of a stage asked for could not be done")
+
+    def replaces(self, other: "_Asked") -> bool:
+        """Whether the other need not be done any more."""
+        return self.is_passing and self.visitor == other.visitor
+
+
+class Desk:
+    """Everybody gets a seat of their own: mode, panels, drawing aids and camera are nobody else's business."""
+
+    def __init__(self, document: Document, server: viser.ViserServer, card: RobotCard, opening: Viewpoint) -> None:
+        """Wait for visitors.
+
+        Args:
+            document: what is edited.
+            server: the stage's server.
+            card: the robot.
+            opening: where cameras are at first.
+        """
+        self._document = document
+        self._server = server
+        self._card = card
+        self._opening = opening
+        self._tray: deque[_Asked] = deque()
+        self._seats: dict[int, Seat] = {}
+        self._ring: Callable[[], object] = lambda: None
+        server.on_client_connect(self._came)
+        server.on_client_disconnect(self._went)
+
+    def on_asked(self, ring: Callable[[], object]) -> None:
+        """Have a function called when there is something to do; any thread may call it."""
+        self._ring = ring
+        ring()
+
+    def work(self) -> None:
+        """Do what has been asked for so far, but of a drag only the latest."""
+        while self._tray:
+            asked = self._tray.popleft()
+            following = self._tray[0] if self._tray else None
+            if not (asked.is_passing and following is not None and following.replaces(asked)):
+                asked.done()
+
+    def show(self, state: DocumentState) -> None:
+        """Bring everybody's panels and aids up to date."""
+        for seat in tuple(self._seats.values()):
+            seat.show(state)
+
+    def _ask(self, visitor: int, act: Callable[[], None], is_passing: bool) -> None:
+        self._tray.append(_Asked(visitor, act, is_passing))
+        self._ring()
+
+    async def _came(self, client: viser.ClientHandle) -> None:
+        self._ask(client.client_id, lambda: self._sit_down(client), False)
+
+    async def _went(self, client: viser.ClientHandle) -> None:
+        self._ask(client.client_id, lambda: self._get_up(client), False)
+
+    def _sit_down(self, client: viser.ClientHandle) -> None:
+        def ask(act: Callable[[], None], is_passing: bool) -> None:
+            self._ask(client.client_id, act, is_passing)
+
+        if client.client_id in self._server.get_clients():
+            self._seats[client.client_id] = Seat(client, self._document, self._card, self._opening, ask)
+
+    def _get_up(self, client: viser.ClientHandle) -> None:
+        seat = self._seats.pop(client.client_id, None)
+        if seat is not None:
+            seat.leave()

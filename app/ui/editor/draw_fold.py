@@ -1,0 +1,184 @@
+"""The tool `Draw fold`: a line dragged across the cloth, as it lies after all folds so far.
+
+What is left of the line, seen along the drag, moves. An end that is let go near the boundary is put onto it; one that
+is not slides along the line to where that leaves the cloth.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.document_state import DocumentState
+from app.drawing.drawing import Crease, Drawing, fresh_ids
+from app.drawing.place_crease import PlacedCrease, along_line
+from app.drawing.solution import landed_rings
+from app.ui.editor.aids import Aids, Ghost, Pile, closed
+from app.ui.editor.aim import Aim
+from app.ui.editor.ground import Ground, in_article, on_table
+from app.ui.editor.mode import FoldKind
+from app.ui.editor.pencil import Pencil
+from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.tool import Tool
+from planner.cloth.garment import FOLDS_MAX
+from planner.folds.fold_cloth import flap_silhouette
+from planner.geometry.pose import Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+
+CORNER_PX = 10.0
+EDGE_PX = 12.0
+LABEL = "Draw fold"
+
+
+@dataclass(frozen=True, slots=True)
+class _Stroke:
+    """A line that is being drawn.
+
+    Attributes:
+        start: where it began, table frame (m).
+        end: where the pointer is.
+        ground: where it may be put down.
+    """
+
+    start: Point2
+    end: Point2
+    ground: Ground
+
+
+class DrawFold(Tool):
+    """A drag, or a click at each end.
+
+    Attributes:
+        kind: which folds are drawn.
+    """
+
+    def __init__(self, pencil: Pencil) -> None:
+        """A tool that writes with a pencil."""
+        self.kind = FoldKind.BLUE
+        self._pencil = pencil
+        self._stroke: _Stroke | None = None
+        self._found: PlacedCrease | None = None
+
+    def hint(self) -> str:
+        """What to do now."""
+        if self._stroke is not None:
+            return "To another edge; what is left of the line moves. Off the table it is dropped."
+        if len(self._pencil.state.solution.cloths) > 1:
+            return "Drag from edge to edge of the folded cloth."
+        return "Drag from edge to edge of the cloth."
+
+    def press(self, aim: Aim) -> None:
+        """Begin a line."""
+        state = self._pencil.state
+        start = _snapped(state, aim, self._seen(state))
+        self._stroke = _Stroke(start, start, Ground.of(state.drawing))
+
+    def drag(self, aim: Aim | None) -> None:
+        """Draw it as far as here."""
+        if self._stroke is None or aim is None:
+            return
+        state = self._pencil.state
+        self._found, self._stroke = None, replace(self._stroke, end=_snapped(state, aim, self._seen(state)))
+        self._found = self._placed(state, self._stroke)
+
+    def release(self, aim: Aim | None) -> None:
+        """Make the fold, as one step."""
+        stroke = self._stroke
+        if stroke is None:
+            return
+        self.put_down()
+        if aim is None or not stroke.ground.holds(aim.point):
+            raise RefusedError("That is off the table: no fold was made.")
+        state = self._pencil.state
+        drawn = replace(stroke, end=_snapped(state, aim, self._seen(state)))
+        self._pencil.commit(LABEL, lambda now: self._folded(now, drawn))
+
+    def tap(self, aim: Aim) -> None:
+        """Begin a line, or end it."""
+        if self._stroke is None:
+            self.press(aim)
+        else:
+            self.release(aim)
+
+    def last(self) -> str | None:
+        """The line that has been begun."""
+        return "line" if self._stroke is not None else None
+
+    def put_down(self) -> None:
+        """Drop the line that has been begun."""
+        self._stroke = self._found = None
+
+    def aids(self, state: DocumentState) -> Aids:
+        """Where lines may begin, the folded cloth, and the line."""
+        if not state.solution.cloths:
+            return Aids()
+        cloth, drawing = state.solution.cloths[-1], state.drawing
+        seen = flap_silhouette(cloth, is_red=self._is_red)
+        lines = tuple(closed(on_table(drawing, ring.tolist())) for ring in seen.rings)
+        pile = Pile(cloth, drawing.placement) if len(state.solution.cloths) > 1 else None
+        return Aids(lines=lines, pile=pile, ghost=self._ghost(drawing))
+
+    @property
+    def _is_red(self) -> bool:
+        return self.kind is FoldKind.RED
+
+    def _seen(self, state: DocumentState) -> Region:
+        """What a fold of this kind sees, article frame."""
+        solution = state.solution
+        if not solution.cloths:
+            raise RefusedError("There is no cloth yet: draw an outline first.")
+        legal = len(solution.cloths) - 1
+        if legal < len(state.drawing.folds):
+            why = next((problem.message for problem in solution.problems if problem.fold == legal), "it is not legal")
+            raise RefusedError(as_sentence(f"mend fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
+        if legal == FOLDS_MAX:
+            raise RefusedError(f"There are {FOLDS_MAX} folds already, and there may be no more.")
+        if self._is_red and legal == 0:
+            raise RefusedError("The first fold cannot be red: red takes the flap of the fold before it.")
+        return flap_silhouette(solution.cloths[-1], is_red=self._is_red)
+
+    def _placed(self, state: DocumentState, stroke: _Stroke) -> PlacedCrease:
+        start, end = (in_article(state.drawing, point) for point in (stroke.start, stroke.end))
+        if start == end:
+            raise RefusedError("Drag on, to another edge of the cloth.")
+        return along_line(state.solution, None, Segment(start, end), is_red=self._is_red)
+
+    def _folded(self, state: DocumentState, stroke: _Stroke) -> Drawing:
+        self._seen(state)
+        placed, folds = self._placed(state, stroke), state.drawing.folds
+        (name,) = fresh_ids("f", (fold.id for fold in folds), 1)
+        kind = "red" if self._is_red else "blue"
+        crease = Crease(name, _name_of(placed.line), kind, placed.start, placed.end)
+        return replace(state.drawing, folds=(*folds, crease))
+
+    def _ghost(self, drawing: Drawing) -> Ghost | None:
+        stroke, found = self._stroke, self._found
+        if stroke is None or stroke.start == stroke.end:
+            return None
+        if found is None:
+            return Ghost(Segment(stroke.start, stroke.end), self._is_red)
+        start, end = on_table(drawing, (found.line.start, found.line.end))
+        landed = landed_rings(found.folded.moving, found.line)
+        rings = tuple(on_table(drawing, [(x, y) for x, y in ring]) for ring in landed)
+        return Ghost(Segment(start, end), self._is_red, rings)
+
+
+def _snapped(state: DocumentState, aim: Aim, seen: Region) -> Point2:
+    """The corner or the place on the boundary that is near enough, or where the pointer is; table frame (m)."""
+    point = in_article(state.drawing, aim.point)
+    corners = [(float(x), float(y)) for ring in seen.rings for x, y in ring]
+    corner = min(corners, key=lambda place: math.dist(place, point))
+    ((x, y),) = seen.nearest_boundary_points(np.array([point]))
+    for place, reach_px in ((corner, CORNER_PX), ((float(x), float(y)), EDGE_PX)):
+        if math.dist(place, point) <= reach_px * aim.pixel_m:
+            return on_table(state.drawing, [place])[0]
+    return aim.point
+
+
+def _name_of(line: Segment) -> str:
+    """What a fold is called at first: from where the cloth comes. Article frame, its y up."""
+    x, y = line.direction
+    if abs(x) > abs(y):
+        return "top down" if x > 0 else "bottom up"
+    return "left over" if y > 0 else "right over"

@@ -1,0 +1,96 @@
+"""The tool `Draw outline`: corner after corner on the table, closed at the first; it takes the old outline's place."""
+
+import math
+from dataclasses import replace
+
+from app.document_state import DocumentState
+from app.drawing.drawing import Corner, Drawing
+from app.drawing.outline_problems import outline_problems
+from app.ui.editor.aids import Aids
+from app.ui.editor.aim import Aim
+from app.ui.editor.ground import Ground, in_article
+from app.ui.editor.pencil import Pencil
+from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.tool import Tool
+from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
+from planner.geometry.pose import Point2
+
+CLOSE_PX = 12.0
+LEAST_CORNERS = 3
+LABEL = "Draw outline"
+
+
+class DrawOutline(Tool):
+    """The corners stay in the table frame until the outline is closed."""
+
+    def __init__(self, pencil: Pencil) -> None:
+        """A tool that writes with a pencil."""
+        self._pencil = pencil
+        self._points: tuple[Point2, ...] = ()
+        self._is_closed = False
+
+    def hint(self) -> str:
+        """What to do now."""
+        count = len(self._points)
+        if count == 0 and self._is_closed:
+            return "The outline is closed: go on with folds, or click the first corner of another."
+        if count == 0:
+            return "Click the corners of the cloth one after the other."
+        if count < LEAST_CORNERS:
+            return f"{count} of at least {LEAST_CORNERS} corners; Undo takes one back."
+        return "Click the first corner to close the outline; Undo takes one back."
+
+    def press(self, aim: Aim) -> None:
+        """Nothing: a corner is put where the pointer is let go."""
+
+    def drag(self, aim: Aim | None) -> None:
+        """Nothing."""
+
+    def release(self, aim: Aim | None) -> None:
+        """A click that trembled is a click."""
+        if aim is None:
+            raise RefusedError("That is off the table.")
+        self.tap(aim)
+
+    def tap(self, aim: Aim) -> None:
+        """Put a corner here, or close the outline."""
+        if not Ground.of(self._pencil.state.drawing).holds(aim.point):
+            raise RefusedError("That is off the table.")
+        near_m = CLOSE_PX * aim.pixel_m
+        if len(self._points) >= LEAST_CORNERS and math.dist(aim.point, self._points[0]) <= near_m:
+            self._close()
+        elif any(math.dist(aim.point, point) < EDGE_MIN_M for point in self._points):
+            raise RefusedError("There is a corner already.")
+        elif len(self._points) == POINTS_MAX:
+            raise RefusedError(f"An outline has at most {POINTS_MAX} corners.")
+        else:
+            self._points = (*self._points, aim.point)
+
+    def last(self) -> str | None:
+        """The corner that was put last."""
+        return f"corner {len(self._points)}" if self._points else None
+
+    def take_back(self) -> None:
+        """Take that corner away."""
+        self._points = self._points[:-1]
+
+    def put_down(self) -> None:
+        """Forget the corners."""
+        self._points = ()
+        self._is_closed = False
+
+    def aids(self, state: DocumentState) -> Aids:
+        """The corners so far, and the edges between them."""
+        return Aids(self._points, 0 if len(self._points) >= LEAST_CORNERS else None, (self._points,))
+
+    def _close(self) -> None:
+        def change(state: DocumentState) -> Drawing:
+            points = [in_article(state.drawing, point) for point in self._points]
+            for problem in outline_problems(points):
+                raise RefusedError(as_sentence(problem.message))
+            corners = tuple(Corner(f"v{i}", point) for i, point in enumerate(points))
+            return replace(state.drawing, outline=corners, folds=())
+
+        self._pencil.commit(LABEL, change)
+        self._points = ()
+        self._is_closed = True

@@ -1,0 +1,181 @@
+"""One visitor's editing: the mode, the tool in hand, what was refused. It knows the document and no viser.
+
+Everything here is done by one thread (see `app.ui.editor.desk`).
+"""
+
+from collections.abc import Callable, Mapping
+
+from app.document import Document
+from app.ui.editor.aids import NO_AIDS, Aids
+from app.ui.editor.aim import Aim
+from app.ui.editor.draw_fold import DrawFold
+from app.ui.editor.draw_outline import DrawOutline
+from app.ui.editor.mode import FoldKind, Mode
+from app.ui.editor.move_points import MovePoints
+from app.ui.editor.pencil import Pencil
+from app.ui.editor.refusal import RefusedError, as_sentence, sentence
+from app.ui.editor.tool import Tool
+from planner.errors import FoldingError
+
+_LOOKING = "Drag to look round, the wheel goes nearer. To edit, choose a mode."
+
+
+class Editor:
+    """What a pointer does to a document.
+
+    Attributes:
+        mode: what the pointer does now.
+    """
+
+    def __init__(self, document: Document, owner: str) -> None:
+        """Begin by looking.
+
+        Args:
+            document: what is edited.
+            owner: a name that no other editor of this document has.
+        """
+        self.mode = Mode.LOOK
+        self._document = document
+        self._pencil = Pencil(document, owner)
+        self._fold = DrawFold(self._pencil)
+        self._tools: Mapping[Mode, Tool] = {
+            Mode.MOVE_POINTS: MovePoints(self._pencil),
+            Mode.DRAW_OUTLINE: DrawOutline(self._pencil),
+            Mode.DRAW_FOLD: self._fold,
+        }
+        self._refusal = ""
+        self._is_down = False
+
+    @property
+    def kind(self) -> FoldKind:
+        """Which folds are drawn."""
+        return self._fold.kind
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether the pointer draws, and does not move the camera."""
+        return self.mode is not Mode.LOOK
+
+    @property
+    def says(self) -> str:
+        """What to do now; or why the last thing was not done, or what is wrong with the drawing."""
+        if self._refusal:
+            return self._refusal
+        tool = self._tool
+        if tool is None:
+            return _LOOKING
+        problems = self._document.state.solution.problems
+        is_mending = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
+        return as_sentence(problems[0].message) if problems and is_mending else tool.hint()
+
+    @property
+    def undo_label(self) -> str:
+        """What the button says that takes the last thing back; just "Undo" when there is nothing."""
+        label = (self._tool.last() if self._tool else None) or self._document.state.draft.closed().history.can_undo
+        return f"Undo: {label}" if label else "Undo"
+
+    @property
+    def redo_label(self) -> str:
+        """What the button says that does it again; just "Redo" when there is nothing."""
+        label = self._document.state.draft.closed().history.can_redo
+        return f"Redo: {label}" if label else "Redo"
+
+    def choose(self, mode: Mode) -> None:
+        """Take another tool in hand; to draw, time goes to its beginning, where the cloth lies spread."""
+        if mode is self.mode:
+            return
+        self._try(self._put_down)
+        self.mode = mode
+        if self.is_drawing:
+            self._document.rewind()
+
+    def choose_kind(self, kind: FoldKind) -> None:
+        """Draw folds of another kind from now on."""
+        self._try(self._put_down)
+        self._fold.kind = kind
+
+    def press(self, aim: Aim | None) -> None:
+        """The pointer went down and began to move; when that is refused, the rest of the drag does nothing."""
+        self._is_down = self._aimed(aim, lambda tool, at: tool.press(at))
+
+    def drag(self, aim: Aim | None) -> None:
+        """It moves on, while it is down."""
+        if self._is_down and (tool := self._tool) is not None:
+            self._try(lambda: tool.drag(aim))
+
+    def release(self, aim: Aim | None) -> None:
+        """It is let go."""
+        is_down, self._is_down = self._is_down, False
+        if is_down and (tool := self._tool) is not None:
+            self._try(lambda: tool.release(aim))
+
+    def tap(self, aim: Aim | None) -> None:
+        """It went down and up in one place."""
+        self._aimed(aim, lambda tool, at: tool.tap(at))
+
+    def undo(self) -> None:
+        """Take the last thing back: what is being drawn, or the last step."""
+        tool = self._tool
+        if tool is not None and tool.last() is not None:
+            self._try(tool.take_back)
+        else:
+            self._try(self._undone)
+
+    def redo(self) -> None:
+        """Take the step again that was undone last."""
+        self._try(self._redone)
+
+    def leave(self) -> None:
+        """The visitor is gone: what has not been finished is dropped."""
+        self._try(self._put_down)
+
+    @property
+    def aids(self) -> Aids:
+        """What is drawn over the cloth; nothing while it does not lie spread."""
+        tool = self._tool
+        return tool.aids(self._document.state) if tool is not None and self._is_spread else NO_AIDS
+
+    @property
+    def _tool(self) -> Tool | None:
+        return self._tools.get(self.mode)
+
+    @property
+    def _is_spread(self) -> bool:
+        return not self._document.state.playback.is_playing and self._document.t_s == 0.0
+
+    def _aimed(self, aim: Aim | None, act: Callable[[Tool, Aim], None]) -> bool:
+        """Let the tool act at a place of the cloth as it lies spread; False when it was refused."""
+        tool = self._tool
+        if tool is None:
+            return False
+
+        def acted() -> None:
+            if not self._is_spread:
+                self._document.rewind()
+                raise RefusedError("The cloth lies spread again: now draw.")
+            if aim is None:
+                raise RefusedError("That is off the table.")
+            act(tool, aim)
+
+        return self._try(acted)
+
+    def _undone(self) -> None:
+        self._document.undo()
+
+    def _redone(self) -> None:
+        self._document.redo()
+
+    def _put_down(self) -> None:
+        self._is_down = False
+        if self._tool is not None:
+            self._tool.put_down()
+
+    def _try(self, act: Callable[[], None]) -> bool:
+        """Do something, and remember why it was refused, if it was."""
+        try:
+            act()
+        except FoldingError as error:
+            self._refusal = sentence(error)
+        else:
+            self._refusal = ""
+        return not self._refusal

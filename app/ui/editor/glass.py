@@ -1,0 +1,84 @@
+"""What catches the pointer while somebody draws: a box round everything, too far away to be seen.
+
+viser's camera stays where it is while a node is dragged. With the box every place of the picture belongs to a node, so
+nothing that is done with the left button can turn the camera. The box lies beyond what the camera sees, and so does the
+arrow that viser draws while a node is dragged. Only its inside faces the camera, so it is not outlined either when the
+pointer is over it.
+"""
+
+from collections.abc import Callable
+from typing import Literal, TypeAlias, get_args
+
+import numpy as np
+import viser
+
+from app.ui.editor.aim import Aim, aim, pixel_angle
+from planner.geometry.pose import Point3
+
+NODE = "/editor/glass"
+
+_HALF_M = 2048.0  # the camera sees as far as 1000 m
+_CORNERS = _HALF_M * np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
+_INWARDS = np.array(
+    [
+        *([0, 1, 3], [0, 3, 2]),  # below, seen from above
+        *([4, 6, 7], [4, 7, 5]),
+        *([0, 4, 5], [0, 5, 1]),
+        *([2, 3, 7], [2, 7, 6]),
+        *([0, 2, 6], [0, 6, 4]),
+        *([1, 5, 7], [1, 7, 3]),
+    ]
+)
+
+_Modifier: TypeAlias = Literal[
+    "cmd/ctrl", "alt", "shift", "cmd/ctrl+alt", "cmd/ctrl+shift", "alt+shift", "cmd/ctrl+alt+shift"
+]
+_MODIFIERS: tuple[_Modifier | None, ...] = (None, *get_args(_Modifier))
+"""viser asks for each of them; keys that are held make no difference here."""
+
+Touch: TypeAlias = Literal["press", "drag", "release", "tap"]
+OnTouch: TypeAlias = Callable[[Touch, Aim | None], None]
+
+
+class Glass:
+    """The box of one visitor; it is there only while the visitor draws."""
+
+    def __init__(self, client: viser.ClientHandle, on_touch: OnTouch) -> None:
+        """Nothing is caught yet.
+
+        Args:
+            client: the visitor.
+            on_touch: is told what the pointer does, in viser's own thread; must not block.
+        """
+        self._client = client
+        self._on_touch = on_touch
+        self._box = client.scene.add_mesh_simple(
+            NODE, _CORNERS, _INWARDS, side="front", cast_shadow=False, receive_shadow=False, visible=False
+        )
+        for modifier in _MODIFIERS:
+            self._box.on_drag("left", modifier=modifier)(self._dragged)
+            self._box.on_click(modifier=modifier)(self._clicked)
+
+    def catch(self, *, is_on: bool) -> None:
+        """Catch the pointer from now on, or let it turn the camera."""
+        if self._box.visible != is_on:
+            self._box.visible = is_on
+
+    async def _dragged(self, event: viser.SceneNodeDragEvent[viser.MeshHandle]) -> None:
+        if event.phase == "start":
+            self._on_touch("press", self._aim(event.start_position))
+        self._on_touch("release" if event.phase == "end" else "drag", self._aim(event.end_position))
+
+    async def _clicked(self, event: viser.SceneNodePointerEvent[viser.MeshHandle]) -> None:
+        origin, along = event.ray_origin, event.ray_direction
+        through = (origin[0] + along[0], origin[1] + along[1], origin[2] + along[2])
+        self._on_touch("tap", aim(origin, through, self._pixel_rad))
+
+    def _aim(self, through: Point3) -> Aim | None:
+        x, y, z = (float(place) for place in self._client.camera.position)
+        return aim((x, y, z), through, self._pixel_rad)
+
+    @property
+    def _pixel_rad(self) -> float:
+        camera = self._client.camera
+        return pixel_angle(camera.fov, camera.image_height)

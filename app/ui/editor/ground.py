@@ -1,0 +1,56 @@
+"""Where a drawing lies on the table, and how far from there the pointer may go."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.drawing.drawing import Drawing
+from planner.geometry.pose import Point2
+from planner.geometry.table_top import TableTop
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """The rectangle in which there may be cloth: the table, and what hangs beside it rolled out flat.
+
+    Attributes:
+        low: smallest x and y, table frame (m).
+        high: largest x and y (m).
+    """
+
+    low: Point2
+    high: Point2
+
+    @staticmethod
+    def of(drawing: Drawing) -> "Ground":
+        """The ground of a drawing."""
+        top = TableTop.of(drawing.scene.table)
+        corners = np.array([top.low, top.high, *on_table(drawing, drawing.points)])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        return Ground((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
+
+    def holds(self, point: Point2) -> bool:
+        """Whether a point of the table frame is on it."""
+        return all(low <= place <= high for low, place, high in zip(self.low, point, self.high, strict=True))
+
+
+def middle_of(drawing: Drawing) -> Point2:
+    """The middle of the cloth, or, while there is none, of the table; table frame (m)."""
+    if not drawing.outline:
+        return (0.0, 0.0)
+    corners = np.array(on_table(drawing, drawing.points))
+    x, y = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    return (float(x), float(y))
+
+
+def on_table(drawing: Drawing, points: Iterable[Point2]) -> tuple[Point2, ...]:
+    """Points of the article frame, seen from the table (m)."""
+    placed = drawing.placement.to_outer(np.array(list(points), dtype=float).reshape(-1, 2))
+    return tuple((float(x), float(y)) for x, y in placed)
+
+
+def in_article(drawing: Drawing, point: Point2) -> Point2:
+    """A point of the table frame, seen from the article (m)."""
+    x, y = drawing.placement.to_inner(np.array(point))
+    return (float(x), float(y))

@@ -1,0 +1,110 @@
+"""The tool `Move points`: a corner of the outline follows the pointer, and cloth and plan follow the corner."""
+
+import math
+from dataclasses import dataclass, replace
+
+from app.document_state import DocumentState
+from app.drawing.drawing import Drawing
+from app.ui.editor.aids import Aids, closed
+from app.ui.editor.aim import Aim
+from app.ui.editor.ground import Ground, in_article, on_table
+from app.ui.editor.pencil import Change, Pencil
+from app.ui.editor.refusal import RefusedError
+from app.ui.editor.tool import Tool
+from planner.geometry.pose import Point2
+
+HIT_PX = 22.0
+LABEL = "Move vertex"
+
+
+@dataclass(frozen=True, slots=True)
+class _Grip:
+    """A corner that is held.
+
+    Attributes:
+        corner: its name.
+        offset: from the pointer to the corner when it was grabbed, table frame (m).
+        ground: where it may be put down.
+    """
+
+    corner: str
+    offset: Point2
+    ground: Ground
+
+    def place(self, aim: Aim) -> Point2:
+        """Where the corner is now (m)."""
+        return (aim.point[0] + self.offset[0], aim.point[1] + self.offset[1])
+
+
+class MovePoints(Tool):
+    """Of handles that are close together, the nearest to the pointer is taken."""
+
+    def __init__(self, pencil: Pencil) -> None:
+        """A tool that writes with a pencil."""
+        self._pencil = pencil
+        self._grip: _Grip | None = None
+
+    def hint(self) -> str:
+        """What to do now."""
+        if self._grip is not None:
+            return "Let go where the corner shall be; off the table it goes back."
+        if not self._pencil.state.drawing.outline:
+            return "There is no outline yet: draw one."
+        return "Drag a corner."
+
+    def press(self, aim: Aim) -> None:
+        """Take the nearest corner that is near enough."""
+        drawing = self._pencil.state.drawing
+        places = on_table(drawing, drawing.points)
+        apart, index = min(((math.dist(place, aim.point), i) for i, place in enumerate(places)), default=(math.inf, 0))
+        if apart > HIT_PX * aim.pixel_m:
+            raise RefusedError("There is no corner there: drag one of the handles.")
+        x, y = places[index]
+        offset = (x - aim.point[0], y - aim.point[1])
+        self._grip = _Grip(drawing.outline[index].id, offset, Ground.of(drawing))
+
+    def drag(self, aim: Aim | None) -> None:
+        """Show the document with the corner here."""
+        if self._grip is not None and aim is not None and self._grip.ground.holds(aim.point):
+            self._pencil.preview(LABEL, _moved(self._grip.corner, self._grip.place(aim)))
+
+    def release(self, aim: Aim | None) -> None:
+        """Put the corner here, as one step; off the table it goes back."""
+        grip, self._grip = self._grip, None
+        if grip is None:
+            return
+        if aim is None or not grip.ground.holds(aim.point):
+            self._pencil.cancel()
+            raise RefusedError("That is off the table: the corner is where it was.")
+        self._pencil.commit(LABEL, _moved(grip.corner, grip.place(aim)))
+
+    def tap(self, aim: Aim) -> None:
+        """A click moves nothing."""
+        raise RefusedError("Hold the button down and drag.")
+
+    def put_down(self) -> None:
+        """Let the corner go where it was."""
+        self._grip = None
+        self._pencil.cancel()
+
+    def aids(self, state: DocumentState) -> Aids:
+        """A handle at each corner."""
+        drawing = state.drawing
+        handles = on_table(drawing, drawing.points)
+        ids = [corner.id for corner in drawing.outline]
+        held = self._grip.corner if self._grip is not None else None
+        return Aids(handles, ids.index(held) if held in ids else None, (closed(handles),))
+
+
+def _moved(corner: str, place: Point2) -> Change:
+    """The change that puts a corner to a place of the table (m)."""
+
+    def change(state: DocumentState) -> Drawing:
+        drawing = state.drawing
+        if all(other.id != corner for other in drawing.outline):
+            raise RefusedError("Somebody has taken this corner away.")
+        point = in_article(drawing, place)
+        outline = tuple(replace(other, point=point) if other.id == corner else other for other in drawing.outline)
+        return replace(drawing, outline=outline)
+
+    return change

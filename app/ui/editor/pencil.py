@@ -1,0 +1,68 @@
+"""Writes into the document on behalf of one visitor of a stage.
+
+A change is a function of the document's state, not a drawing: when somebody else was quicker, it is made once more, to
+what is there now.
+"""
+
+import itertools
+from collections.abc import Callable
+from typing import TypeAlias
+
+from app.document import Document
+from app.document_state import DocumentState
+from app.drawing.drawing import Drawing
+from app.drawing.edit import Edit, Phase, StaleVersionError
+
+Change: TypeAlias = Callable[[DocumentState], Drawing]
+"""The drawing as it is to be, from the document as it is; raises `FoldingError` for what cannot be done."""
+
+
+class Pencil:
+    """Commits, and gestures of which each is one step."""
+
+    def __init__(self, document: Document, owner: str) -> None:
+        """Nothing is being drawn.
+
+        Args:
+            document: what is changed.
+            owner: a name that no other pencil has.
+        """
+        self._document = document
+        self._owner = owner
+        self._numbers = itertools.count()
+        self._gesture: str | None = None
+
+    @property
+    def state(self) -> DocumentState:
+        """The document now."""
+        return self._document.state
+
+    def preview(self, label: str, change: Change) -> DocumentState:
+        """Show a change as part of a gesture; the first one begins it."""
+        if self._gesture is None:
+            self._gesture = f"{self._owner}.{next(self._numbers)}"
+        return self._write(label, change, Phase.PREVIEW)
+
+    def commit(self, label: str, change: Change) -> DocumentState:
+        """Make a change one step, together with the previews before it."""
+        state = self._write(label, change, Phase.COMMIT)
+        self._gesture = None
+        return state
+
+    def cancel(self) -> None:
+        """Take the previews back, unless somebody else has made a step of them meanwhile."""
+        key, self._gesture = self._gesture, None
+        going_on = self._document.state.draft.gesture
+        if key is not None and going_on is not None and going_on.key == key:
+            self._document.edit(Edit("", None, Phase.CANCEL, gesture=key))
+
+    def _write(self, label: str, change: Change, phase: Phase) -> DocumentState:
+        try:
+            return self._write_once(label, change, phase)
+        except StaleVersionError:
+            return self._write_once(label, change, phase)
+
+    def _write_once(self, label: str, change: Change, phase: Phase) -> DocumentState:
+        state = self._document.state
+        edit = Edit(label, change(state), phase, base_version=state.version, gesture=self._gesture)
+        return self._document.edit(edit)

@@ -1,0 +1,25 @@
+"""Folded cloth as a surface of flat layers, for the stage."""
+
+import numpy as np
+
+from app.ui.editor.aids import Pile
+from planner.plan.frame import ClothSurface
+
+_GAP_M = 0.0004
+
+
+def pile_surface(pile: Pile, bottom_m: float) -> ClothSurface:
+    """The layers one above the other, the lowest at a height (m), faces the right way up."""
+    corners, layers = [], []
+    for number, layer in enumerate(pile.cloth.layers):
+        flat = layer.region.triangles if layer.face == "front" else layer.region.triangles[:, ::-1]
+        placed = pile.placement.to_outer(flat.reshape(-1, 2))
+        corners.append(np.column_stack([placed, np.full(len(placed), bottom_m + number * _GAP_M)]))
+        layers.append(np.full(len(flat), number, dtype=np.int64))
+    vertices = np.concatenate(corners)
+    return ClothSurface(vertices, np.arange(len(vertices), dtype=np.int64).reshape(-1, 3), np.concatenate(layers))
+
+
+def height(pile: Pile | None) -> float:
+    """How high the layers stand (m)."""
+    return 0.0 if pile is None else len(pile.cloth.layers) * _GAP_M

@@ -1,0 +1,95 @@
+"""Places to look from: cameras that see the table and what lies on it. Table frame, z up."""
+
+import math
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from app.ui.editor.ground import Ground
+from app.ui.robot_model import Link, load_robot_model
+from app.ui.viewpoint import Viewpoint
+from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.robot.card import RobotCard
+
+_MARGIN = 1.12
+_TILT = 0.002  # straight down, a camera does not know which way is up
+_EYE_LINK = "head_plate_frame"
+_AHEAD_OF_EYES_M = 0.15
+_SIDE_CENTRE: Point3 = (-0.45, 0.0, 0.1)
+_SIDE_HALF_M = (1.35, 0.85)
+_SIDE_RISE = 0.12
+
+
+class Preset(StrEnum):
+    """The words on the buttons."""
+
+    TOP = "Top"
+    ROBOT = "Robot's eye"
+    SIDE = "Side"
+    FREE = "Free"
+
+
+@dataclass(frozen=True, slots=True)
+class Lens:
+    """What a camera takes in.
+
+    Attributes:
+        fov_rad: from the bottom of the picture to its top (rad).
+        aspect: its width divided by its height.
+    """
+
+    fov_rad: float
+    aspect: float
+
+    def distance(self, half_width_m: float, half_height_m: float) -> float:
+        """From how far off so much can be seen to each side of the middle (m)."""
+        return max(half_height_m, half_width_m / self.aspect) / math.tan(self.fov_rad / 2.0)
+
+
+def top(ground: Ground, lens: Lens) -> Viewpoint:
+    """From straight above, as near as the table allows: its far edge is on top of the picture or to the right."""
+    (x0, y0), (x1, y1) = ground.low, ground.high
+    x, y, half_x, half_y = (x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) / 2, (y1 - y0) / 2
+    lying, standing = lens.distance(half_x, half_y), lens.distance(half_y, half_x)
+    distance = _MARGIN * min(lying, standing)
+    dx, dy = (0.0, -_TILT * distance) if lying <= standing else (-_TILT * distance, 0.0)
+    return Viewpoint((x + dx, y + dy, distance), (x, y, 0.0))
+
+
+def side(lens: Lens) -> Viewpoint:
+    """From the robot's right hand side, a little above the table."""
+    x, y, z = _SIDE_CENTRE
+    distance = lens.distance(*_SIDE_HALF_M)
+    return Viewpoint((x, y - distance, z + _SIDE_RISE * distance), _SIDE_CENTRE)
+
+
+def robots_eye(card: RobotCard, base: Pose2, middle: Point2, torso_m: float, floor_z_m: float) -> Viewpoint:
+    """From just before the robot's head.
+
+    Args:
+        card: the robot.
+        base: where it stands, table frame.
+        middle: what it looks at, on the table (m).
+        torso_m: how far its torso is lifted (m).
+        floor_z_m: the floor's height in the table frame (m), negative.
+    """
+    eye = _eye_in_base(card, torso_m) + np.array([_AHEAD_OF_EYES_M, 0.0, floor_z_m])
+    x, y, z = (float(place) for place in base.to_outer(eye))
+    return Viewpoint((x, y, z), (*middle, 0.0))
+
+
+def _eye_in_base(card: RobotCard, torso_m: float) -> FloatArray:
+    """Where the robot's head is while it looks ahead, base frame (m); all links down to it are unturned."""
+    links = load_robot_model(card.urdf_path, card.package_dir)
+    eye = next(link for link in links if link.name == _EYE_LINK)
+    return np.asarray(np.sum([_offset(link, card, torso_m) for link in links if _carries(link, eye)], axis=0))
+
+
+def _carries(link: Link, other: Link) -> bool:
+    return f"{other.node}/".startswith(f"{link.node}/")
+
+
+def _offset(link: Link, card: RobotCard, torso_m: float) -> FloatArray:
+    lift = torso_m * link.axis if link.joint == card.lift_joint else np.zeros(3)
+    return np.array(link.origin.position) + lift

@@ -1,0 +1,35 @@
+"""What cannot be done, said in one sentence."""
+
+from dataclasses import dataclass
+
+from planner.errors import FieldError, FoldingError
+
+_SUBJECTS = {"line": "The line", "end": "The fold", "start": "The fold"}
+
+
+@dataclass
+class RefusedError(FoldingError):
+    """Something that the pointer asked for cannot be done.
+
+    Attributes:
+        sentence: why, for people.
+    """
+
+    sentence: str
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def sentence(error: FoldingError) -> str:
+    """An error as a sentence that begins with a capital letter and ends with a full stop."""
+    text = str(error)
+    if isinstance(error, FieldError):
+        subject = _SUBJECTS.get(error.field.rpartition(".")[2])
+        text = f"{subject} {error.message}" if subject and error.message.startswith("does not") else error.message
+    return as_sentence(text)
+
+
+def as_sentence(text: str) -> str:
+    """A text with a capital letter in front and a full stop behind."""
+    return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith((".", "!", "?")) else ".")

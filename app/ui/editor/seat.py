@@ -1,0 +1,120 @@
+"""One visitor of a stage: editor, panels, aids and the glass that catches the pointer."""
+
+import math
+from collections.abc import Callable
+
+import viser
+
+from app.document import Document
+from app.document_state import DocumentState
+from app.ui.colours import DARK, LIGHT
+from app.ui.editor.aids_view import AidsView
+from app.ui.editor.aim import Aim, pixel_angle
+from app.ui.editor.camera_panel import CameraPanel
+from app.ui.editor.edit_panel import EditPanel
+from app.ui.editor.editor import Editor
+from app.ui.editor.glass import Glass, Touch
+from app.ui.editor.ground import Ground, middle_of
+from app.ui.editor.presets import Preset, robots_eye, side, top
+from app.ui.grip_view import ROOT as MARKS
+from app.ui.viewpoint import Viewpoint
+from planner.geometry.pose import Pose2
+from planner.robot.card import RobotCard
+
+PANEL_LABEL = "Table"
+
+_PANEL_PX = 250
+_ZOOM_STEP = 1.2
+
+Ask = Callable[[Callable[[], None], bool], None]
+"""Has something done by the stage's own thread; what is passing may be left out when the same comes again."""
+
+
+class Seat:
+    """What belongs to one visitor; made and used by the stage's own thread, only asked by viser's."""
+
+    def __init__(
+        self, client: viser.ClientHandle, document: Document, card: RobotCard, opening: Viewpoint, ask: Ask
+    ) -> None:
+        """Build panels and aids; the panels are closed at first, not to cover the picture.
+
+        Args:
+            client: the visitor.
+            document: what is edited.
+            card: the robot.
+            opening: where cameras are at first.
+            ask: how something is handed to the stage's own thread.
+        """
+        self._client = client
+        self._document = document
+        self._card = card
+        self._ask = ask
+        self._editor = Editor(document, f"stage.{client.client_id}")
+        self._zoom = 0
+        self._is_dark = document.state.is_dark
+        with client.atomic():
+            client.gui.set_panel_label(PANEL_LABEL)
+            client.gui.main_panel.set_width(_PANEL_PX)
+            client.gui.main_panel.minimize()
+            self._edit_panel = EditPanel(client, lambda act: ask(lambda: act(self._editor), False))
+            self._camera_panel = CameraPanel(client, opening, lambda preset: ask(lambda: self._look(preset), False))
+            self._aids = AidsView(client, DARK if self._is_dark else LIGHT)
+            self._glass = Glass(client, self._touched)
+            self._marks = client.scene.add_frame(MARKS, show_axes=False)
+        client.camera.on_update(self._zoomed)
+
+    def show(self, state: DocumentState) -> None:
+        """Bring everything up to date."""
+        self._zoom = self._zoom_now
+        with self._client.atomic():
+            if state.is_dark != self._is_dark:
+                self._is_dark = state.is_dark
+                self._aids.recolour(DARK if state.is_dark else LIGHT)
+            self._glass.catch(is_on=self._editor.is_drawing)
+            if self._marks.visible == self._editor.is_drawing:
+                self._marks.visible = not self._editor.is_drawing
+            self._aids.show(self._editor.aids, _ZOOM_STEP**self._zoom)
+            self._edit_panel.show(self._editor)
+        self._client.flush()
+
+    def leave(self) -> None:
+        """The visitor is gone."""
+        self._editor.leave()
+
+    def _touched(self, touch: Touch, aim: Aim | None) -> None:
+        editor = self._editor
+        act = {"press": editor.press, "drag": editor.drag, "release": editor.release, "tap": editor.tap}[touch]
+        self._ask(lambda: act(aim), touch == "drag")
+
+    def _look(self, preset: Preset) -> None:
+        panel, state = self._camera_panel, self._document.state
+        scene = state.drawing.scene
+        match preset:
+            case Preset.FREE:
+                panel.go_back()
+            case Preset.TOP:
+                panel.go_to(top(Ground.of(state.drawing), panel.lens))
+            case Preset.SIDE:
+                panel.go_to(side(panel.lens))
+            case Preset.ROBOT:
+                middle = middle_of(state.drawing)
+                panel.go_to(robots_eye(self._card, self._base(state), middle, scene.torso_m, -scene.table.height_m))
+
+    def _base(self, state: DocumentState) -> Pose2:
+        """Where the robot stands now."""
+        if state.film is not None:
+            return state.film.timeline.at(self._document.t_s).base
+        stations = dict(state.drawing.scene.stations)
+        return stations.get(state.drawing.start_station) or next(iter(stations.values()))
+
+    async def _zoomed(self, _: viser.CameraHandle) -> None:
+        if self._editor.is_drawing and self._zoom_now != self._zoom:
+            self._ask(lambda: None, False)
+
+    @property
+    def _zoom_now(self) -> int:
+        """How large a pixel is in the middle of the table, in coarse steps: handles need not change at every turn."""
+        camera = self._client.camera
+        x, y, z = camera.position
+        pixel_m = math.hypot(x, y, z) * pixel_angle(camera.fov, camera.image_height)
+        return round(math.log(max(pixel_m, 1e-6), _ZOOM_STEP))

@@ -1,0 +1,173 @@
+"""Editing over the wire: what viser's page says, through the stage's own thread, to the document and back."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.drawing import Drawing
+from app.player import Player
+from app.ui.editor.desk import Desk
+from app.ui.editor.glass import NODE
+from app.ui.private_viser import start_private_viser
+from app.ui.stage import OPENING, Stage
+from planner import Scene
+from planner.robot.pr2 import load_robot
+from tests.app.drawing.drawings import towel_drawing
+from tests.app.editor.visitor import EYE, Visitor
+
+CARD = load_robot("pr2").card
+FAR_CORNER = (-0.4, -0.2)
+ELSEWHERE = (-0.35, -0.3)
+
+
+@pytest.fixture(scope="module")
+def opened() -> Iterator[tuple[Document, Stage]]:
+    document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
+    player = Player(document, stage, Desk(document, stage.server, CARD, OPENING))
+    yield document, stage
+    player.close()
+    stage.close()
+
+
+@pytest.fixture
+def document(opened: tuple[Document, Stage]) -> Iterator[Document]:
+    document, _ = opened
+    yield document
+    while document.state.draft.closed().history.can_undo:
+        document.undo()
+
+
+@pytest.fixture
+def visitor(opened: tuple[Document, Stage], document: Document) -> Iterator[Visitor]:
+    with Visitor(opened[1]) as visitor:
+        visitor.until(lambda: NODE in visitor.nodes)
+        yield visitor
+
+
+def grown(drawing: Drawing) -> bool:
+    """Whether the far corner is where the drags below take it."""
+    return drawing.outline[2].point == pytest.approx((0.5, 0.35))
+
+
+def test_who_only_looks_sees_no_glass_and_no_handles(visitor: Visitor) -> None:
+    visitor.until(lambda: "Mode" in visitor.controls)
+    assert not visitor.is_shown(NODE)
+    assert "/editor/handles" not in visitor.nodes
+
+
+def test_a_corner_is_dragged_and_undone(visitor: Visitor, document: Document) -> None:
+    before = document.state.drawing
+    visitor.choose("Mode", "Move points")
+    visitor.until(lambda: visitor.is_shown(NODE) and visitor.is_shown("/editor/handles"))
+    visitor.touch("start", FAR_CORNER, FAR_CORNER)
+    visitor.touch("update", FAR_CORNER, (-0.35, -0.2))
+    visitor.until(lambda: document.state.draft.gesture is not None)
+    visitor.touch("end", FAR_CORNER, ELSEWHERE)
+    visitor.until(lambda: grown(document.state.drawing) and document.state.draft.gesture is None)
+    visitor.until(lambda: visitor.controls["Undo"]["props"]["label"] == "Undo: Move vertex")
+    visitor.push("Undo")
+    visitor.until(lambda: visitor.controls["Redo"]["props"]["label"] == "Redo: Move vertex")
+    assert document.state.drawing == before
+
+
+def test_an_outline_is_clicked(visitor: Visitor, document: Document) -> None:
+    visitor.choose("Mode", "Draw outline")
+    visitor.until(lambda: visitor.is_shown(NODE))
+    corners = [(-0.5, -0.3), (-0.1, -0.3), (-0.1, 0.1)]
+    for corner in [*corners, corners[0]]:
+        visitor.click(corner)
+    visitor.until(lambda: len(document.state.drawing.outline) == 3)
+    assert document.state.drawing.folds == ()
+
+
+def test_a_drag_past_the_horizon_and_back_is_a_drag(visitor: Visitor, document: Document) -> None:
+    visitor.choose("Mode", "Move points")
+    visitor.until(lambda: visitor.is_shown(NODE))
+    visitor.touch("start", FAR_CORNER, FAR_CORNER)
+    visitor.touch("update", FAR_CORNER, (5.0, 5.0))
+    visitor.touch("end", FAR_CORNER, ELSEWHERE)
+    visitor.until(lambda: grown(document.state.drawing))
+
+
+def test_each_visitor_has_a_mode_of_its_own(visitor: Visitor, opened: tuple[Document, Stage]) -> None:
+    with Visitor(opened[1]) as other:
+        visitor.choose("Mode", "Move points")
+        visitor.until(lambda: visitor.is_shown(NODE))
+        other.until(lambda: NODE in other.nodes)
+        other.choose("Mode", "Draw fold")
+        other.until(lambda: other.is_shown(NODE))
+        assert "/editor/handles" not in other.nodes
+        assert visitor.is_shown("/editor/handles")
+
+
+def test_a_visitor_who_goes_away_in_the_middle_of_a_drag_leaves_no_gesture_open(
+    opened: tuple[Document, Stage], document: Document
+) -> None:
+    with Visitor(opened[1]) as leaving:
+        leaving.choose("Mode", "Move points")
+        leaving.until(lambda: leaving.is_shown(NODE))
+        leaving.touch("start", FAR_CORNER, FAR_CORNER)
+        leaving.touch("update", FAR_CORNER, ELSEWHERE)
+        leaving.until(lambda: document.state.draft.gesture is not None)
+    with Visitor(opened[1]) as staying:
+        staying.until(lambda: document.state.draft.gesture is None)
+
+
+def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_else_does(
+    visitor: Visitor, document: Document, opened: tuple[Document, Stage]
+) -> None:
+    with Visitor(opened[1]) as other:
+        other.until(lambda: NODE in other.nodes)
+        opening = [OPENING.position]  # what a new visitor is told
+        assert visitor.camera == other.camera == opening
+        visitor.choose("Mode", "Move points")
+        visitor.until(lambda: visitor.is_shown(NODE))
+        visitor.touch("start", FAR_CORNER, FAR_CORNER)
+        visitor.touch("end", FAR_CORNER, ELSEWHERE)
+        visitor.until(lambda: grown(document.state.drawing))
+        visitor.until(lambda: visitor.controls["Undo"]["props"]["label"] == "Undo: Move vertex")
+        assert visitor.camera == opening
+        visitor.choose("Look from", "Top")
+        visitor.until(lambda: len(visitor.camera) == 2)
+        assert visitor.camera[1][:2] == pytest.approx((0.0, 0.0), abs=0.01)
+        visitor.choose("Look from", "Free")
+        visitor.until(lambda: len(visitor.camera) == 3)
+        assert visitor.camera[2] == pytest.approx(EYE)
+        other.choose("Mode", "Draw fold")
+        other.until(lambda: other.is_shown(NODE))
+        assert other.camera == opening
+
+
+def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
+    server, _ = start_private_viser()
+    try:
+        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, OPENING)
+        done: list[str] = []
+        for visitor, name, is_passing in (
+            (1, "press", False),
+            (1, "drag 1", True),
+            (1, "drag 2", True),
+            (2, "drag 3", True),
+            (2, "release", False),
+        ):
+            desk._ask(visitor, lambda name=name: done.append(name), is_passing)
+        desk.work()
+        assert done == ["press", "drag 2", "drag 3", "release"]
+    finally:
+        server.stop()
+
+
+def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest.LogCaptureFixture) -> None:
+    server, _ = start_private_viser()
+    try:
+        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, OPENING)
+        done: list[str] = []
+        desk._ask(1, lambda: done.append(str(1 // 0)), False)
+        desk._ask(2, lambda: done.append("second"), False)
+        desk.work()
+        assert done == ["second"]
+        assert "could not be done" in caplog.text
+    finally:
+        server.stop()

@@ -1,0 +1,40 @@
+import math
+
+import pytest
+
+from app.ui.editor.ground import Ground
+from app.ui.editor.presets import Lens, robots_eye, top
+from planner.geometry.pose import Pose2
+from planner.robot.pr2 import load_robot
+
+GROUND = Ground((-0.8, -0.5), (0.8, 0.5))
+RIGHT_ANGLE = math.pi / 2
+"""A field of view of 90 degrees sees as far to each side as it is away."""
+
+
+def test_a_wide_picture_has_the_tables_length_across() -> None:
+    seen = top(GROUND, Lens(RIGHT_ANGLE, 1.6))
+    assert seen.position[2] == pytest.approx(1.12 * 0.5)  # 0.5 m to each side upwards, 0.8 m across
+    assert seen.position[0] == seen.look_at[0] == 0.0
+    assert seen.position[1] < 0.0  # from a little nearer to y < 0, so that y points up in the picture
+
+
+def test_a_tall_picture_has_the_tables_length_upwards() -> None:
+    seen = top(GROUND, Lens(RIGHT_ANGLE, 0.625))
+    assert seen.position[2] == pytest.approx(1.12 * 0.8)
+    assert seen.position[0] < 0.0 and seen.position[1] == 0.0
+
+
+def test_the_whole_ground_is_in_a_square_picture() -> None:
+    assert top(GROUND, Lens(RIGHT_ANGLE, 1.0)).position[2] == pytest.approx(1.12 * 0.8)
+
+
+def test_the_robots_eye_is_above_its_base_and_looks_ahead() -> None:
+    # The PR2's URDF, along the base, the torso, the neck, the head, its top: -0.050 - 0.017 + 0.068 + 0.023 = 0.024 m
+    # ahead of the base and, with the torso down, 0.051 + 0.740 + 0.381 + 0.065 = 1.237 m up.
+    card = load_robot("pr2").card
+    seen = robots_eye(card, Pose2(-0.95, 0.0, 0.0), (-0.4, 0.1), torso_m=0.2, floor_z_m=-0.79)
+    assert seen.position == pytest.approx((-0.95 + 0.024 + 0.15, 0.0, 1.237 + 0.2 - 0.79), abs=1e-3)
+    assert seen.look_at == (-0.4, 0.1, 0.0)
+    turned = robots_eye(card, Pose2(0.0, 1.0, -math.pi / 2), (0.0, 0.0), torso_m=0.2, floor_z_m=-0.79)
+    assert turned.position[:2] == pytest.approx((0.0, 1.0 - 0.174), abs=1e-3)
