@@ -52,6 +52,7 @@ export function drawAll(board) {
   svg.dataset.originPx = `${x},${y}`;
   svg.dataset.pxPerM = String(view.scale);
   svg.style.cursor = tool.cursor;
+  svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);
   board.hintLine.textContent = tool.hint;
   board.strip.draw();

@@ -84,7 +84,9 @@ function base({ view }, found) {
 function slip({ view }, found) {
   return (found.slip?.limits ?? []).flatMap(({ edge, line, at_m }, n) => {
     const ends = line.map((point) => view.toPx(point));
-    const [x, y] = between(ends[0], ends[1], n < 2 ? 0.12 : 0.8); // lines of opposite edges may be the same
+    // Lines of opposite edges may be the same, to and fro: their words stand at its two ends.
+    const [low, high] = [...ends].sort(([ax, ay], [bx, by]) => ax - bx || ay - by);
+    const [x, y] = between(low, high, n < 2 ? 0.08 : 0.76);
     return [
       { key: `slip:${edge}`, tag: "path", class: "slip", d: path(ends, false) },
       {
