@@ -10,6 +10,7 @@ JOBS ?= 2
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
+READY_BENCH := $(VENV)/.ready-bench
 
 .DEFAULT_GOAL := help
 .PHONY: help run check format lint types imports test-quick test test-long browser bench figures lock clean
@@ -46,7 +47,7 @@ test: $(READY_DEV) browser ## every test, the property laws on a few hundred ran
 test-long: $(READY_DEV) browser ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long
 
-bench: $(READY) ## the benchmark tables, also as JSON under bench/out/
+bench: $(READY) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
 	$(BIN)/python -m bench
 
 figures: $(READY) ## draw the figures of docs/model.md from the planner
@@ -70,6 +71,7 @@ lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(PIP) install pip-tools
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements.txt pyproject.toml
+	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
 
 clean: ## remove the virtual environment and all that was generated
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
@@ -96,3 +98,9 @@ $(READY_DEV): requirements-dev.txt $(READY)
 	@echo "Setting up the tools for tests"
 	@$(PIP) install --require-hashes -r requirements-dev.txt
 	@touch $@
+
+# What Pleat is compared with. Only the benchmark wants it, and does without where there is no wheel for this machine.
+$(READY_BENCH): requirements-bench.txt $(READY)
+	@echo "Setting up what Pleat is compared with"
+	@if $(PIP) install --require-hashes --only-binary :all: -r requirements-bench.txt; then touch $@; \
+	else echo "Left out: what Pleat is compared with cannot be installed here"; fi

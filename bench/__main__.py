@@ -1,4 +1,4 @@
-"""The command line of the benchmark: print each table, write each as JSON under ``bench/out/``."""
+"""The command line of the benchmark: print each table, write each as JSON under ``bench/out/``, draw what is drawn."""
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
@@ -7,11 +7,16 @@ from typing import Final
 
 from rich.console import Console
 
+from bench.environment import environment
 from bench.first_plan import first_plan
+from bench.frames import frames
+from bench.growth import growth
 from bench.heuristics import heuristics
 from bench.measurement import warm_up
 from bench.paper import SOURCE, TABLE_1
 from bench.paper_tables import table_1, table_2
+from bench.re_plan import re_plan
+from bench.reach import reach
 from bench.report import Report
 from bench.yes_and_no import PAIRS, yes_and_no
 
@@ -23,23 +28,34 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "heuristics": heuristics,
     "yes-and-no": yes_and_no,
     "first-plan": first_plan,
+    "re-plan": re_plan,
+    "reach": reach,
+    "growth": growth,
+    "frames": frames,
 }
+OF_NO_GARMENT: Final = frozenset({"reach", "growth"})
+"""Left out if garments are named and these are not."""
+
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
 OUT: Final = Path(__file__).parent / "out"
+DOCS: Final = Path(__file__).parent.parent / "docs"
 REPETITIONS: Final = 5
-WIDTH: Final = 110
+WIDTH: Final = 120
 
 
-def main(arguments: Sequence[str] | None = None, out: Path = OUT) -> None:
+def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = DOCS) -> None:
     """Run what was asked for; a table without rows is left out.
 
     Args:
         arguments: the command line; None for the process's own.
         out: the folder for the JSON.
+        docs: the folder for figures; what is measured once only is not drawn.
     """
     asked = _parser().parse_args(arguments)
-    chosen = [name for name in BENCHMARKS if name in asked.only] or list(BENCHMARKS)
-    articles = [name for name in ARTICLES if name in asked.only] or list(ARTICLES)
+    named = [name for name in ARTICLES if name in asked.only]
+    articles = named or list(ARTICLES)
+    usual = [name for name in BENCHMARKS if not (named and name in OF_NO_GARMENT)]
+    chosen = [name for name in BENCHMARKS if name in asked.only] or usual
     console = Console(highlight=False)
     console.width = max(console.width, WIDTH)
     warm_up()
@@ -47,7 +63,11 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT) -> None:
         report = BENCHMARKS[name](articles, 1 if asked.quick else REPETITIONS)
         if report.rows:
             report.write(out)
+            if report.figure and not asked.quick:
+                (docs / f"{name}.svg").write_text(report.figure, encoding="utf-8")
             console.print(report.to_table(), "")
+    now = environment()
+    console.print(f"On {now['cores']} cores, which had {now['load']:.1f} processes to run in the last minute.")
     console.print("Times are medians; a ratio is followed by the least and the most that was measured.")
     console.print(f"Paper: {SOURCE}.")
 

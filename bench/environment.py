@@ -4,13 +4,14 @@ import os
 import platform
 from importlib.metadata import version
 
-LIBRARIES = ("networkx", "numba", "numpy", "pin", "shapely")
+LIBRARIES = ("networkx", "numba", "numpy", "pin", "shapely", "viser")
 
 
 def environment() -> dict[str, object]:
-    """The number of cores and the versions of Python and of the libraries that planning rests on."""
+    """Cores, processes that wanted them in the last minute, and versions of what planning and showing rest on."""
     return {
         "cores": os.cpu_count(),
+        "load": os.getloadavg()[0],
         "architecture": platform.machine(),
         "system": platform.system(),
         "python": platform.python_version(),

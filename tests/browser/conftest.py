@@ -16,14 +16,14 @@ FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 Garment = str | dict[str, Any] | None
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def playwright() -> Iterator[Playwright]:
-    """There can be but one in a process."""
+    """There can be but one at a time in a process, and while it is there no other event loop can run."""
     with sync_playwright() as started:
         yield started
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
     opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
     yield opened

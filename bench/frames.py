@@ -1,0 +1,163 @@
+"""What one frame of the animation costs the server: with nobody watching, with one viewer, with ten.
+
+A plan's whole timeline is shown at 30 frames a second, as the player does, one run for each number of viewers, who are
+real clients of the stage in a process of their own. A frame's server time is all CPU time that the server's process
+spends from one frame to the next: working out where everything is, writing it on the stage, and viser's own thread,
+which packs it and sends it to each viewer.
+"""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import median, quantiles
+from time import perf_counter, process_time, sleep, thread_time
+from typing import Any
+
+from app.ui.stage import Stage
+from bench.measurement import BenchmarkError, Ratio
+from bench.report import Report, Row
+from bench.viewers import READY
+from planner import Plan, load_garment, make_plan
+from planner.robot.pr2 import load_robot
+
+COLUMNS = (
+    "article",
+    "viewers",
+    "frames",
+    "make [ms]",
+    "show [ms]",
+    "p95",
+    "server [ms]",
+    "p95",
+    "wall [ms]",
+    "times none",
+)
+ROOT = Path(__file__).parent.parent
+SAMPLE = ("t-shirt",)
+VIEWERS = (0, 1, 10)
+FRAMES_PER_S = 30.0
+PATIENCE_S = 60.0
+
+QUICK_EVERY = 20
+"""When it is to be quick, of so many frames one is shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Times:
+    """What one frame took (ms).
+
+    Attributes:
+        make_ms: CPU time of working out the frame.
+        show_ms: CPU time of `Stage.show`.
+        server_ms: CPU time of the whole process until the next frame.
+        wall_ms: time that went by from the start of making it to the end of showing it.
+    """
+
+    make_ms: float
+    show_ms: float
+    server_ms: float
+    wall_ms: float
+
+
+def frames(articles: Sequence[str], repetitions: int) -> Report:
+    """The T-shirt, every frame; every twentieth if it is to be quick."""
+    return frames_of([article for article in SAMPLE if article in articles], 1 if repetitions > 1 else QUICK_EVERY)
+
+
+def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEWERS) -> Report:
+    """Some articles, of so many frames one, for each number of viewers; the first is what others are compared with."""
+    rows = []
+    for article in articles:
+        plan = make_plan(load_garment(article))
+        if not plan.is_solved:
+            raise BenchmarkError(f"{article} has no plan to be shown")
+        stage = Stage(load_robot("pr2").card, plan.scene)
+        try:
+            stage.show_plan(plan)
+            rows.append(_row(article, {count: _run(stage, plan, count, every) for count in viewers}))
+        finally:
+            stage.close()
+    title = f"One animation frame, {FRAMES_PER_S:g} a second: CPU time of the server"
+    return Report("frames", title, COLUMNS, tuple(rows), 1)
+
+
+def _run(stage: Stage, plan: Plan, viewers: int, every: int) -> tuple[list[Times], list[dict[str, int]]]:
+    """A time for each frame of a plan, and what each viewer has read."""
+    timeline = plan.timeline()
+    moments = [number * every / FRAMES_PER_S for number in range(int(timeline.duration_s * FRAMES_PER_S / every) + 1)]
+    stage.show(timeline.at(0.0))
+    read: list[dict[str, int]] = []
+    with _watched(stage, viewers, read):
+        times = list(_shown(stage, plan, moments))
+    return times, read
+
+
+def _shown(stage: Stage, plan: Plan, moments: Sequence[float]) -> Iterator[Times]:
+    timeline, due_s = plan.timeline(), perf_counter()
+    for t_s in moments:
+        wall, whole, begun = perf_counter(), process_time(), thread_time()
+        frame = timeline.at(t_s)
+        made = thread_time()
+        stage.show(frame)
+        shown, wall = thread_time(), perf_counter() - wall
+        due_s = max(due_s + 1.0 / FRAMES_PER_S, perf_counter())
+        sleep(due_s - perf_counter() if due_s > perf_counter() else 0.0)
+        server = process_time() - whole
+        yield Times(1e3 * (made - begun), 1e3 * (shown - made), 1e3 * server, 1e3 * wall)
+
+
+@contextmanager
+def _watched(stage: Stage, viewers: int, read: list[dict[str, int]]) -> Iterator[None]:
+    """Have viewers while this goes on; what each of them has read is added to `read` at the end."""
+    if viewers == 0:
+        yield
+        return
+    command = [sys.executable, "-m", "bench.viewers", str(stage.port), stage.secret, str(viewers)]
+    with subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            if process.stdout.readline().strip() != READY:
+                raise BenchmarkError("the viewers cannot watch")
+            yield
+            said, _ = process.communicate(timeout=PATIENCE_S)
+            read.extend(json.loads(said))
+        finally:
+            process.kill()
+
+
+def _row(article: str, runs: dict[int, tuple[list[Times], list[dict[str, int]]]]) -> Row:
+    (_, (unwatched, _)), *_ = runs.items()
+    none_ms = [times.server_ms for times in unwatched]
+    lines: list[tuple[str, ...]] = []
+    data: list[dict[str, Any]] = []
+    for viewers, (times, read) in runs.items():
+        longer = Ratio.of([one.server_ms for one in times], none_ms)
+        figures = {name: _summary([getattr(one, name) for one in times]) for name in Times.__slots__}
+        data.append(_as_json(viewers, figures, longer, len(times), read))
+        lines.append(
+            (
+                "" if lines else article,
+                str(viewers),
+                str(len(times)),
+                f"{figures['make_ms']['median']:.2f}",
+                *(f"{figures['show_ms'][part]:.2f}" for part in ("median", "p95")),
+                *(f"{figures['server_ms'][part]:.2f}" for part in ("median", "p95")),
+                f"{figures['wall_ms']['median']:.2f}",
+                f"{longer.median:.2f}",
+            )
+        )
+    return Row(tuple(lines), {"article": article, "runs": data})
+
+
+def _as_json(
+    viewers: int, figures: dict[str, dict[str, float]], longer: Ratio, count: int, read: list[dict[str, int]]
+) -> dict[str, Any]:
+    return {"viewers": viewers, "frames": count, **figures, "server_ratio": asdict(longer), "read": read}
+
+
+def _summary(values: Sequence[float]) -> dict[str, float]:
+    return {"median": median(values), "p95": quantiles(values, n=20, method="inclusive")[-1]}

@@ -1,0 +1,172 @@
+"""How search time and expansions grow: with the number of folds, with the number of stations, with the comfort radius.
+
+The cases are solvable (see `bench.growth_cases`) but for the largest with tabs on two sides: there the time runs out,
+and what is given is where the search stood then.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import Any
+
+from bench.chart import Panel, Point, Series, draw
+from bench.growth_cases import crowded, ribbon, tabs, tabs_on_two_sides
+from bench.paper import TABLE_2
+from bench.report import Report, Row, count, seconds
+from planner import Garment, Plan, Scene, load_garment, make_plan
+
+COLUMNS = ("case", "size", "answer", "C [s]", "expanded", "IK queries", "search [s]", "joints [s]")
+COMFORT_M = 0.03
+BUDGET_S = 10.0
+SLOW_S = 2.0
+"""A search that takes longer is made once only."""
+
+FOLDS, FOLDS_ON_TWO_SIDES = (2, 5, 10, 20, 40), (2, 4, 6, 8, 10, 12)
+STATIONS = (5, 10, 20, 50)
+COMFORTS_CM = (1, 2, 3, 4, 5)
+CHAINED, FREE, SCATTERED = "ribbon rolled up", "tabs within reach", "tabs on two sides"
+WITH_STATIONS = ("t-shirt", "jeans", "shirt")
+WITH_COMFORT = ("t-shirt", "tie", "hand-towel")
+NINE = "the nine together"
+
+FOLDS_PANEL, STATIONS_PANEL, COMFORT_PANEL = "folds", "stations", "comfort radius [cm]"
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A problem of a size.
+
+    Attributes:
+        panel: what grows.
+        series: which problem grows with it.
+        size: how much of that there is.
+        articles: what is planned, several plans added up.
+        scene: where.
+        comfort_radius_m: with which comfort radius (m).
+    """
+
+    panel: str
+    series: str
+    size: int
+    articles: tuple[Garment, ...]
+    scene: Scene
+    comfort_radius_m: float = COMFORT_M
+
+
+@dataclass(frozen=True, slots=True)
+class Grown:
+    """A case and what came of it; times are medians, and with costs and counts sums over the articles (s)."""
+
+    case: Case
+    status: str
+    cost_s: float | None
+    expanded: int
+    explored: int
+    ik_queries: int
+    search_time_s: float
+    joint_time_s: float
+
+
+def growth(_: Sequence[str], repetitions: int) -> Report:
+    """All cases, or if it is to be quick the smallest of each series; about no garment in particular."""
+    found = [_grown(case, repetitions) for case in cases(is_quick=repetitions == 1)]
+    rows = tuple(_row(one) for one in found)
+    title = f"Growth with folds, stations and comfort (at most {BUDGET_S:g} s a search)"
+    return Report("growth", title, COLUMNS, rows, repetitions, figure=draw(_panels(found)))
+
+
+def cases(*, is_quick: bool) -> Iterator[Case]:
+    """The cases; if it is to be quick, the smallest of each series, and not the nine together."""
+    some: Callable[[Sequence[int]], Sequence[int]] = (lambda sizes: sizes[:1]) if is_quick else (lambda sizes: sizes)
+    scene = Scene()
+    for name, make, sizes in (
+        (CHAINED, ribbon, FOLDS),
+        (FREE, tabs, FOLDS),
+        (SCATTERED, tabs_on_two_sides, FOLDS_ON_TWO_SIDES),
+    ):
+        for size in some(sizes):
+            yield Case(FOLDS_PANEL, name, size, (make(size),), scene)
+    for name in WITH_STATIONS:
+        for size in some(STATIONS):
+            yield Case(STATIONS_PANEL, name, size, (load_garment(name),), crowded(size))
+    alone: dict[str, tuple[str, ...]] = {name: (name,) for name in WITH_COMFORT}
+    for name, articles in (alone if is_quick else alone | {NINE: tuple(TABLE_2)}).items():
+        for size in some(COMFORTS_CM):
+            garments = tuple(load_garment(article) for article in articles)
+            yield Case(COMFORT_PANEL, name, size, garments, scene, size / 100)
+
+
+def _grown(case: Case, repetitions: int) -> Grown:
+    runs: list[list[Plan]] = []
+    while len(runs) < repetitions and (not runs or _search_s(runs[0]) <= SLOW_S):
+        runs.append([_planned(case, garment) for garment in case.articles])
+    plans = runs[0]
+    statuses = {plan.status for plan in plans}
+    is_solved = statuses == {"solved"}
+    return Grown(
+        case,
+        "solved" if is_solved else ", ".join(sorted(statuses - {"solved"})),
+        sum(plan.cost_s or 0.0 for plan in plans) if is_solved else None,
+        sum(plan.statistics.expanded for plan in plans),
+        sum(plan.statistics.explored for plan in plans),
+        sum(plan.statistics.ik_queries for plan in plans),
+        median(_search_s(run) for run in runs),
+        median(sum(plan.statistics.joint_time_s for plan in run) for run in runs),
+    )
+
+
+def _search_s(plans: Sequence[Plan]) -> float:
+    return sum(plan.statistics.search_time_s for plan in plans)
+
+
+def _planned(case: Case, garment: Garment) -> Plan:
+    return make_plan(garment, case.scene, comfort_radius_m=case.comfort_radius_m, time_limit_s=BUDGET_S)
+
+
+def _row(grown: Grown) -> Row:
+    case = grown.case
+    fields = ("status", "cost_s", "expanded", "explored", "ik_queries", "search_time_s", "joint_time_s")
+    data: dict[str, Any] = {name: getattr(grown, name) for name in fields}
+    line = (
+        case.series,
+        f"{case.size} {case.panel}" if case.panel != COMFORT_PANEL else f"{case.size} cm",
+        "out of time" if grown.status == "budget_exceeded" else grown.status,
+        seconds(grown.cost_s),
+        count(grown.expanded),
+        count(grown.ik_queries),
+        seconds(grown.search_time_s, 3),
+        seconds(grown.joint_time_s, 3),
+    )
+    return Row((line,), {"grows": case.panel, "series": case.series, "size": case.size, **data})
+
+
+def _panels(found: Sequence[Grown]) -> list[list[Panel]]:
+    """Above search times, below expansions; one column for each thing that grows."""
+    measures: tuple[tuple[str, Callable[[Grown], float]], ...] = (
+        ("search time [s]", lambda one: one.search_time_s),
+        ("states expanded", lambda one: float(one.expanded)),
+    )
+    return [
+        [_panel(found, grows, words, measure) for grows in (FOLDS_PANEL, STATIONS_PANEL, COMFORT_PANEL)]
+        for words, measure in measures
+    ]
+
+
+def _panel(found: Sequence[Grown], grows: str, words: str, measure: Callable[[Grown], float]) -> Panel:
+    here = [one for one in found if one.case.panel == grows]
+    names = list(dict.fromkeys(one.case.series for one in here))
+    return Panel(
+        grows,
+        words,
+        tuple(
+            Series(
+                name,
+                tuple(
+                    Point(one.case.size, measure(one), one.status == "solved")
+                    for one in here
+                    if one.case.series == name
+                ),
+            )
+            for name in names
+        ),
+    )

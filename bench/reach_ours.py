@@ -1,0 +1,83 @@
+"""Pleat's own answers to whether the left arm takes a pose: the kernel in batches, and the memory in front of it."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from bench.pin_arm import TORSO_M
+from bench.reach_method import Answering, Joints, Method
+from bench.reach_queries import Queries
+from planner.geometry.pose import BoolArray
+from planner.robot.arm import read_arm
+from planner.robot.description import read_model
+from planner.robot.kernel import reachable_batch
+from planner.robot.pr2 import load_robot
+from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.sided_arm import SidedArm
+
+BATCHES = (1, 10, 100, 1000)
+STEP_M = 0.05
+
+
+def our_methods() -> tuple[Method, ...]:
+    """The kernel in batches, and for pinches what the planner has before it."""
+    return (
+        *(Method(in_batches(size), _in_batches(size)) for size in BATCHES),
+        Method(f"pinches, batches of {BATCHES[-1]}", _in_batches(BATCHES[-1]), is_of_pinches=True),
+        Method("memory, asked first", _asked_first, is_of_pinches=True, is_repeatable=False),
+        Method("memory, asked again", _asked_again, is_of_pinches=True),
+    )
+
+
+def in_batches(size: int) -> str:
+    """The name of the method that asks about so many poses at a time."""
+    return f"Pleat, batches of {size}"
+
+
+def _in_batches(size: int) -> Callable[[Queries], Answering]:
+    shape = read_arm(read_model())
+    shoulder = SidedArm(shape, is_mirrored=False).shoulder(TORSO_M)
+
+    def prepare(queries: Queries) -> Answering:
+        points, axes, count = queries.points - shoulder, queries.axes, len(queries)
+
+        def answer() -> Callable[[], Joints]:
+            starts = range(0, count, size)
+            parts = [reachable_batch(shape, points[i : i + size], axes[i : i + size]) for i in starts]
+            return lambda: _joints(queries, np.concatenate(parts))
+
+        return answer
+
+    return prepare
+
+
+def _asked_first(queries: Queries) -> Answering:
+    """The planner's memory, empty, asked one approach after another; comfort radius 0 and no body in the way."""
+    reach = Pr2Reach(("left",), (SidedArm(read_arm(read_model()), is_mirrored=False),), TORSO_M, 0.0)
+    groups = [np.flatnonzero(queries.approaches == approach) for approach in range(len(APPROACHES))]
+    asked = [(queries.points[group], np.array([number])) for number, group in enumerate(groups)]
+
+    def answer() -> Callable[[], Joints]:
+        parts = [reach.from_anywhere(0, points, approach, 1, STEP_M)[0] for points, approach in asked]
+        answers = np.zeros(len(queries), dtype=bool)
+        answers[np.concatenate(groups)] = np.concatenate(parts)
+        return lambda: _joints(queries, answers)
+
+    return answer
+
+
+def _asked_again(queries: Queries) -> Answering:
+    """The same memory after it was asked the same before."""
+    answer = _asked_first(queries)
+    answer()
+    return answer
+
+
+def _joints(queries: Queries, answers: BoolArray) -> Joints:
+    """The joints that Pleat names for its answers; not a number where it says yes and then names none."""
+    robot = load_robot("pr2")
+    found = []
+    for point, rotation, answer in zip(queries.points, queries.rotations, answers, strict=True):
+        near = robot.joints_near(0, point, rotation, TORSO_M, robot.home(0)) if answer else None
+        found.append(np.full(7, np.nan) if answer and near is None else near)
+    return found
