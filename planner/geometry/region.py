@@ -14,7 +14,7 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.ring import corners, counter_clockwise, feet, inward_bisector
 from planner.geometry.segment import Segment
 from planner.geometry.shape import half_plane, polygonal, united, without_cracks
@@ -189,6 +189,10 @@ class Region:
         inside = shapely.intersection(line, self.shape.buffer(LENGTH_M))
         parts = [shapely.get_coordinates(p) for p in shapely.get_parts(inside)]
         return tuple((_point(p[0]), _point(p[-1])) for p in parts if len(p))
+
+    def touches(self, segments: FloatArray) -> BoolArray:
+        """Which of some segments, shape (n, 2, 2), have a point of the region, to the tolerance; shape (n,)."""
+        return np.asarray(shapely.dwithin(shapely.linestrings(segments), self.shape, LENGTH_M))
 
     @cached_property
     def triangles(self) -> FloatArray:

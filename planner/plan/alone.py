@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.plan.alone_cases import Case, Cases
 from planner.primitives.drag_grips import dragged, longest_drag
@@ -93,25 +93,27 @@ class Alone:
         return True
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
-        stations = range(len(self._work.scene.stations))
         return any(
-            self._is_possible(case, fold, station) for case in self._cases.of(done, fold) for station in stations
+            self._is_possible(case, fold, station)
+            for case in self._cases.of(done, fold)
+            for station in (range(len(self._work.scene.stations)) if case.station is None else (case.station,))
         )
 
     def _is_possible_nearby(self, case: Case, fold: int) -> bool:
         """A quick guess: whether a fold can be done from the first station where drags from there may bring it."""
         steps = min(longest_drag(self._work), _GUESSED_DRAGS)
         places = [dragged(self._work, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
-        states = [case.state(self._station, np.array(place)) for place in places]
+        station = self._station if case.station is None else case.station
+        states = [case.state(station, np.array(place)) for place in places]
         return any(
             self._can_follow(state, fold, trial) for state in states for trial in fold_trials(self._work, state, fold)
         )
 
     def _with_line_on_table(self, fold: int) -> FloatArray:
         line = self._work.sequence.folds[fold].line
-        offsets = [(float(x), float(y)) for x, y in self._offsets]
-        is_on = [bool(self._work.table_in_article(offset).region.overlaps_with(line)) for offset in offsets]
-        return np.asarray(self._offsets[np.array(is_on, dtype=bool)])
+        moves = Pose2(0.0, 0.0, self._work.placement.yaw_rad).to_inner(self._offsets)
+        lines = np.array([line.start, line.end]) + moves[:, None]
+        return np.asarray(self._offsets[self._work.table_in_article((0.0, 0.0)).region.touches(lines)])
 
     def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
         """Remember the place at which a line that is never on the table is nearest to it."""

@@ -21,10 +21,12 @@ class Case:
     Attributes:
         done: the folds done, as a bit mask.
         held: what is held.
+        station: where the drag was made that left it held, and hands that hold on stay; None: at any station.
     """
 
     done: int
-    held: tuple[Held, ...]
+    held: tuple[Held, ...] = ()
+    station: int | None = None
 
     def state(self, station: int, offset: FloatArray) -> State:
         """The same with the robot at a station and the article dragged so far (m)."""
@@ -45,18 +47,18 @@ class Cases:
         """Free hands, then whatever a drag that starts anywhere may leave held."""
         obstacle = grips_obstacle(self._work, State(done, (0.0, 0.0), self._station, 0), fold)
         if obstacle is None:
-            yield Case(done, ())
+            yield Case(done)
         else:
             self._work.obstacles.note(obstacle)
         seen: set[tuple[object, ...]] = set()
-        for held in self._holds(done, fold):
-            key = tuple(h.key for h in held)
+        for held, station in self._holds(done, fold):
+            key = (station, *(h.key for h in held))
             if key not in seen:
                 seen.add(key)
-                yield Case(done, held)
+                yield Case(done, held, station)
 
-    def _holds(self, done: int, fold: int) -> Iterator[tuple[Held, ...]]:
-        """What drags may leave held that serves a fold.
+    def _holds(self, done: int, fold: int) -> Iterator[tuple[tuple[Held, ...], int]]:
+        """What drags may leave held that serves a fold, and from which station.
 
         While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
         gripped, so what must be held in the fold has to be within a grip's radius of the table.
@@ -70,7 +72,8 @@ class Cases:
                 continue
             is_whole_seen |= is_whole
             for station in range(len(work.scene.stations)):
-                yield from self._serving(done, fold, offset, station)
+                for held in self._serving(done, fold, offset, station):
+                    yield held, station
 
     def _serving(self, done: int, fold: int, offset: Point2, station: int) -> Iterator[tuple[Held, ...]]:
         work = self._work

@@ -10,6 +10,7 @@ import shapely
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
 from tests.builders import is_same_region, rectangle, star
 
 
@@ -205,3 +206,19 @@ def test_the_boundary_of_a_hole_is_boundary_too():
     ring = Region.polygon(rectangle(0.4, 0.4).ring).difference(rectangle(0.1, 0.1, 0.15, 0.15))
     found = ring.all_nearest_boundary_points(np.array([[0.16, 0.2]]))
     assert found == pytest.approx(np.array([[0.15, 0.2]]))
+
+
+def test_a_segment_touches_a_region_if_any_point_of_it_is_there():
+    # The unit square: across it, inside it, with an end on its edge, along its edge, beside it by a micrometre (the
+    # tolerance) and by a millimetre, and past its corner.
+    segments = [
+        ((-1.0, 0.5), (2.0, 0.5)),
+        ((0.2, 0.2), (0.3, 0.4)),
+        ((1.0, 0.5), (2.0, 0.5)),
+        ((0.0, 1.0), (1.0, 1.0)),
+        ((1.0 + 0.9 * LENGTH_M, 0.0), (1.0 + 0.9 * LENGTH_M, 1.0)),
+        ((1.001, 0.0), (1.001, 1.0)),
+        ((0.5, 1.6), (1.6, 0.5)),
+    ]
+    found = rectangle(1.0, 1.0).touches(np.array(segments))
+    assert found.tolist() == [True, True, True, True, True, False, False]
