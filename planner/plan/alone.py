@@ -36,7 +36,7 @@ _OFFSETS_MAX = 2000
 
 _BITS = 32
 
-_GUESSES, _GUESSED_DRAGS = 3, 10
+_GUESSES, _GUESSED_DRAGS = 2, 6
 """How many cases, and drags in each, are tried before all is gone through."""
 
 _EXTREMES = (1.0, 2.0, 0.0)

@@ -6,6 +6,7 @@ from itertools import permutations
 
 import numpy as np
 
+from planner.cloth.grips import Cover
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
@@ -51,14 +52,16 @@ class Cases:
         else:
             self._work.obstacles.note(obstacle)
         seen: set[tuple[object, ...]] = set()
-        for held, station in self._holds(done, fold):
-            key = (station, *(h.key for h in held))
-            if key not in seen:
-                seen.add(key)
-                yield Case(done, held, station)
+        for offset in self._offsets_that_matter(done, fold):
+            for station in range(len(self._work.scene.stations)):
+                for cover in self._covers(done, offset, station):
+                    key = (station, *(Held(0, point).key for point in cover))
+                    if key not in seen:
+                        seen.add(key)
+                        yield from (Case(done, held, station) for held in self._serving(done, fold, cover))
 
-    def _holds(self, done: int, fold: int) -> Iterator[tuple[tuple[Held, ...], int]]:
-        """What drags may leave held that serves a fold, and from which station.
+    def _offsets_that_matter(self, done: int, fold: int) -> Iterator[Point2]:
+        """The offsets from which a drag may leave held what serves a fold and no other offset does.
 
         While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
         gripped, so what must be held in the fold has to be within a grip's radius of the table.
@@ -71,20 +74,23 @@ class Cases:
             if (is_whole and is_whole_seen) or not (is_whole or self._is_near(done, fold, offset)):
                 continue
             is_whole_seen |= is_whole
-            for station in range(len(work.scene.stations)):
-                for held in self._serving(done, fold, offset, station):
-                    yield held, station
+            yield offset
 
-    def _serving(self, done: int, fold: int, offset: Point2, station: int) -> Iterator[tuple[Held, ...]]:
+    def _covers(self, done: int, offset: Point2, station: int) -> tuple[Cover, ...]:
+        """The grips with which the article may be dragged."""
         work = self._work
         towards = towards_robot(work, station)
         if hangs_ahead(work, done, offset, towards):
-            return
-        for cover in drag_covers(work, done, offset, towards).covers:
-            for arms in permutations(range(len(work.reach.arm_names)), len(cover)) if cover else ():
-                held = tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
-                if held_covers(work, done, fold, held):
-                    yield held
+            return ()
+        return tuple(cover for cover in drag_covers(work, done, offset, towards).covers if cover)
+
+    def _serving(self, done: int, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
+        """What arms may hold with some grips, if they hold what a fold needs."""
+        work = self._work
+        held = tuple(Held(arm, point) for arm, point in enumerate(cover))
+        if held_covers(work, done, fold, held):
+            for arms in permutations(range(len(work.reach.arm_names)), len(cover)):
+                yield tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
 
     def _is_near(self, done: int, fold: int, offset: Point2) -> bool:
         """Whether all that must be held in a fold lies within a grip's radius of the table."""
