@@ -1,5 +1,6 @@
 """A browser and a server for tests without a stage: the page then loads at once and leaves the processor free."""
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -48,6 +49,15 @@ class Sheet:
     def state(self) -> dict[str, Any]:
         state: dict[str, Any] = httpx.get(self.path).json()
         return state
+
+    def at_rest(self) -> dict[str, Any]:
+        """The same once no gesture is under way there: what a page drops, its server hears of a little later."""
+        for _ in range(PATIENCE_MS // 50):
+            state = self.state
+            if state["gesture"] is None:
+                return state
+            time.sleep(0.05)
+        raise AssertionError("the gesture never ends")
 
     @property
     def drawing(self) -> dict[str, Any]:

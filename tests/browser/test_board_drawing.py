@@ -190,5 +190,6 @@ def test_two_fingers_zoom_and_drop_the_stroke(phone: BrowserContext, new_sheet: 
     after = float(str(hand.board.get_attribute("data-px-per-m")))
     assert after == pytest.approx(2 * before, rel=0.02)
     expect(page.get_by_role("button", name="Undo")).to_be_disabled()
-    assert sheet.state["history"]["can_undo"] is None
-    assert sheet.drawing["outline"][0]["point"] == [0.0, 0.0]
+    state = sheet.at_rest()
+    assert state["history"]["can_undo"] is None
+    assert state["drawing"]["outline"][0]["point"] == [0.0, 0.0]

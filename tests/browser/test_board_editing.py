@@ -83,14 +83,12 @@ def test_escape_drops_a_drag_without_a_step(page: Page, cloth: Desk) -> None:
     hand = Hand(page)
     before = page.locator(".corner").nth(6).get_attribute("cx")
     hand.drag(SLEEVE_TIP, (0.66, 0.5), is_released=False)
-    page.wait_for_timeout(200)  # so that previews have reached the server
-    assert cloth.state["gesture"] == "Move vertex"
+    page.wait_for_function(f"fetch('{cloth.path}').then((a) => a.json()).then((s) => s.gesture === 'Move vertex')")
     page.keyboard.press("Escape")
     page.mouse.up()
     expect_no_step(page)
     expect(page.locator(".corner").nth(6)).to_have_attribute("cx", str(before))
-    page.wait_for_function(f"fetch('{cloth.path}').then((a) => a.json()).then((s) => s.gesture === null)")
-    assert cloth.state["history"] == {"can_undo": "Begin", "can_redo": None}
+    assert cloth.at_rest()["history"] == {"can_undo": "Begin", "can_redo": None}
     assert corner(cloth, 6) == list(SLEEVE_TIP)
 
 
