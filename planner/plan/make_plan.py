@@ -30,7 +30,7 @@ from planner.plan.realizer import Realizer
 from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.plan.warm_up import warm_up
-from planner.primitives.obstacle import Situation, situation
+from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Later, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.scene import Scene
@@ -131,7 +131,7 @@ class _Planner:
         self._should_stop = should_stop or (lambda: False)
         self._primitives = [kind(work) for kind in PRIMITIVES]
         self._achieved = 0
-        self._reached: set[Situation] = set()
+        self._reached: set[State] = set()
         self._expanded = 0
         self._station = 0
         self._blocking: list[int] = []
@@ -174,7 +174,7 @@ class _Planner:
     def _reasons(self) -> tuple[Reason, ...]:
         for run in self._realizer.struck[-_COLLISIONS_MAX:]:
             note_collision(self._work, run[-1], self._maker.snag(run))
-        return reasons(self._work, self._reached, self._blocking)
+        return reasons(self._work, {situation(state) for state in self._reached}, self._blocking)
 
     def _successors(self, state: State) -> Successors[State, Step]:
         if state not in self._steps:
@@ -188,7 +188,7 @@ class _Planner:
             yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
         for step, cost_s in self._realizer.possible(state, (one for one in found if not isinstance(one, Later))):
             self._achieved |= step.after.done
-            self._reached.add(situation(step.after))
+            self._reached.add(step.after)
             yield Edge(step, cost_s, step.after)
 
     def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
