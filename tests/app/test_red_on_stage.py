@@ -12,7 +12,7 @@ from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.plan import PlannedPrimitive
-from planner.primitives.g_fold import FoldStep
+from planner.primitives.fold_step import FoldStep
 from planner.robot.pr2 import load_robot
 
 CARD = load_robot("pr2").card

@@ -15,8 +15,10 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.plan import make_plan as planning
 from planner.plan.plan import PlannedPrimitive
 from planner.primitives.base_move import BaseMove
-from planner.primitives.g_drag import DragStep, GDrag
-from planner.primitives.g_fold import FoldStep, GFold
+from planner.primitives.drag_step import DragStep
+from planner.primitives.fold_step import FoldStep
+from planner.primitives.g_drag import GDrag
+from planner.primitives.g_fold import GFold
 from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import Work

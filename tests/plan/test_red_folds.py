@@ -20,8 +20,9 @@ from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.frame import ClothSurface
 from planner.plan.plan import PlannedPrimitive
 from planner.primitives.base_move import BaseMove
+from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
-from planner.primitives.g_fold import FoldStep, GFold
+from planner.primitives.g_fold import GFold
 from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import Work

@@ -8,8 +8,9 @@ import pytest
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.primitives.base_legs import legs
+from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
-from planner.primitives.g_fold import FoldStep, GFold, fold_step
+from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 from planner.robot.pr2 import load_robot

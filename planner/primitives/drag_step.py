@@ -1,0 +1,158 @@
+"""A drag as it is performed in a plan."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from planner.geometry.pose import Approach, FloatArray, Point3
+from planner.geometry.table_top import TableTop
+from planner.primitives.drag_way import DragWay
+from planner.primitives.grasping import approaches_from_outside
+from planner.primitives.grip import Grip
+from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.state import State
+from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
+
+
+@dataclass(frozen=True)
+class DragStep:
+    """One drag as it is performed.
+
+    Attributes:
+        work: the problem.
+        way: grips and arms.
+        before: the state it starts in.
+        after: the state it leads to.
+        first_stand: back-off at which the grips are reached.
+        approaches: each grip's approach, where that is not the one preferred.
+    """
+
+    work: Work
+    way: DragWay
+    before: State
+    after: State
+    first_stand: int
+    approaches: tuple[int, ...] | None = None
+    kind: str = "drag"
+
+    @property
+    def distance_m(self) -> float:
+        """How far the article goes (m)."""
+        return (self.after.back_off - self.first_stand) / BACK_OFFS_PER_M
+
+    @property
+    def duration_s(self) -> float:
+        """The drive, the reach and the drag (s)."""
+        steps = abs(self.before.back_off - self.first_stand) + self.after.back_off - self.first_stand
+        return self.work.scene.arm_motion_s + self.work.drive_s(steps)
+
+    @property
+    def grips(self) -> tuple[Grip, ...]:
+        """Each hand's pick and place, from the leftmost arm to the rightmost."""
+        names = self.work.reach.arm_names
+        ends = self._ends()
+        found = [
+            (arm, Grip(names[arm], _point(self.way.picks[i]), None, _point(ends[i])))
+            for i, arm in enumerate(self.way.arms)
+        ]
+        return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
+
+    @property
+    def details(self) -> dict[str, Any]:
+        """How far, and whether the hands keep hold afterwards."""
+        return {"distance_m": self.distance_m, "holds": bool(self.after.held)}
+
+    @property
+    def summary(self) -> str:
+        """How far."""
+        return f"{self.distance_m:.1f} m" + (", hold on" if self.after.held else "")
+
+    def phases(self) -> tuple[Phase, ...]:
+        """Drive, reach, back off with the cloth."""
+        return self._phases
+
+    @cached_property
+    def _phases(self) -> tuple[Phase, ...]:
+        work = self.work
+        begin, stand, end = (
+            work.base_pose(self.before.station, b)
+            for b in (self.before.back_off, self.first_stand, self.after.back_off)
+        )
+        start, goal = work.placed(self.before.offset), work.placed(self.after.offset)
+        top = TableTop.of(work.scene.table)
+        still = ClothMotion(self.before.done, start, start, top)
+        carried = ClothMotion(self.before.done, start, goal, top.open_towards(self._ends()[:, :2]))
+        free: tuple[Hand | None, ...] = (None,) * len(work.reach.arm_names)
+        drive = work.drive_s(abs(self.before.back_off - self.first_stand))
+        drag = work.drive_s(self.after.back_off - self.first_stand)
+        return (
+            Phase(drive, (begin, stand), free, still),
+            Phase(work.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
+            Phase(drag, (stand, end), self._hands(is_reaching=False), carried),
+        )
+
+    def variants(self) -> Iterator["DragStep"]:
+        """The same in every other choice of approaches; the best ones first."""
+        yield self
+        work, way = self.work, self.way
+        turn = work.placed(self.before.offset).yaw_rad - work.station_pose(self.before.station).yaw_rad
+        chosen = tuple(int(approach) for approach in way.approaches[self.first_stand])
+        able = []
+        for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
+            allowed = approaches_from_outside(work, self.before.done, turn, grip)
+            point = work.in_base(self.before.station, pick[None])
+            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
+        for choice in sorted(product(*(enumerate(a) for a in able)), key=lambda c: sum(rank for rank, _ in c)):
+            approaches = tuple(approach for _, approach in choice)
+            if approaches != chosen:
+                yield replace(self, approaches=approaches)
+
+    @cached_property
+    def situation(self) -> tuple[object, ...]:
+        """What it has in common with the same motions of the hands while the base stands elsewhere."""
+        length = self.after.back_off - self.first_stand
+        return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, self.way.hands)
+
+    def begun_in(self, state: State) -> "DragStep":
+        """The same from another state of the same situation."""
+        return replace(self, before=state, after=replace(self.after, done=state.done))
+
+    def elsewhere(self, count: int) -> Iterator["DragStep"]:
+        """So many other ways to drag the same grips as far from the same state, the base starting elsewhere."""
+        stands = [stand for stand in self.way.stands if stand != self.first_stand]
+        length = self.after.back_off - self.first_stand
+        for stand in stands[:: max(1, len(stands) // count)]:
+            if stand + length < self.work.back_offs:
+                yield replace(
+                    self,
+                    after=replace(self.after, back_off=stand + length),
+                    first_stand=stand,
+                    approaches=None,
+                )
+
+    def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
+        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
+        ends = self._ends()
+        for i, arm in enumerate(self.way.arms):
+            pick, place = _point(self.way.picks[i]), _point(ends[i])
+            points = (pick,) if is_reaching else (pick, place)
+            hands[arm] = Hand(self._approach(i), points, not is_reaching, is_reaching)
+        return tuple(hands)
+
+    def _approach(self, grip: int) -> Approach:
+        chosen = self.way.approaches[self.first_stand] if self.approaches is None else self.approaches
+        return self.work.reach.approaches[int(chosen[grip])]
+
+    def _ends(self) -> FloatArray:
+        dx = self.after.offset[0] - self.before.offset[0]
+        dy = self.after.offset[1] - self.before.offset[1]
+        return np.asarray(self.way.picks + np.array([dx, dy, 0.0]))
+
+
+def _point(row: FloatArray) -> Point3:
+    return (float(row[0]), float(row[1]), float(row[2]))

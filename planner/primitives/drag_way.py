@@ -1,0 +1,88 @@
+"""With which hands, at which grips, and from where an article can be dragged."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
+from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, nearest_pair_m
+from planner.primitives.state import State
+from planner.primitives.work import BACK_OFF_STEP_M, Work
+
+
+@dataclass(frozen=True, eq=False)
+class DragWay:
+    """One choice of arms for the grips of a drag.
+
+    Attributes:
+        arms: the arm that holds each grip.
+        grips: what is held, article frame (m).
+        picks: the same as tool points in the table frame, shape (grips, 3), m.
+        approaches: for each back-off each arm's approach, shape (back-offs, grips); -1 where out of reach.
+    """
+
+    arms: tuple[int, ...]
+    grips: tuple[Point2, ...]
+    picks: FloatArray
+    approaches: NDArray[np.int64]
+
+    @cached_property
+    def hands(self) -> tuple[object, ...]:
+        """What tells it from other ways: arms, picks and approaches."""
+        return (self.arms, np.round(self.picks / LENGTH_M).tobytes(), self.approaches.tobytes())
+
+    @cached_property
+    def stands(self) -> list[int]:
+        """The back-offs from which all grips are in reach."""
+        return [int(b) for b in np.flatnonzero((self.approaches >= 0).all(axis=1))]
+
+
+class DragWays:
+    """The ways to drag in each state; states with the same cloth at the same place share them."""
+
+    def __init__(self, work: Work) -> None:
+        """Nothing is known yet."""
+        self._work = work
+        self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
+
+    def of(self, state: State) -> tuple[DragWay, ...]:
+        """All choices of arms and grips with which the article can be dragged from where it lies."""
+        _, x, y, station, *_ = state.key
+        key = (state.done, x, y, station)
+        if key not in self._found:
+            self._found[key] = tuple(w for w in self._search(state) if w.stands)
+        return self._found[key]
+
+    def _search(self, state: State) -> Iterator[DragWay]:
+        work = self._work
+        placement = work.placed(state.offset)
+        towards = towards_robot(work, state.station)
+        if hangs_ahead(work, state.done, state.offset, towards):
+            return
+        for cover in drag_covers(work, state.done, state.offset, towards).covers:
+            points = placement.to_outer(np.array(cover).reshape(-1, 2))
+            if cover and nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+                for arms in assignments(work, state.station, points):
+                    yield self._way(state, cover, arms, points, placement)
+
+    def _way(
+        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], points: FloatArray, placement: Pose2
+    ) -> DragWay:
+        work = self._work
+        picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
+        turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
+        chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
+        for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
+            allowed = approaches_from_outside(work, state.done, turn, grip)
+            point = work.in_base(state.station, picks[i : i + 1])
+            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            for index, mask in reversed(list(zip(allowed, masks[:, 0], strict=True))):
+                stands = [b for b in range(work.back_offs) if int(mask) >> b & 1]
+                chosen[stands, i] = index
+        return DragWay(arms, cover, picks, chosen)
