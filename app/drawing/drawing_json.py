@@ -25,7 +25,7 @@ from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.make_plan import COMFORT_MAX_M
+from planner.plan.problem import COMFORT_MAX_M
 from planner.primitives.scene import Scene
 from planner.strict_model import Bounded, PlanePoint, Positive, StrictModel, first_error
 

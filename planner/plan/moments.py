@@ -7,7 +7,8 @@ a tool turns but a little from one to the next.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,17 +66,42 @@ def moments_of(phases: Sequence[Phase], height_m: float) -> Moments:
         phases: what happens, one phase after the other.
         height_m: the table top's height over the floor.
     """
-    sampler = _Sampler(height_m, len(phases[0].hands))
-    parts = [part for number, phase in enumerate(phases) for part in sampler.parts(number, phase)]
+    sampler = _Sampler(len(phases[0].hands))
+    stretches = [stretch for number, phase in enumerate(phases) for stretch in sampler.stretches(number, phase)]
+    lengths = [len(stretch.shares) for stretch in stretches]
+    numbers = np.repeat([stretch.number for stretch in stretches], lengths)
+    shares = np.concatenate([stretch.shares for stretch in stretches])
+    ends = np.array([[(pose.x_m, pose.y_m, pose.yaw_rad) for pose in phase.base] for phase in phases])
+    bases = ends[numbers, 0] + shares[:, None] * (ends[numbers, 1] - ends[numbers, 0])
+    ways = [_positions_and_rotations(phases, stretches, arm, numbers, shares) for arm in range(len(phases[0].hands))]
+    paces = np.concatenate([np.diff(stretch.shares, prepend=0.0) for stretch in stretches])
+    is_turning = np.repeat([stretch.turned is not None for stretch in stretches], lengths)
     return Moments(
-        np.concatenate([part.phases for part in parts]),
-        np.concatenate([part.fractions for part in parts]),
-        np.concatenate([part.bases for part in parts]),
-        np.concatenate([part.positions for part in parts], axis=1),
-        np.concatenate([part.rotations for part in parts], axis=1),
-        np.concatenate([part.nominal_s for part in parts]),
-        np.concatenate([part.is_driving for part in parts]),
+        numbers,
+        shares,
+        bases,
+        np.array([_in_base(bases, positions, height_m) for positions, _ in ways]),
+        np.array([rotations for _, rotations in ways]),
+        np.array([phase.duration_s for phase in phases])[numbers] * paces,
+        np.array([phase.motion is None for phase in phases])[numbers] & ~is_turning,
     )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stretch:
+    """Moments of one phase, of its turning in the grips or of its way.
+
+    Attributes:
+        number: index of the phase.
+        shares: how much of the phase is done, shape (n,).
+        rolls: how far each hand has rolled more than its phase says (rad).
+        turned: each arm's tool axes while it turns in its grip, shape (arms, n, 3, 3); None: it goes its way.
+    """
+
+    number: int
+    shares: FloatArray
+    rolls: tuple[float, ...]
+    turned: FloatArray | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,39 +120,43 @@ class _Wrist:
 class _Sampler:
     """Cuts phases into moments; knows how each hand was turned at the end of the phase before."""
 
-    def __init__(self, height_m: float, arms: int) -> None:
-        self._height_m = height_m
+    def __init__(self, arms: int) -> None:
         self._wrists: list[_Wrist | None] = [None] * arms
         self._rolls = [0.0] * arms
 
-    def parts(self, number: int, phase: Phase) -> Iterator[Moments]:
-        """The turning in the grips, if there is any, and the phase; its start only if nothing went before."""
+    def stretches(self, number: int, phase: Phase) -> Iterator[_Stretch]:
+        """The turning in the grips, if there is any, and the way; its start only if nothing went before."""
         turns = [self._turn(arm, hand) for arm, hand in enumerate(phase.hands)]
-        angle = max(float(np.abs(turn[1] - turn[0]).sum()) for turn in turns)
+        angles = [float(np.abs(turn[1] - turn[0]).sum()) for turn in turns if turn is not None]
+        angle = max(angles, default=0.0)
+        rolls = tuple(self._rolls)
         if angle > ANGLE_RAD:
-            shares = np.linspace(0.0, 1.0, int(np.ceil(angle / STEP_RAD)) + 1)[1:]
-            part = self._part(number, phase, np.zeros(len(shares)))
-            turned = np.array([_rotations(*(start + shares[:, None] * (end - start)).T) for start, end in turns])
-            is_held = part.is_held[:, :, None, None]
-            yield replace(
-                part, rotations=np.where(is_held, turned, np.nan), is_driving=np.zeros(len(shares), dtype=bool)
-            )
-        part = self._part(number, phase, np.linspace(0.0, 1.0, _count(phase) + 1)[1 if number else 0 :])
+            parts = np.linspace(0.0, 1.0, int(np.ceil(angle / STEP_RAD)) + 1)[1:, None]
+            turned = [
+                np.full((len(parts), 3, 3), np.nan)
+                if turn is None
+                else _rotations(turn[0] + parts * (turn[1] - turn[0]))
+                for turn in turns
+            ]
+            yield _Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
+        yield _Stretch(number, np.linspace(0.0, 1.0, _count(phase) + 1)[1 if number else 0 :], rolls, None)
         for arm, hand in enumerate(phase.hands):
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + _rolls(hand)[-1])
-        yield part
 
-    def _turn(self, arm: int, hand: Hand | None) -> FloatArray:
-        """Heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3).
+    def _turn(self, arm: int, hand: Hand | None) -> FloatArray | None:
+        """Heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3); None: free.
 
         It keeps its roll, so that a hand with its fingers flat over the table stays so; the roll with which it goes on
         is settled here.
         """
         before = self._wrists[arm]
-        if hand is None or before is None:
+        if hand is None:
             self._rolls[arm] = 0.0
-            return np.zeros((2, 3))
+            return None
         after = hand.approach
+        if before is None or before.approach == after:
+            self._rolls[arm] = 0.0 if before is None else before.roll_rad - _rolls(hand)[0]
+            return np.array([(after.heading_rad, after.pitch_rad, self._rolls[arm] + _rolls(hand)[0])] * 2)
         if before.approach.is_vertical:
             before = before.seen_with(after.heading_rad)
             goal = _Wrist(after, before.roll_rad if after.is_vertical else math.pi * round(before.roll_rad / math.pi))
@@ -139,25 +169,51 @@ class _Sampler:
         turn = wrapped_angle(goal.approach.heading_rad - before.approach.heading_rad)
         return np.array([start, (start[0] + turn, goal.approach.pitch_rad, goal.roll_rad)])
 
-    def _part(self, number: int, phase: Phase, shares: FloatArray) -> Moments:
-        ends = np.array([[pose.x_m, pose.y_m, pose.yaw_rad] for pose in phase.base])
-        bases = ends[0] + shares[:, None] * (ends[1] - ends[0])
-        count, arms = len(shares), len(phase.hands)
-        positions, rotations = np.full((arms, count, 3), np.nan), np.full((arms, count, 3, 3), np.nan)
-        for arm, hand in enumerate(phase.hands):
-            if hand is not None:
-                positions[arm] = self._in_base(bases, _along(np.array(hand.points), shares))
-                rolls = self._rolls[arm] + _along(_rolls(hand)[:, None], shares)[:, 0]
-                rotations[arm] = hand.approach.rotation @ about_x(rolls)
-        nominal_s = phase.duration_s * np.diff(shares, prepend=0.0)
-        is_driving = np.full(count, phase.motion is None)
-        return Moments(np.full(count, number), shares, bases, positions, rotations, nominal_s, is_driving)
 
-    def _in_base(self, bases: FloatArray, points: FloatArray) -> FloatArray:
-        """Points of the table frame, each seen from its own base, both of shape (n, 3); z over the floor (m)."""
-        cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
-        dx, dy = points[:, 0] - bases[:, 0], points[:, 1] - bases[:, 1]
-        return np.column_stack([cos * dx + sin * dy, cos * dy - sin * dx, points[:, 2] + self._height_m])
+def _positions_and_rotations(
+    phases: Sequence[Phase],
+    stretches: Sequence[_Stretch],
+    arm: int,
+    numbers: NDArray[np.int64],
+    shares: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """An arm's tool in the table frame, shape (n, 3), m, and its axes in the base frame, shape (n, 3, 3).
+
+    Both nan while the hand is free.
+    """
+    more = {stretch.number: stretch.rolls[arm] for stretch in stretches}
+    corners: list[tuple[float, ...]] = []
+    firsts, lasts, axes = [], [], np.full((len(phases), 3, 3), np.nan)
+    for number, phase in enumerate(phases):
+        hand = phase.hands[arm]
+        firsts.append(len(corners))
+        if hand is None:
+            corners.append((math.nan,) * 4)
+        else:
+            rolls = (more[number] + roll for roll in _rolls(hand))
+            corners += [(*point, roll) for point, roll in zip(hand.points, rolls, strict=True)]
+            axes[number] = hand.approach.rotation
+        lasts.append(len(corners) - 1)
+    first, last = np.array(firsts)[numbers], np.array(lasts)[numbers]
+    at = shares * (last - first)
+    before = np.floor(at).astype(np.int64)
+    along, table = (at - before)[:, None], np.array(corners)
+    found = (1.0 - along) * table[first + before] + along * table[np.minimum(first + before + 1, last)]
+    rotations = axes[numbers] @ about_x(found[:, 3])
+    start = 0
+    for stretch in stretches:
+        end = start + len(stretch.shares)
+        if stretch.turned is not None:
+            rotations[start:end] = stretch.turned[arm]
+        start = end
+    return found[:, :3], rotations
+
+
+def _in_base(bases: FloatArray, points: FloatArray, height_m: float) -> FloatArray:
+    """Points of the table frame, each seen from its own base, both of shape (n, 3); z over the floor (m)."""
+    cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
+    dx, dy = points[:, 0] - bases[:, 0], points[:, 1] - bases[:, 1]
+    return np.column_stack([cos * dx + sin * dy, cos * dy - sin * dx, points[:, 2] + height_m])
 
 
 def about_x(angles_rad: FloatArray) -> FloatArray:
@@ -170,31 +226,24 @@ def about_x(angles_rad: FloatArray) -> FloatArray:
     return turns
 
 
-def _rotations(headings_rad: FloatArray, pitches_rad: FloatArray, rolls_rad: FloatArray) -> FloatArray:
-    """The tool's axes as columns in the base frame, shape (n, 3, 3); see `Approach.rotation`."""
-    angles = np.column_stack([headings_rad, pitches_rad, rolls_rad])
-    return np.asarray(Rotation.from_euler("ZYX", angles).as_matrix())
+def _rotations(angles_rad: FloatArray) -> FloatArray:
+    """The tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
+    return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
 
 
 def _count(phase: Phase) -> int:
     """Into how many steps a phase is cut: a whole multiple of the steps of its hands' polylines."""
     hands = [hand for hand in phase.hands if hand is not None]
     corners = max((len(hand.points) - 1 for hand in hands), default=1) or 1
-    drive = np.hypot(phase.base[1].x_m - phase.base[0].x_m, phase.base[1].y_m - phase.base[0].y_m)
-    wanted = [float(drive) / STEP_M, 1.0]
+    drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
+    wanted = [drive / STEP_M, 1.0]
     for hand in hands:
-        steps = np.linalg.norm(np.diff(np.array(hand.points), axis=0), axis=1)
-        wanted.append(float(steps.max(initial=0.0)) * len(steps) / STEP_M)
-        wanted.append(float(np.abs(np.diff(_rolls(hand))).max(initial=0.0)) * len(steps) / STEP_RAD)
-    return corners * int(np.ceil(max(wanted) / corners - ANGLE_RAD))
+        steps = len(hand.points) - 1
+        wanted.append(max((math.dist(a, b) for a, b in pairwise(hand.points)), default=0.0) * steps / STEP_M)
+        wanted.append(max((abs(b - a) for a, b in pairwise(hand.rolls_rad)), default=0.0) * steps / STEP_RAD)
+    return corners * math.ceil(max(wanted) / corners - ANGLE_RAD)
 
 
-def _rolls(hand: Hand) -> FloatArray:
-    """The roll at each of a hand's points (rad), shape (points,)."""
-    return np.array(hand.rolls_rad) if hand.rolls_rad else np.zeros(len(hand.points))
-
-
-def _along(corners: FloatArray, shares: FloatArray) -> FloatArray:
-    """What a polyline, shape (m, k), is at shares of its way counted by corners, shape (n,) -> (n, k)."""
-    places = np.linspace(0.0, 1.0, len(corners))
-    return np.column_stack([np.interp(shares, places, column) for column in corners.T])
+def _rolls(hand: Hand) -> tuple[float, ...]:
+    """The roll at each of a hand's points (rad)."""
+    return hand.rolls_rad or (0.0,) * len(hand.points)

@@ -1,5 +1,6 @@
 """The answer to a planning request."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,13 +13,12 @@ from planner.geometry.pose import Pose2
 from planner.plan.act import Act
 from planner.plan.film import FilmMaker
 from planner.plan.machine import Machine
-from planner.plan.real_run import RunMaker
+from planner.plan.problem import Problem
 from planner.plan.reason import Reason
 from planner.plan.timeline import Timeline, standing
 from planner.primitives.grip import BaseStop, Grip
 from planner.primitives.primitive import Step
 from planner.primitives.scene import Scene
-from planner.primitives.state import State
 from planner.primitives.work import Work
 
 
@@ -103,11 +103,8 @@ class Plan:
         final_placement: the article frame in the table frame at the end; None unless solved.
         reasons: why there is no plan; empty unless infeasible.
         statistics: what the search did.
-        work: the problem.
-        robot: the robot.
-        start: the state before the first primitive.
+        problem: what was asked.
         acts: the primitives again, with the joint paths of those that belong together.
-        maker: what made them real.
     """
 
     status: str
@@ -116,11 +113,38 @@ class Plan:
     final_placement: Pose2 | None
     reasons: tuple[Reason, ...]
     statistics: Statistics
-    work: Work
-    robot: Machine
-    start: State
+    problem: Problem
     acts: tuple[Act, ...]
-    maker: RunMaker
+
+    @staticmethod
+    def of(
+        problem: Problem, status: str, acts: tuple[Act, ...], why: tuple[Reason, ...], statistics: Statistics
+    ) -> "Plan":
+        """The answer to a problem: what is done, act by act, if it is solved."""
+        primitives = tuple(_scheduled(problem.work, acts))
+        end_s = primitives[-1].start_s + primitives[-1].duration_s if primitives else 0.0
+        last = primitives[-1].step.after.offset if primitives else problem.start.offset
+        is_solved = status == "solved"
+        return Plan(
+            status,
+            primitives,
+            end_s if is_solved else None,
+            problem.work.placed(last) if is_solved else None,
+            why,
+            statistics,
+            problem,
+            acts,
+        )
+
+    @property
+    def work(self) -> Work:
+        """The garment's folds, the scene, the robot's reach."""
+        return self.problem.work
+
+    @property
+    def robot(self) -> Machine:
+        """The robot."""
+        return self.problem.robot
 
     @property
     def garment(self) -> Garment:
@@ -149,8 +173,9 @@ class Plan:
 
     @cached_property
     def _timeline(self) -> Timeline:
-        film = FilmMaker(self.maker.transits, self.maker.collisions).film(self.acts, standing(self.work, self.start))
-        return Timeline.of(film, self.cost_s or 0.0, self.work, self.robot.card)
+        maker, before = self.problem.maker, standing(self.work, self.problem.start)
+        film = FilmMaker(maker.transits, maker.collisions).film(self.acts, before)
+        return Timeline.of(film, self.cost_s or 0.0, self.work, self.problem.robot.card)
 
     def timeline(self) -> Timeline:
         """What robot and cloth do at every moment.
@@ -174,3 +199,11 @@ class Plan:
             "reasons": [r.to_dict() for r in self.reasons],
             "statistics": self.statistics.to_dict(),
         }
+
+
+def _scheduled(work: Work, acts: tuple[Act, ...]) -> Iterator[PlannedPrimitive]:
+    now = 0.0
+    for act in acts:
+        for step, duration_s in zip(act.steps, act.durations_s(), strict=True):
+            yield PlannedPrimitive(step, now, duration_s, work.base_stop(step.after))
+            now += duration_s

@@ -115,6 +115,10 @@ class MoveStep:
         """There is but one way."""
         return ()
 
+    def again(self, work: Work, state: State) -> Iterable["MoveStep"]:
+        """A move to the same station."""
+        return work.kept(BaseMove).to(state, self.after.station)
+
 
 class BaseMove:
     """Drives from station to station with free hands."""
@@ -134,9 +138,10 @@ class BaseMove:
         goal = self._work.station_pose(station)
         drive_s = math.dist(_place(start), _place(goal)) / scene.base_speed_m_s
         turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
-        return Later(drive_s + turn_s, state, partial(self._steps, state, station))
+        return Later(drive_s + turn_s, state, partial(self.to, state, station))
 
-    def _steps(self, state: State, station: int) -> tuple[MoveStep, ...]:
+    def to(self, state: State, station: int) -> tuple[MoveStep, ...]:
+        """The move to a station."""
         after = State(state.done, state.offset, station, 0)
         return (MoveStep(self._work, self._route(state, station), state, after),)
 

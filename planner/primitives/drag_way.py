@@ -38,6 +38,11 @@ class DragWay:
         return (self.arms, np.round(self.picks / LENGTH_M).tobytes(), self.approaches.tobytes())
 
     @cached_property
+    def taken(self) -> dict[int, Point2]:
+        """What each arm holds, article frame (m)."""
+        return dict(zip(self.arms, self.grips, strict=True))
+
+    @cached_property
     def stands(self) -> list[int]:
         """The back-offs from which all grips are in reach."""
         return [int(b) for b in np.flatnonzero((self.approaches >= 0).all(axis=1))]

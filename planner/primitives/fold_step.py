@@ -1,22 +1,21 @@
 """A fold as it is performed in a plan: reach the grips, lift them over the fold line, lay them down."""
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD
-from planner.primitives.base_legs import legs
-from planner.primitives.fold_variants import fold_spread, fold_variants
+from planner.geometry.pose import FloatArray, Point3
+from planner.primitives.base_legs import travel
+from planner.primitives.fold_motion import FoldMotion
+from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_variants import fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
+from planner.primitives.grasping import nearest
 from planner.primitives.grip import Grip
-from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.phase import Phase
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
 
@@ -78,19 +77,7 @@ class FoldStep:
 
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:
-        begin = () if self.before.held else self._begin()
-        return (*begin, *self._follow())
-
-    def _begin(self) -> tuple[Phase, ...]:
-        still = self._cloth(0.0, 0.0)
-        start, stand = self._base(self.before.back_off), self._base(self.first_stand)
-        drive = self.work.drive_s(abs(self.before.back_off - self.first_stand))
-        free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
-        reach = self._hands([0.0], is_closed=False, is_reaching=True)
-        return (
-            Phase(drive, (start, stand), free, still),
-            Phase(self.work.scene.arm_motion_s, (stand, stand), reach, still),
-        )
+        return FoldMotion(self.work, self.way, self.before, self.first_stand, self.after.back_off).phases()
 
     def variants(self) -> Iterator["FoldStep"]:
         """This, then every other way between the same states, the quickest first."""
@@ -119,76 +106,29 @@ class FoldStep:
         for variant in fold_spread(self.work, self.before, self.way.trial.fold, count):
             yield fold_step(self.work, variant.way, self.before, variant.first, variant.end, variant.steps)
 
-    @cached_property
-    def _stands(self) -> tuple[int, ...]:
-        """Where the base stands when the hands leave each waypoint."""
-        return legs(self._strip, self.first_stand, self.after.back_off, self.work.back_offs)
+    def again(self, work: Work, state: State) -> Iterator["FoldStep"]:
+        """The same fold with the same hands, each at the grip nearest to where it was: as it was done, if it still can.
 
-    def _follow(self) -> Iterator[Phase]:
-        """Stretches of even motion, broken where the base drives and at the apex."""
-        at, sweep = self.first_stand, 0.0
-        for waypoint, stand in zip(self.way.trial.sweeps, self._stands, strict=True):
-            is_apex = abs(waypoint - 1.0) <= ANGLE_RAD
-            if stand != at or is_apex:
-                yield from self._stretch(sweep, float(waypoint), at)
-                sweep = float(waypoint)
-            if stand != at:
-                yield self._leg(sweep, at, stand)
-                at = stand
-        yield from self._stretch(sweep, 2.0, at)
-
-    def _stretch(self, start: float, end: float, stand: int) -> Iterator[Phase]:
-        if end <= start:
-            return
-        count = max(2, round((end - start) / _DENSE_SWEEP) + 1)
-        hands = self._hands(list(np.linspace(start, end, count)), is_closed=True)
-        base = self._base(stand)
-        duration = (end - start) * self.work.scene.arm_motion_s
-        yield Phase(duration, (base, base), hands, self._cloth(start, end), motion=0 if start < 1.0 else 1)
-
-    def _leg(self, sweep: float, start: int, end: int) -> Phase:
-        hands = self._hands([sweep], is_closed=True)
-        base = (self._base(start), self._base(end))
-        return Phase(self.work.drive_s(abs(end - start)), base, hands, self._cloth(sweep, sweep))
-
-    @property
-    def _strip(self) -> NDArray[np.uint32]:
-        return self.way.strip(self.work, self.before.station)
-
-    def _approach(self, grip: int) -> Approach:
-        return self.work.reach.approaches[self.way.approaches[grip]]
-
-    def _hands(self, sweeps: list[float], *, is_closed: bool, is_reaching: bool = False) -> tuple[Hand | None, ...]:
-        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
-        paths = self.way.trial.path.tool_paths(self.way.trial.points, np.array(sweeps))
-        for number, arm in enumerate(self.way.trial.arms):
-            points = tuple(_point(p) for p in paths[number])
-            rolls = self._rolls(number, np.array(sweeps))
-            hands[arm] = Hand(self._approach(number), points, is_closed, is_reaching, rolls)
-        return tuple(hands)
-
-    def _rolls(self, number: int, sweeps: FloatArray) -> tuple[float, ...]:
-        """How far a hand has rolled (rad): with the cloth by half a turn if it points along the fold line, else not.
-
-        In between would be nearer to how the cloth turns, but fingers come down flat on the table.
+        Else the ways in which the base begins and ends nearest to where it did.
         """
-        path, approach = self.way.trial.path, self._approach(number)
-        begin = 1.0 - float(path.line.left_distances(self.way.trial.points[number : number + 1])[0]) / path.depth_m
-        turned = math.pi * np.clip((sweeps - begin) / (2.0 - 2.0 * begin), 0.0, 1.0)
-        heading = approach.heading_rad + self._base(self.first_stand).yaw_rad
-        along = float(np.dot(path.line.direction, (math.cos(heading), math.sin(heading))))
-        return tuple(float(roll) for roll in turned * round(along * math.cos(approach.pitch_rad)))
+        old = self.way.trial
+        trial = None
+        if geometric_obstacle(work, state, old.fold) is None:
+            trial = nearest(old, fold_trials(work, state, old.fold))
+        if trial is None:
+            return
+        first, end = state.back_off if state.held else self.first_stand, self.after.back_off
+        orientation = dict(zip(old.arms, self.way.approaches, strict=True))
+        same = FoldWay(trial, tuple(orientation[arm] for arm in trial.arms))
+        if all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
+            driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0][first, end])
+            if driven < IMPOSSIBLE:
+                yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
+        for variant in sorted(trial_variants(work, state, trial), key=lambda v: (v.steps, abs(v.end - end), v.rank)):
+            yield fold_step(work, variant.way, state, variant.first, variant.end, variant.steps)
 
     def _tools(self, sweep: float) -> FloatArray:
         return self.way.trial.path.tool_points(self.way.trial.points, sweep)
-
-    def _base(self, back_off: int) -> Pose2:
-        return self.work.base_pose(self.before.station, back_off)
-
-    def _cloth(self, start: float, end: float) -> ClothMotion:
-        placement = self.work.placed(self.before.offset)
-        top = self.way.trial.path.top_at(start)
-        return ClothMotion(self.before.done, placement, placement, top, self.way.trial.fold, (start, end))
 
 
 def fold_step(work: Work, way: FoldWay, state: State, first: int, end: int, steps: int) -> FoldStep:

@@ -56,6 +56,11 @@ class FoldTrial:
         """What tells it from other trials: arms, tool paths and approaches."""
         return (self.arms, np.round(self.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in self.approaches))
 
+    @cached_property
+    def taken(self) -> dict[int, Point2]:
+        """What each arm holds, article frame (m)."""
+        return dict(zip(self.arms, self.cover, strict=True))
+
     def is_like(self, other: "FoldTrial") -> bool:
         """Whether the same arms take the same grips, maybe elsewhere on the table."""
         return (self.cover, self.arms) == (other.cover, other.arms)

@@ -47,7 +47,7 @@ class Variant:
 
 def fold_variants(work: Work, state: State, fold: int, end: int) -> Iterator[Variant]:
     """The ways to do a fold in a state and end at a back-off: by rising travel, then the most natural first."""
-    found = (sorted(_variants(work, state, trial, end), key=_rank) for trial in fold_trials(work, state, fold))
+    found = (sorted(trial_variants(work, state, trial, end), key=_rank) for trial in fold_trials(work, state, fold))
     yield from merge(*found, key=_rank)
 
 
@@ -56,7 +56,7 @@ def fold_spread(work: Work, state: State, fold: int, count: int) -> Iterator[Var
 
     While the hands are free they are the same wherever the base stands before.
     """
-    found = [v for trial in fold_trials(work, state, fold) for v in _variants(work, state, trial, None)]
+    found = [v for trial in fold_trials(work, state, fold) for v in trial_variants(work, state, trial)]
     found.sort(key=lambda variant: (variant.driven, variant.rank))
     best = count // 2
     step = max(1, -(-(len(found) - best) // (count - best)))
@@ -67,8 +67,11 @@ def _rank(variant: Variant) -> tuple[int, int]:
     return variant.steps, variant.rank
 
 
-def _variants(work: Work, state: State, trial: FoldTrial, end: int | None) -> Iterator[Variant]:
-    """The ways of one trial, each combination of orientations with the base travelling least."""
+def trial_variants(work: Work, state: State, trial: FoldTrial, end: int | None = None) -> Iterator[Variant]:
+    """The ways of one trial, each combination of orientations with the base travelling least.
+
+    The base ends at a back-off, or at any.
+    """
     masks, approaches, ranks = _all_strips(work, state, trial)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
     for number in range(0, len(ranks), every):

@@ -1,8 +1,9 @@
 """Which arm takes which grip, and from which directions it may."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import combinations, permutations
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,24 @@ def assignments(work: Work, station: int, points: FloatArray) -> Iterator[tuple[
         )
         if is_ordered:
             yield arms
+
+
+class Taking(Protocol):
+    """Arms at grips."""
+
+    @property
+    def taken(self) -> dict[int, Point2]:
+        """What each arm holds, article frame (m)."""
+        ...
+
+
+T = TypeVar("T", bound=Taking)
+
+
+def nearest(one: T, others: Iterable[T]) -> T | None:
+    """Of others in which the same arms hold something the one whose grips are nearest; None if there is none."""
+    alike = (other for other in others if other.taken.keys() == one.taken.keys())
+    return min(alike, key=lambda o: max(math.dist(one.taken[arm], o.taken[arm]) for arm in one.taken), default=None)
 
 
 def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip: Point2) -> NDArray[np.int64]:

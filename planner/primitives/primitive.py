@@ -7,6 +7,7 @@ from typing import Any, Generic, Protocol, TypeVar
 from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
 from planner.primitives.state import State
+from planner.primitives.work import Work
 
 
 class Step(Protocol):
@@ -66,6 +67,10 @@ class Step(Protocol):
 
     def elsewhere(self, count: int) -> "Iterable[Step]":
         """So many other ways to do the same from the same state, the base starting and ending elsewhere."""
+        ...
+
+    def again(self, work: Work, state: State) -> "Iterable[Step]":
+        """The same in a state of another problem, a garment that differs a little: the likest first, if any can be."""
         ...
 
 

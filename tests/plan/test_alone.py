@@ -3,7 +3,7 @@
 import pytest
 
 from planner import Scene, load_garment, make_plan, shipped_garment_names
-from planner.plan import make_plan as planning
+from planner.plan import plan_search as planning
 from planner.plan.alone import drag_offsets
 from planner.primitives.obstacle import Code
 

@@ -25,8 +25,8 @@ each_name = pytest.mark.parametrize("name", NAMES)
 
 
 def film_of(plan: Plan) -> Film:
-    maker = FilmMaker(plan.maker.transits, plan.maker.collisions)
-    return maker.film(plan.acts, standing(plan.work, plan.start))
+    maker = FilmMaker(plan.problem.maker.transits, plan.problem.maker.collisions)
+    return maker.film(plan.acts, standing(plan.work, plan.problem.start))
 
 
 def is_holding(cue: Cue, arm: int) -> bool:

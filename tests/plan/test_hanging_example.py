@@ -12,7 +12,7 @@ import pytest
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import FloatArray, Pose2
-from planner.plan import make_plan as planning
+from planner.plan import plan_search as planning
 from planner.plan.plan import PlannedPrimitive
 from planner.primitives.base_move import BaseMove
 from planner.primitives.drag_step import DragStep

@@ -12,7 +12,7 @@ import pytest
 from planner import Garment, Plan, Scene, make_plan
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
-from planner.plan import make_plan as planning
+from planner.plan import problem
 from planner.plan.machine import Collisions
 from planner.plan.real_run import RunMaker
 from planner.primitives.obstacle import Code
@@ -97,7 +97,7 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(fo
     plan = planned(napkin(*folds), scene(arm_motion_s, back_off_max_m))
     seeming_s = sum(p.step.duration_s for p in plan.primitives)
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
-    assert plan.cost_s == pytest.approx(Eager(plan).cost_s(plan.start), abs=1e-6)
+    assert plan.cost_s == pytest.approx(Eager(plan).cost_s(plan.problem.start), abs=1e-6)
 
 
 IsBarred = Callable[[int, Pose2], bool]
@@ -141,7 +141,7 @@ class BarredRobot(Pr2):
 
 def barred(monkeypatch: pytest.MonkeyPatch, is_barred: IsBarred) -> None:
     robot = BarredRobot(is_barred)
-    monkeypatch.setattr(planning, "load_robot", lambda name: robot)
+    monkeypatch.setattr(problem, "load_robot", lambda name: robot)
 
 
 def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch):

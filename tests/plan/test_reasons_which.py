@@ -6,7 +6,7 @@ import pytest
 from planner import Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.plan import make_plan as planning
+from planner.plan import plan_search as planning
 from planner.plan.reasons import reasons
 from planner.primitives.obstacle import Code, Obstacle, situation
 from planner.primitives.state import State

@@ -1,0 +1,147 @@
+"""The search for the quickest plan: A* over states, its path made real, the obstacles it met."""
+
+import time
+from collections.abc import Callable, Iterable
+from functools import partial
+
+from planner.plan.act import Act
+from planner.plan.alone import Alone
+from planner.plan.heuristic import Heuristic
+from planner.plan.plan import Plan, Statistics
+from planner.plan.problem import Problem
+from planner.plan.realizer import Realizer
+from planner.plan.reason import Reason
+from planner.plan.reasons import note_collision, reason_at_start, reasons
+from planner.primitives.obstacle import situation
+from planner.primitives.primitive import Later, Step, in_time
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.state import State
+from planner.search.a_star import Edge, Outcome, Promise, SearchResult, Successors, a_star
+
+LOOK_ALONE_AFTER = 30
+"""Most plans are found within so many expansions; after them each fold not done yet is looked at alone."""
+
+_COLLISIONS_MAX = 12
+"""Of so many motions that the arms could not follow it is looked at what was in their way."""
+
+
+class PlanSearch:
+    """One search: its budget, and what it met on the way."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        heuristic: Heuristic,
+        time_limit_s: float,
+        max_expanded: int,
+        should_stop: Callable[[], bool],
+    ) -> None:
+        """A search that has not begun; its time runs.
+
+        Args:
+            problem: what is to be planned.
+            heuristic: a consistent lower bound on the time to the end (s).
+            time_limit_s: the budget (s).
+            max_expanded: the budget in states.
+            should_stop: asked while searching; true ends the search as out of budget.
+        """
+        self._problem = problem
+        self._work = problem.work
+        self._heuristic = heuristic
+        self._max_expanded = max_expanded
+        self._started = time.perf_counter()
+        self._deadline = self._started + time_limit_s
+        self._should_stop = should_stop
+        self._primitives = [kind(problem.work) for kind in PRIMITIVES]
+        self._achieved = 0
+        self._reached: set[State] = set()
+        self._expanded = 0
+        self._blocking: list[int] = []
+        self._realizer = Realizer(problem.maker)
+        self._steps: dict[State, tuple[Step | Later[Step], ...]] = {}
+        self._worked_out: dict[Later[Step], tuple[Step | Later[Step], ...]] = {}
+        self._explored = 0
+        self._joint_time_s = 0.0
+        self._is_looked_at_alone = False
+
+    def plan(self) -> Plan:
+        """The quickest plan, or why there is none."""
+        unrest = self._work.unrest(0, self._problem.start.offset)
+        if unrest is not None:
+            return self._answer(Outcome.INFEASIBLE, None, (), (reason_at_start(self._work, unrest),))
+        result, acts = self._real_path(self._problem.start)
+        outcome = Outcome.INFEASIBLE if self._blocking else result.outcome
+        return self._answer(outcome, result.bound, acts, self._reasons() if outcome is Outcome.INFEASIBLE else ())
+
+    def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
+        """The quickest path that is real, and what it is then."""
+        while True:
+            result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+            self._explored += result.explored
+            if result.outcome is not Outcome.SOLVED:
+                return result, ()
+            begun = time.perf_counter()
+            found = self._realizer.acts([edge.action for edge in result.path])
+            self._joint_time_s += time.perf_counter() - begun
+            if found is not None:
+                return result, found
+            self._achieved = 0
+            self._reached.clear()
+
+    def _reasons(self) -> tuple[Reason, ...]:
+        for run in self._realizer.struck[-_COLLISIONS_MAX:]:
+            note_collision(self._work, run[-1], self._problem.maker.snag(run))
+        return reasons(self._work, {situation(state) for state in self._reached}, self._blocking)
+
+    def _successors(self, state: State) -> Successors[State, Step]:
+        if state not in self._steps:
+            self._expanded += 1
+            self._steps[state] = tuple(one for kind in self._primitives for one in in_time(kind.successors(state)))
+        return self._edges(state, self._steps[state])
+
+    def _edges(self, state: State, found: Iterable[Step | Later[Step]]) -> Successors[State, Step]:
+        """The edges of steps that may be real, and promises of those that have time."""
+        for later in (one for one in found if isinstance(one, Later)):
+            yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
+        for step, cost_s in self._realizer.possible(state, (one for one in found if not isinstance(one, Later))):
+            self._achieved |= step.after.done
+            self._reached.add(step.after)
+            yield Edge(step, cost_s, step.after)
+
+    def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
+        if later not in self._worked_out:
+            self._worked_out[later] = tuple(later.steps())
+        return self._edges(state, self._worked_out[later])
+
+    def _is_goal(self, state: State) -> bool:
+        return state.done == (1 << len(self._work.sequence.folds)) - 1
+
+    def _is_over(self) -> bool:
+        if self._expanded >= LOOK_ALONE_AFTER and not self._is_looked_at_alone:
+            self._is_looked_at_alone = True
+            alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
+            self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
+        return bool(self._blocking) or self._is_out_of_budget()
+
+    def _is_out_of_budget(self) -> bool:
+        return time.perf_counter() > self._deadline or self._should_stop()
+
+    def _next_unseen(self) -> list[int]:
+        """The folds that no state has done yet though nothing is left that they wait for."""
+        available = self._work.sequence.dag.available(self._achieved)
+        return [fold for fold in available if not self._achieved >> fold & 1]
+
+    def _answer(self, outcome: Outcome, bound_s: float | None, acts: tuple[Act, ...], why: tuple[Reason, ...]) -> Plan:
+        reach = self._work.reach
+        elapsed = time.perf_counter() - self._started - self._joint_time_s
+        statistics = Statistics(
+            self._expanded,
+            self._explored,
+            reach.queries,
+            reach.query_time_s,
+            elapsed,
+            self._joint_time_s,
+            None if outcome is Outcome.INFEASIBLE else bound_s,
+        )
+        self._work.forget()
+        return Plan.of(self._problem, outcome.value, acts, why, statistics)

@@ -1,0 +1,71 @@
+"""One planning problem: a garment on a table, a robot, where it starts."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from planner.cloth.garment import Garment
+from planner.errors import RequestError
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import Pose2
+from planner.plan.machine import Machine
+from planner.plan.real_run import RunMaker
+from planner.primitives.scene import Scene
+from planner.primitives.state import State
+from planner.primitives.work import Work
+from planner.robot.pr2 import load_robot
+
+COMFORT_MAX_M = 0.1
+
+_REPLAYED = 8
+"""So many garments, the latest, are not replayed again when somebody plans for them once more."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """What is to be planned.
+
+    Attributes:
+        work: the garment's folds, the scene, the robot's reach, where the article lies.
+        robot: the robot.
+        maker: what finds its joint paths.
+        start: the state before the first primitive.
+    """
+
+    work: Work
+    robot: Machine
+    maker: RunMaker
+    start: State
+
+    @staticmethod
+    def of(
+        garment: Garment,
+        scene: Scene,
+        placement: Pose2 | None,
+        start_station: str,
+        robot: str,
+        comfort_radius_m: float,
+    ) -> "Problem":
+        """A problem; the attributes are those of `make_plan`.
+
+        Raises:
+            FoldError: a fold is not legal on the cloth as it is then.
+            RequestError: an option is out of range.
+        """
+        names = [name for name, _ in scene.stations]
+        if start_station not in names:
+            raise RequestError("start_station", f"{start_station!r} is none of {', '.join(names)}")
+        require_between("comfort_radius_m", comfort_radius_m, 0.0, COMFORT_MAX_M)
+        machine = load_robot(robot)
+        reach = machine.reach(scene.torso_m, comfort_radius_m)
+        work = Work(_replayed(garment), scene, reach, placement or garment.placement, machine.card.base_radius_m)
+        start = State(0, (0.0, 0.0), names.index(start_station), 0)
+        return Problem(work, machine, RunMaker(work, machine), start)
+
+
+def require_between(field: str, value: float, low: float, high: float) -> None:
+    """Raise `RequestError` for an option that is out of range."""
+    if not low <= value <= high:
+        raise RequestError(field, f"{value} is not between {low:g} and {high:g}")
+
+
+_replayed = lru_cache(_REPLAYED)(FoldSequence.of)

@@ -1,0 +1,140 @@
+"""A fold as it looks while it happens: the hands follow the cloth's way, the base drives in between."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.primitives.base_legs import legs
+from planner.primitives.fold_way import FoldWay
+from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.state import State
+from planner.primitives.work import Work
+
+_DENSE_SWEEP = 0.02
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A part of the path: the sweep and the base's back-off at its start and at its end; one of them stays."""
+
+    sweeps: tuple[float, float]
+    stands: tuple[int, int]
+
+    @property
+    def moments(self) -> FloatArray:
+        """The sweeps at which its points are."""
+        start, end = self.sweeps
+        return np.linspace(start, end, max(2, round((end - start) / _DENSE_SWEEP) + 1) if end > start else 1)
+
+
+@dataclass(frozen=True)
+class FoldMotion:
+    """How a fold is performed.
+
+    Attributes:
+        work: the problem.
+        way: grips, arms and paths.
+        before: the state it starts in.
+        first_stand: back-off from which the path is begun.
+        end: back-off at its end.
+    """
+
+    work: Work
+    way: FoldWay
+    before: State
+    first_stand: int
+    end: int
+
+    def phases(self) -> tuple[Phase, ...]:
+        """Drive, reach, and follow the path with the base's legs in between."""
+        pieces = tuple(self._pieces())
+        moments = [np.zeros(1), *(piece.moments for piece in pieces)]
+        places = np.cumsum([len(sweeps) for sweeps in moments])[:-1]
+        hands = [self._cut(number, np.concatenate(moments), places) for number in range(len(self.way.trial.arms))]
+        begin = () if self.before.held else self._begin([of_hand[0] for of_hand in hands])
+        follow = (self._phase(piece, [parts[i] for parts in hands]) for i, piece in enumerate(pieces, start=1))
+        return (*begin, *follow)
+
+    def _begin(self, points: "list[_Points]") -> tuple[Phase, ...]:
+        still = self._cloth(0.0, 0.0)
+        start, stand = self._base(self.before.back_off), self._base(self.first_stand)
+        drive = self.work.drive_s(abs(self.before.back_off - self.first_stand))
+        free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
+        return (
+            Phase(drive, (start, stand), free, still),
+            Phase(self.work.scene.arm_motion_s, (stand, stand), self._hands(points, is_reaching=True), still),
+        )
+
+    def _pieces(self) -> Iterator[_Piece]:
+        """Stretches of even motion, broken where the base drives and at the apex, and the base's drives."""
+        strip = self.way.strip(self.work, self.before.station)
+        stands = legs(strip, self.first_stand, self.end, self.work.back_offs)
+        at, sweep = self.first_stand, 0.0
+        for waypoint, stand in zip(self.way.trial.sweeps.tolist(), stands, strict=True):
+            if stand != at or abs(waypoint - 1.0) <= ANGLE_RAD:
+                if waypoint > sweep:
+                    yield _Piece((sweep, waypoint), (at, at))
+                sweep = waypoint
+            if stand != at:
+                yield _Piece((sweep, sweep), (at, stand))
+                at = stand
+        if sweep < 2.0:
+            yield _Piece((sweep, 2.0), (at, at))
+
+    def _phase(self, piece: _Piece, points: "list[_Points]") -> Phase:
+        (start, end), (stand, next_stand) = piece.sweeps, piece.stands
+        base, hands, cloth = (self._base(stand), self._base(next_stand)), self._hands(points), self._cloth(start, end)
+        if stand != next_stand:
+            return Phase(self.work.drive_s(abs(next_stand - stand)), base, hands, cloth)
+        duration = (end - start) * self.work.scene.arm_motion_s
+        return Phase(duration, base, hands, cloth, motion=0 if start < 1.0 else 1)
+
+    def _hands(self, points: "list[_Points]", *, is_reaching: bool = False) -> tuple[Hand | None, ...]:
+        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
+        for number, (arm, part) in enumerate(zip(self.way.trial.arms, points, strict=True)):
+            hands[arm] = Hand(self._approach(number), part.points, not is_reaching, is_reaching, part.rolls_rad)
+        return tuple(hands)
+
+    def _cut(self, number: int, sweeps: FloatArray, places: NDArray[np.int64]) -> "list[_Points]":
+        """A hand's points and rolls at some sweeps, rising, in parts."""
+        trial = self.way.trial
+        path = trial.path.tool_paths(trial.points[number : number + 1], sweeps)[0]
+        rolls = self._rolls(number, sweeps)
+        parts = zip(np.split(path, places), np.split(rolls, places), strict=True)
+        return [_Points(tuple((x, y, z) for x, y, z in p.tolist()), tuple(r.tolist())) for p, r in parts]
+
+    def _rolls(self, number: int, sweeps: FloatArray) -> FloatArray:
+        """How far a hand has rolled (rad): with the cloth by half a turn if it points along the fold line, else not.
+
+        In between would be nearer to how the cloth turns, but fingers come down flat on the table.
+        """
+        path, approach = self.way.trial.path, self._approach(number)
+        begin = 1.0 - float(path.line.left_distances(self.way.trial.points[number : number + 1])[0]) / path.depth_m
+        turned = math.pi * np.clip((sweeps - begin) / (2.0 - 2.0 * begin), 0.0, 1.0)
+        heading = approach.heading_rad + self._base(self.first_stand).yaw_rad
+        along = float(np.dot(path.line.direction, (math.cos(heading), math.sin(heading))))
+        return np.asarray(turned * round(along * math.cos(approach.pitch_rad)))
+
+    def _approach(self, grip: int) -> Approach:
+        return self.work.reach.approaches[self.way.approaches[grip]]
+
+    def _base(self, back_off: int) -> Pose2:
+        return self.work.base_pose(self.before.station, back_off)
+
+    def _cloth(self, start: float, end: float) -> ClothMotion:
+        placement = self.work.placed(self.before.offset)
+        top = self.way.trial.path.top_at(start)
+        return ClothMotion(self.before.done, placement, placement, top, self.way.trial.fold, (start, end))
+
+
+@dataclass(frozen=True, slots=True)
+class _Points:
+    """What a hand does in a phase: its tool's points in the table frame (m), and the roll at each."""
+
+    points: tuple[Point3, ...]
+    rolls_rad: tuple[float, ...]
