@@ -5,7 +5,7 @@ part of the path, so that the joints with which the cloth is taken are ones with
 Arms are led one after the other, the second round the first; if that fails, in the other order.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise, permutations, product
 
@@ -35,6 +35,9 @@ _FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0
 _STEEP = 0.6
 """Hands that point down by more than the angle of this sine may have one finger over the other; flatter ones would
 push the lower one into the table."""
+
+_LOOKED_AT = 5
+"""At so many moments it is looked whether arms can be in their places together before they are led there."""
 
 _TOGETHER = 14
 """So many postures of each arm are looked at when arms are to be in their places together."""
@@ -119,7 +122,8 @@ class Carrier:
         moments = asked.moments
         is_used = moments.is_held.any(axis=1)
         arms = [int(arm) for arm in np.flatnonzero(is_used)]
-        if not (self._can_hold(arms, moments, 0) and self._can_hold(arms, moments, len(moments) - 1)):
+        places = np.linspace(0, len(moments) - 1, 2 if len(arms) < 2 else _LOOKED_AT)
+        if not all(self._can_hold(arms, moments, int(moment)) for moment in places):
             return None
         is_steep = all(moments.rotations[arm, 0, 2, 0] < -_STEEP for arm in arms)
         for roll in (_OVER, _BESIDE) if is_steep else (_BESIDE,):
@@ -127,7 +131,7 @@ class Carrier:
                 found = self._with_lines(arms, moments, roll, shares)
                 if isinstance(found, Carried):
                     return found
-                if len(found.blocked):
+                if len(found.blocked) or found.is_core:
                     break
         return None
 
@@ -142,16 +146,13 @@ class Carrier:
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
         bases = np.concatenate([start, moments.bases, end])
         leads = [way.lead(before, after) for way in ways]
-        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in leads}
-        for found in alone.values():
-            if isinstance(found, NoPath):
-                return found.within(before, before + len(moments))
-        none = []
-        for order in permutations(leads):
-            joints = self._led(order, bases, alone[order[0].arm])
+        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in leads} if len(leads) > 1 else {}
+        none = [found for found in alone.values() if isinstance(found, NoPath)]
+        for order in () if none else permutations(leads):
+            joints = self._led(order, bases, alone.get(order[0].arm))
             if not isinstance(joints, NoPath):
                 return Carried(moments, bases, joints, before, np.asarray(moments.is_held.any(axis=1)))
-            none.append(joints.within(before, before + len(moments)))
+            none.append(joints if len(leads) == 1 else replace(joints, is_core=False))
         return min(none, key=lambda one: len(one.blocked))
 
     def _arm_path(self, lead: _Lead, bases: FloatArray, others: FloatArray | None) -> FloatArray | NoPath:
@@ -188,12 +189,14 @@ class Carrier:
             lambda joints: self._collisions.arm_free(arm, stand[None], joints, is_certain=True),
         )
 
-    def _led(self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | NoPath) -> FloatArray | NoPath:
-        """All arms' joints, one arm led after the other, the first as it would go alone if there are more."""
+    def _led(
+        self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | NoPath | None
+    ) -> FloatArray | NoPath:
+        """All arms' joints, one arm led after the other, the first as it would go alone where that is known."""
         homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
         joints = np.broadcast_to(homes, (len(bases), *homes.shape)).copy()
-        for number, lead in enumerate(order):
-            found = first if number == 0 and len(order) > 1 else self._arm_path(lead, bases, joints)
+        for lead in order:
+            found = first if lead is order[0] and first is not None else self._arm_path(lead, bases, joints)
             if isinstance(found, NoPath):
                 return found
             joints[: lead.last, lead.arm] = found
@@ -253,6 +256,7 @@ class _Way:
             np.concatenate([coming, self.positions, leaving]),
             np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(after, 0)]),
             np.concatenate([np.full(before, np.inf), self.spans_s, np.full(after, np.inf)]),
+            (before, before + len(self.positions)),
         )
         return _Lead(self.arm, path)
 

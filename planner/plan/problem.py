@@ -16,8 +16,8 @@ from planner.robot.pr2 import load_robot
 
 COMFORT_MAX_M = 0.1
 
-_REPLAYED = 8
-"""So many garments, the latest, are not replayed again when somebody plans for them once more."""
+_GARMENTS = 8
+"""So many are not replayed again when somebody plans for them once more."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,7 +57,7 @@ class Problem:
         require_between("comfort_radius_m", comfort_radius_m, 0.0, COMFORT_MAX_M)
         machine = load_robot(robot)
         reach = machine.reach(scene.torso_m, comfort_radius_m)
-        work = Work(_replayed(garment), scene, reach, placement or garment.placement, machine.card.base_radius_m)
+        work = Work(replayed(garment), scene, reach, placement or garment.placement, machine.card.base_radius_m)
         start = State(0, (0.0, 0.0), names.index(start_station), 0)
         return Problem(work, machine, RunMaker(work, machine), start)
 
@@ -68,4 +68,5 @@ def require_between(field: str, value: float, low: float, high: float) -> None:
         raise RequestError(field, f"{value} is not between {low:g} and {high:g}")
 
 
-_replayed = lru_cache(_REPLAYED)(FoldSequence.of)
+replayed = lru_cache(_GARMENTS)(FoldSequence.of)
+"""A garment with its folds made legal; of the latest it is remembered, and all that was worked out about their cloth."""

@@ -29,6 +29,9 @@ _LEAP_RAD = 0.4
 _SMOOTHINGS = 6
 _TRIES_MAX = 16
 
+_ASKED_OF = {1: 3, 2: 1}
+"""At these tries the samples of every so many links are asked: whether there is no way at all soon shows in a few."""
+
 
 @dataclass(frozen=True, slots=True)
 class ToolPath:
@@ -39,11 +42,14 @@ class ToolPath:
         rotations: the tool's axes as columns, base frame, shape (n, 3, 3).
         spans_s: how long each step from pose to pose should take at most (s), shape (n - 1,); infinite where time does
             not press.
+        core: the first of the poses that matter, and the one after their last; those before and after only lead there
+            and away.
     """
 
     positions: FloatArray
     rotations: FloatArray
     spans_s: FloatArray
+    core: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,14 +57,13 @@ class NoPath:
     """There is no path for an arm.
 
     Attributes:
-        blocked: poses at which it collides whatever it does; none where it is only cut off, shape (k,).
+        blocked: poses of the path's core, counted from its first, at which the arm collides whatever it does; none
+            where it is only cut off, shape (k,).
+        is_core: whether the core alone has no path either, whatever leads there and away.
     """
 
     blocked: NDArray[np.int64]
-
-    def within(self, first: int, last: int) -> "NoPath":
-        """The same of a part of the path, counted from its first pose."""
-        return NoPath(self.blocked[(self.blocked >= first) & (self.blocked < last)] - first)
+    is_core: bool
 
 
 def arm_path(
@@ -111,6 +116,7 @@ class _ArmPath:
         self._arm = arm
         self._speeds = speeds
         self._is_free = is_free
+        self._core = path.core
         shoulder = arm.shoulder(torso_m)
         self._positions = arm.mirrored_places(path.positions) - shoulder
         self._rotations = arm.mirrored_rotations(path.rotations)
@@ -121,6 +127,7 @@ class _ArmPath:
         )
         self._spans = np.add.reduceat(np.append(path.spans_s, 0.0), self._links)[:-1]
         self._is_asked = np.zeros(len(self._links), dtype=bool)
+        self._has_dropped = False
 
     def found(self) -> FloatArray | NoPath:
         for number in range(_TRIES_MAX):
@@ -133,8 +140,16 @@ class _ArmPath:
                 joints, bad = self._followed(guides)
             if not len(bad):
                 return self._smoothed(guides, joints)
-            self._strike(chain, self._links if number == 1 else bad)
-        return NoPath(self._links[np.isinf(self._costs).all(axis=1)])
+            self._strike(chain, bad, number)
+        return self._none()
+
+    def _none(self) -> NoPath:
+        first, last = self._core
+        inside = np.flatnonzero((self._links >= first) & (self._links < last))
+        blocked = self._links[inside[np.isinf(self._costs[inside]).all(axis=1)]] - first
+        part = slice(inside[0], inside[-1] + 1)
+        chain = cheapest_chain(self._samples[part], self._costs[part], self._speeds, self._spans[part][:-1])
+        return NoPath(blocked, is_core=not (len(chain) or self._has_dropped))
 
     def _guides(self, chain: NDArray[np.int64]) -> FloatArray:
         """The chain's joints, continuous ones unwound, shape (links, 7)."""
@@ -155,18 +170,24 @@ class _ArmPath:
             is_bad = ~self._is_free(everywhere, joints, False)
         return joints, np.flatnonzero(is_bad)
 
-    def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64]) -> None:
-        """Ask all samples beside bad poses; where they have been asked already, drop the one that was taken."""
-        beside = np.unique(np.clip(np.searchsorted(self._links, bad)[:, None] - [0, 1], 0, None))
-        unasked = [int(link) for link in beside if not self._is_asked[link]]
-        before = self._costs[beside, chain[beside]].copy()
-        self._ask(unasked)
-        if np.array_equal(before, self._costs[beside, chain[beside]]):
-            self._costs[beside, chain[beside]] = np.inf
+    def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:
+        """Ask all samples beside bad poses, at some tries more; where nothing collides drop the ones that were taken.
 
-    def _ask(self, links: list[int]) -> None:
+        Whether there is no way at all shows in a few links mostly, so some are asked before the others.
+        """
+        beside = np.unique(np.clip(np.searchsorted(self._links, bad)[:, None] - [0, 1], 0, None))
+        everywhere = np.arange(len(chain))
+        taken = everywhere if number in _ASKED_OF else beside
+        for asked in (everywhere[:: _ASKED_OF[number]], everywhere) if number in _ASKED_OF else (beside,):
+            self._ask(np.asarray(asked[~self._is_asked[asked]], dtype=np.int64))
+            if np.isinf(self._costs[taken, chain[taken]]).any():
+                return
+        self._has_dropped = True
+        self._costs[taken, chain[taken]] = np.inf
+
+    def _ask(self, links: NDArray[np.int64]) -> None:
         rows, columns = np.nonzero(np.isfinite(self._costs[links]))
-        asked = np.array(links, dtype=np.int64)[rows]
+        asked = links[rows]
         self._is_asked[links] = True
         joints = self._arm.mirrored_joints(self._samples[asked, columns])
         is_bad = ~self._is_free(self._links[asked], joints, True)

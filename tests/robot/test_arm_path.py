@@ -1,6 +1,7 @@
 """Joints along a tool's path: exactly on it, within their limits, without a leap, round what is forbidden."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,7 +28,10 @@ def line(start: tuple[float, float, float], end: tuple[float, float, float], pit
     count = math.ceil(math.dist(start, end) / 0.01) + 1
     rotation = Approach(0.0, math.radians(pitch_deg)).rotation
     return ToolPath(
-        np.linspace(start, end, count), np.broadcast_to(rotation, (count, 3, 3)), np.full(count - 1, np.inf)
+        np.linspace(start, end, count),
+        np.broadcast_to(rotation, (count, 3, 3)),
+        np.full(count - 1, np.inf),
+        (0, count),
     )
 
 
@@ -39,7 +43,7 @@ def across(pitch_deg: float) -> ToolPath:
 def mirrored(path: ToolPath) -> ToolPath:
     """The path that the other arm sees: y is turned round, and so is the side of the hand."""
     rotations = path.rotations * np.outer(SIDEWAYS, SIDEWAYS)
-    return ToolPath(path.positions * SIDEWAYS, rotations, path.spans_s)
+    return replace(path, positions=path.positions * SIDEWAYS, rotations=rotations)
 
 
 def everywhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
@@ -91,7 +95,7 @@ def test_a_hand_that_turns_over_is_followed_too():
     path = line((0.6, 0.3, 0.9), (0.6, 0.3, 1.1), 30)
     turns = np.linspace(0.0, math.pi, len(path.positions))
     about_x = np.array([[[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]] for a in turns])
-    rolled = ToolPath(path.positions, path.rotations @ about_x, path.spans_s)
+    rolled = replace(path, rotations=path.rotations @ about_x)
     require_followed(rolled, found(rolled))
 
 
@@ -108,8 +112,12 @@ def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked():
     assert found(across(45), nowhere).blocked.tolist() == [*range(0, 29, 3), 29]
 
 
-def test_poses_of_a_part_of_a_path_are_counted_from_its_start():
-    assert NoPath(np.array([0, 3, 6, 9])).within(3, 9).blocked.tolist() == [0, 3]
+def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way():
+    # Of the 41 poses those from 0.88 m on, the 29th and later, may be out of reach, those to the 27th are not.
+    path = line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)
+    nearer, farther = (found(replace(path, core=core)) for core in ((0, 27), (30, 41)))
+    assert not len(nearer.blocked) and not nearer.is_core
+    assert {6, 9, 10} <= set(farther.blocked) <= {0, 3, 6, 9, 10} and farther.is_core
 
 
 def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
