@@ -2,8 +2,8 @@
 
 Cases that are to be compared are run in turns (a, b, a, b, ...), so that a slow moment of the machine meets both, and
 their ratio is the median of the ratios of the turns. No search has anything from the one before: each plan has its own
-memory of what the robot reaches, and the garment is replayed each time. Compiled kernels stay, and `warm_up` sees to those first; joint paths stay too, and
-are not in the times of searches.
+memory of what the robot reaches, and the garment is replayed each time. Compiled kernels stay, and `warm_up` sees to
+those first; joint paths stay too, and are not in the times of searches.
 """
 
 from collections.abc import Sequence

@@ -69,4 +69,4 @@ def require_between(field: str, value: float, low: float, high: float) -> None:
 
 
 replayed = lru_cache(_GARMENTS)(FoldSequence.of)
-"""A garment with its folds made legal; of the latest it is remembered, and all that was worked out about their cloth."""
+"""A garment with its folds made legal. The latest are remembered, with what was worked out about their cloth."""
