@@ -51,11 +51,27 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
 
 
 def _again(steps: Sequence[Step], work: Work, state: State) -> Iterator[tuple[Step, ...]]:
-    """The same steps one after the other from a state, the likest first; hands hold on where they did."""
+    """The same steps one after the other from a state, the likest first; hands hold on where they did.
+
+    There is time to try only a few, so they are mixed: those that begin in the likest way, more and more of others.
+    """
     if not steps:
         yield ()
         return
-    for step in steps[0].again(work, state):
-        if bool(step.after.held) == bool(steps[0].after.held):
-            for rest in _again(steps[1:], work, step.after):
-                yield (step, *rest)
+    begins = (step for step in steps[0].again(work, state) if bool(step.after.held) == bool(steps[0].after.held))
+    begun: list[Iterator[tuple[Step, ...]]] = []
+    while True:
+        begun += [_begun_with(step, steps[1:], work) for step in islice(begins, 1)]
+        if not begun:
+            return
+        for ways in tuple(begun):
+            way = next(ways, None)
+            if way is None:
+                begun.remove(ways)
+            else:
+                yield way
+
+
+def _begun_with(step: Step, others: Sequence[Step], work: Work) -> Iterator[tuple[Step, ...]]:
+    for rest in _again(others, work, step.after):
+        yield (step, *rest)

@@ -40,6 +40,7 @@ def make_plan(
     time_limit_s: float = 10.0,
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
+    known: Plan | None = None,
 ) -> Plan:
     """Plan how a robot folds a garment in the least time.
 
@@ -54,6 +55,7 @@ def make_plan(
         time_limit_s: the budget of the search (s, 0.01..60).
         max_expanded: its budget in states (1..1,000,000).
         should_stop: asked while searching; true ends the search as out of budget.
+        known: a solved plan for the same, as `adapt_plan` gives; the answer is that unless a quicker one is found.
 
     Returns:
         The plan; that none exists, or none was found within the budget, is an answer too.
@@ -69,7 +71,7 @@ def make_plan(
     compile_kernels()
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
     bound = HEURISTICS[heuristic](problem.work)
-    return PlanSearch(problem, bound, time_limit_s, max_expanded, should_stop or (lambda: False)).plan()
+    return PlanSearch(problem, bound, time_limit_s, max_expanded, should_stop or (lambda: False), known).plan()
 
 
 def adapt_plan(

@@ -1,15 +1,18 @@
 """The search for the quickest plan: A* over states, its path made real, the obstacles it met."""
 
+import math
 import time
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import partial
 
+from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.alone import Alone
 from planner.plan.heuristic import Heuristic
 from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
-from planner.plan.realizer import Realizer
+from planner.plan.realizer import OutOfTimeError, Realizer
 from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.primitives.obstacle import situation
@@ -35,6 +38,7 @@ class PlanSearch:
         time_limit_s: float,
         max_expanded: int,
         should_stop: Callable[[], bool],
+        known: Plan | None = None,
     ) -> None:
         """A search that has not begun; its time runs.
 
@@ -44,6 +48,7 @@ class PlanSearch:
             time_limit_s: the budget (s).
             max_expanded: the budget in states.
             should_stop: asked while searching; true ends the search as out of budget.
+            known: a plan for the problem; only a quicker one is looked for.
         """
         self._problem = problem
         self._work = problem.work
@@ -52,12 +57,13 @@ class PlanSearch:
         self._started = time.perf_counter()
         self._deadline = self._started + time_limit_s
         self._should_stop = should_stop
+        self._known = known
         self._primitives = [kind(problem.work) for kind in PRIMITIVES]
         self._achieved = 0
         self._reached: set[State] = set()
         self._expanded = 0
         self._blocking: list[int] = []
-        self._realizer = Realizer(problem.maker)
+        self._realizer = Realizer(problem.maker, self._is_out_of_budget)
         self._steps: dict[State, tuple[Step | Later[Step], ...]] = {}
         self._worked_out: dict[Later[Step], tuple[Step | Later[Step], ...]] = {}
         self._explored = 0
@@ -70,19 +76,28 @@ class PlanSearch:
         if unrest is not None:
             return self._answer(Outcome.INFEASIBLE, None, (), (reason_at_start(self._work, unrest),))
         result, acts = self._real_path(self._problem.start)
+        if self._known is not None and result.outcome is not Outcome.SOLVED:
+            is_proof = result.outcome is Outcome.INFEASIBLE
+            return self._answer(Outcome.SOLVED, self._known.cost_s if is_proof else result.bound, self._known.acts, ())
         outcome = Outcome.INFEASIBLE if self._blocking else result.outcome
         return self._answer(outcome, result.bound, acts, self._reasons() if outcome is Outcome.INFEASIBLE else ())
 
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """The quickest path that is real, and what it is then."""
+        cost_s = math.inf if self._known is None else self._known.cost_s or 0.0
+        question = (start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
         while True:
-            result = a_star(start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+            result = a_star(*question, limit=cost_s - TIME_S)
             self._explored += result.explored
             if result.outcome is not Outcome.SOLVED:
                 return result, ()
             begun = time.perf_counter()
-            found = self._realizer.acts([edge.action for edge in result.path])
-            self._joint_time_s += time.perf_counter() - begun
+            try:
+                found = self._realizer.acts([edge.action for edge in result.path])
+            except OutOfTimeError:
+                return replace(result, outcome=Outcome.BUDGET_EXCEEDED), ()
+            finally:
+                self._joint_time_s += time.perf_counter() - begun
             if found is not None:
                 return result, found
             self._achieved = 0
@@ -117,7 +132,7 @@ class PlanSearch:
         return state.done == (1 << len(self._work.sequence.folds)) - 1
 
     def _is_over(self) -> bool:
-        if self._expanded >= LOOK_ALONE_AFTER and not self._is_looked_at_alone:
+        if self._expanded >= LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]

@@ -13,7 +13,7 @@ out.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act, runs_of
@@ -25,6 +25,10 @@ _SPREAD = 16
 """So many other ways to do the same are tried once one has failed."""
 
 
+class OutOfTimeError(Exception):
+    """There was no time to look whether steps are real."""
+
+
 class Realizer:
     """Knows which steps of one planning problem are slower than they seem, or cannot be.
 
@@ -32,9 +36,15 @@ class Realizer:
         struck: the runs that could not be made real, each up to the step that could not.
     """
 
-    def __init__(self, maker: RunMaker) -> None:
-        """Nothing is known yet."""
+    def __init__(self, maker: RunMaker, is_over: Callable[[], bool]) -> None:
+        """Nothing is known yet.
+
+        Args:
+            maker: makes runs real.
+            is_over: asked before each run; true means that there is no time.
+        """
         self._maker = maker
+        self._is_over = is_over
         self._made: dict[tuple[object, ...], RealRun | None] = {}
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
@@ -62,7 +72,11 @@ class Realizer:
             yield step, cost_s
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
-        """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer."""
+        """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
+
+        Raises:
+            OutOfTimeError: there was no time to find out; what is known by then stays.
+        """
         found, is_as_it_seemed = [], True
         for first, run in runs_of(steps):
             if not any(step.grips for step in run):
@@ -79,6 +93,7 @@ class Realizer:
     def _real(self, run: tuple[Step, ...]) -> RealRun | None:
         key = tuple(_key(step) for step in run)
         if key not in self._made:
+            self._require_time()
             self._made[key] = self._maker.real(run)
         return self._made[key]
 
@@ -90,12 +105,17 @@ class Realizer:
         others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
         for other in culprit.elsewhere(_SPREAD):
+            self._require_time()
             made = None if _key(other) in others else self._maker.made((*before, other))
             if made is not None:
                 others[_key(other)] = other
                 self._made[tuple(_key(step) for step in (*before, other))] = made
                 self._least_s[_key(other)] = made.durations_s()[-1]
         self._others[culprit.situation] = tuple(others.values())
+
+    def _require_time(self) -> None:
+        if self._is_over():
+            raise OutOfTimeError
 
     def _agrees(self, run: tuple[Step, ...], made: RealRun) -> bool:
         """Whether the steps of a run take as long as was known; what they take is known now."""

@@ -12,7 +12,7 @@ from planner.geometry.pose import Approach, FloatArray, Point3
 from planner.geometry.table_top import TableTop
 from planner.primitives.drag_grips import DRAGS_PER_M, dragged
 from planner.primitives.drag_way import DragWay, DragWays
-from planner.primitives.grasping import approaches_from_outside, nearest
+from planner.primitives.grasping import approaches_from_outside, by_nearness
 from planner.primitives.grip import Grip
 from planner.primitives.phase import ClothMotion, Hand, Phase
 from planner.primitives.state import Held, State
@@ -139,18 +139,18 @@ class DragStep:
     def again(self, work: Work, state: State) -> Iterator["DragStep"]:
         """The same hands drag as far from the same back-off, each at the grip nearest to where it was.
 
-        Then from other back-offs, the nearest first.
+        Then from other back-offs, the nearest first; then other hands.
         """
-        way = nearest(self.way, work.kept(DragWays).of(state))
         steps = self.after.back_off - self.first_stand
         offset = dragged(work, state.offset, state.station, steps * DRAGS_PER_M // BACK_OFFS_PER_M)
-        if way is None or work.unrest(state.done, offset) is not None:
+        if work.unrest(state.done, offset) is not None:
             return
-        held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()
-        for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
-            if stand + steps < work.back_offs:
-                after = State(state.done, offset, state.station, stand + steps, held, is_dragged=bool(held))
-                yield DragStep(work, way, state, after, stand)
+        for way in by_nearness(self.way, work.kept(DragWays).of(state)):
+            held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()
+            for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
+                if stand + steps < work.back_offs:
+                    after = State(state.done, offset, state.station, stand + steps, held, is_dragged=bool(held))
+                    yield DragStep(work, way, state, after, stand)
 
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)

@@ -13,7 +13,7 @@ from planner.primitives.fold_motion import FoldMotion
 from planner.primitives.fold_trial import fold_trials, geometric_obstacle
 from planner.primitives.fold_variants import fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
-from planner.primitives.grasping import nearest
+from planner.primitives.grasping import by_nearness
 from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
 from planner.primitives.state import Held, State
@@ -109,23 +109,23 @@ class FoldStep:
     def again(self, work: Work, state: State) -> Iterator["FoldStep"]:
         """The same fold with the same hands, each at the grip nearest to where it was: as it was done, if it still can.
 
-        Else the ways in which the base begins and ends nearest to where it did.
+        Else the ways in which the base travels least; where the same hands cannot, with others.
         """
         old = self.way.trial
-        trial = None
-        if geometric_obstacle(work, state, old.fold) is None:
-            trial = nearest(old, fold_trials(work, state, old.fold))
-        if trial is None:
+        is_next = old.fold in work.sequence.dag.available(state.done)
+        is_red_from_drag = is_next and state.is_dragged and work.sequence.folds[old.fold].is_red
+        if not is_next or is_red_from_drag or geometric_obstacle(work, state, old.fold) is not None:
             return
         first, end = state.back_off if state.held else self.first_stand, self.after.back_off
         orientation = dict(zip(old.arms, self.way.approaches, strict=True))
-        same = FoldWay(trial, tuple(orientation[arm] for arm in trial.arms))
-        if all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
-            driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0][first, end])
-            if driven < IMPOSSIBLE:
-                yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
-        for variant in sorted(trial_variants(work, state, trial), key=lambda v: (v.steps, abs(v.end - end), v.rank)):
-            yield fold_step(work, variant.way, state, variant.first, variant.end, variant.steps)
+        for trial in by_nearness(old, fold_trials(work, state, old.fold)):
+            same = FoldWay(trial, tuple(orientation.get(arm, -1) for arm in trial.arms))
+            if all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
+                driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0][first, end])
+                if driven < IMPOSSIBLE:
+                    yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
+            for v in sorted(trial_variants(work, state, trial), key=lambda v: (v.steps, abs(v.end - end), v.rank)):
+                yield fold_step(work, v.way, state, v.first, v.end, v.steps)
 
     def _tools(self, sweep: float) -> FloatArray:
         return self.way.trial.path.tool_points(self.way.trial.points, sweep)

@@ -59,10 +59,15 @@ class Taking(Protocol):
 T = TypeVar("T", bound=Taking)
 
 
-def nearest(one: T, others: Iterable[T]) -> T | None:
-    """Of others in which the same arms hold something the one whose grips are nearest; None if there is none."""
-    alike = (other for other in others if other.taken.keys() == one.taken.keys())
-    return min(alike, key=lambda o: max(math.dist(one.taken[arm], o.taken[arm]) for arm in one.taken), default=None)
+def by_nearness(one: T, others: Iterable[T]) -> list[T]:
+    """Others in the order in which their hands are nearest to where one has them; last those of other arms."""
+
+    def away_m(other: T) -> float:
+        if other.taken.keys() != one.taken.keys():
+            return math.inf
+        return max(math.dist(point, other.taken[arm]) for arm, point in one.taken.items())
+
+    return sorted(others, key=away_m)
 
 
 def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip: Point2) -> NDArray[np.int64]:

@@ -95,6 +95,7 @@ class _Search(Generic[S, A]):
     """The states seen, what each costs so far, the edge that led there, and what waits."""
 
     heuristic: Callable[[S], float]
+    limit: float
     costs: dict[S, float] = field(default_factory=dict)
     parents: dict[S, tuple[S, Edge[S, A]]] = field(default_factory=dict)
     closed: set[S] = field(default_factory=set)
@@ -103,9 +104,9 @@ class _Search(Generic[S, A]):
     explored: int = 0
 
     def push(self, state: S, cost: float, beyond: float, towards: S, promise: Promise[S, A] | None) -> bool:
-        """Let a state wait, or a promise of one; false where the heuristic knows that no goal can be reached."""
+        """Let a state wait, or a promise of one; false where no goal can be reached, or none within the limit."""
         estimate = round(cost + beyond + self.heuristic(towards), _DIGITS)
-        if estimate == math.inf:
+        if estimate >= self.limit:
             return False
         heapq.heappush(self.queue, (estimate, -cost, next(self.numbers), state, promise))
         return True
@@ -141,6 +142,7 @@ def a_star(
     heuristic: Callable[[S], float],
     max_expanded: int,
     should_stop: Callable[[], bool],
+    limit: float = math.inf,
 ) -> SearchResult[S, A]:
     """The cheapest way from a state to a goal.
 
@@ -151,8 +153,9 @@ def a_star(
         heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no way to one.
         max_expanded: the budget in expansions.
         should_stop: asked before each expansion and each promise; true ends the search as out of budget.
+        limit: ways that cost as much or more are as good as none.
     """
-    search: _Search[S, A] = _Search(heuristic, {start: 0.0})
+    search: _Search[S, A] = _Search(heuristic, limit, {start: 0.0})
     search.push(start, 0.0, 0.0, start, None)
     expanded = 0
     while search.queue:

@@ -1,5 +1,6 @@
 """A* on problems that know no cloth: a number line, and random graphs against Dijkstra's search."""
 
+import math
 import random
 from collections.abc import Callable, Iterable
 
@@ -18,8 +19,9 @@ def search(
     heuristic: Callable[[object], float] = lambda state: 0.0,
     max_expanded: int = 10_000,
     should_stop: Callable[[], bool] = lambda: False,
+    limit: float = math.inf,
 ) -> SearchResult[object, object]:
-    return a_star(start, successors, lambda state: state == goal, heuristic, max_expanded, should_stop)
+    return a_star(start, successors, lambda state: state == goal, heuristic, max_expanded, should_stop, limit)
 
 
 def number_line(n: int) -> list[Edge[int, int]]:
@@ -62,6 +64,13 @@ def test_a_budget_of_expansions_ends_the_search_with_a_bound():
     assert found.outcome is Outcome.BUDGET_EXCEEDED
     assert found.expanded == 10 and found.path == ()
     assert 0.0 < found.bound <= 600.0
+
+
+def test_ways_that_cost_as_much_as_the_limit_or_more_are_as_good_as_none():
+    assert search(0, number_line, 9, limit=7.0).outcome is Outcome.INFEASIBLE
+    assert search(0, number_line, 9, limit=7.1).cost == pytest.approx(7.0)
+    # Below 3 there are the numbers that two single steps lead to; none of the line's ends is needed to end the search.
+    assert search(0, number_line, 9, limit=3.0).expanded == len({-2, -1, 0, 1, 2})
 
 
 def test_a_budget_that_just_suffices_suffices():

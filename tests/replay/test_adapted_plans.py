@@ -1,0 +1,122 @@
+"""Plans adapted to garments that differ a little: what they say can be done is held against the independent checker."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.solve import solve
+from planner import Garment, Plan, Scene, adapt_plan, load_garment, make_plan
+from planner.geometry.pose import Pose2
+from tests.builders import fold, garment, rectangle_points
+from tests.replay.checker import check
+from tests.replay.planned import SOLVABLE, planned
+
+CENTIMETRE = ((0.01, 0.0), (0.0, 0.01), (-0.01, 0.0), (0.0, -0.01))
+
+each_solvable = pytest.mark.parametrize("name", SOLVABLE)
+
+
+def moved(name: str, vertex: int, by: tuple[float, float]) -> Garment:
+    """A shipped garment with a vertex pulled; its folds go with the cloth that they are tied to."""
+    drawing = solve(drawing_of(load_garment(name))).drawing
+    outline = list(drawing.outline)
+    x, y = outline[vertex].point
+    outline[vertex] = replace(outline[vertex], point=(x + by[0], y + by[1]))
+    found = solve(replace(drawing, outline=tuple(outline))).garment
+    assert found is not None, f"{name}: vertex {vertex} moved by {by} makes a fold illegal"
+    return found
+
+
+def free_vertices(cloth: Garment) -> list[int]:
+    """The vertices at which no fold begins or ends."""
+    ends = [end for drawn in cloth.folds for end in (drawn.start, drawn.end)]
+    return [i for i, corner in enumerate(cloth.outline) if all(math.dist(corner, end) > 1e-6 for end in ends)]
+
+
+def unhurried(plan: Plan) -> dict[str, Any]:
+    """A plan as if the joints kept up everywhere: the checker tells from the time how far the base has driven."""
+    said, now = plan.to_dict(), 0.0
+    for primitive, planned_one in zip(said["primitives"], plan.primitives, strict=True):
+        assert primitive["duration_s"] >= planned_one.step.duration_s - 1e-9
+        primitive.update(start_s=now, duration_s=planned_one.step.duration_s)
+        now += planned_one.step.duration_s
+    return {**said, "cost_s": now}
+
+
+@each_solvable
+def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
+    before = planned(name).answer
+    after = adapt_plan(before, before.garment)
+    assert after is not None and after.cost_s == pytest.approx(before.cost_s, abs=1e-9)
+    assert after.to_dict()["primitives"] == before.to_dict()["primitives"]
+
+
+@each_solvable
+def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str):
+    before, adapted = planned(name).answer, []
+    for vertex in free_vertices(before.garment)[1::2]:
+        cloth = moved(name, vertex, CENTIMETRE[vertex // 2 % 4])
+        after = adapt_plan(before, cloth)
+        if after is not None:
+            check(cloth.to_dict(), Scene().to_dict(), unhurried(after))
+            assert after.statistics.bound_s <= after.cost_s
+            adapted.append(after)
+    assert adapted, "each garment has a vertex that may be pulled without another plan"
+
+
+def test_most_centimetres_ask_for_no_other_plan():
+    before = planned("t-shirt").answer
+    moves = [(vertex, CENTIMETRE[vertex % 4]) for vertex in range(len(before.garment.outline))]
+    after = [adapt_plan(before, moved("t-shirt", *move)) for move in moves]
+    assert sum(plan is not None for plan in after) >= 0.8 * len(moves)
+
+
+def test_a_plan_of_other_folds_cannot_be_adapted():
+    points = rectangle_points(0.3, 0.3)
+    half = fold((0.3, 0.15), (0.0, 0.15), name="half")
+    quarter = fold((0.15, 0.15), (0.15, 0.3), name="quarter")
+    near = Pose2(-0.75, 0.15, -math.pi / 2)
+    once, twice = garment(points, half, placement=near), garment(points, half, quarter, placement=near)
+    assert adapt_plan(make_plan(once), twice) is None, "a fold would be left undone"
+    assert adapt_plan(make_plan(twice), once) is None, "there is no second fold to be done"
+
+
+def test_a_plan_whose_hands_let_go_cannot_be_adapted_to_folds_between_which_they_hold_on():
+    points, near = rectangle_points(0.3, 0.3), Pose2(-0.75, 0.15, -math.pi / 2)
+    over, back = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
+    red = garment(points, over, back, placement=near)
+    blue = replace(red, folds=(over, replace(back, kind="blue")))
+    assert make_plan(blue).is_solved and make_plan(red).is_solved
+    assert adapt_plan(make_plan(blue), red) is None
+    assert adapt_plan(make_plan(red), blue) is None
+
+
+def test_a_plan_that_would_have_to_reach_farther_than_the_arms_cannot_be_adapted():
+    before = planned("hand-towel").answer
+    far = replace(before.garment.placement, x_m=before.garment.placement.x_m + 0.6)
+    assert adapt_plan(before, before.garment, placement=far) is None
+
+
+def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker():
+    before = planned("jeans").answer
+    known = adapt_plan(before, moved("jeans", 2, (0.0, 0.01)))
+    after = make_plan(known.garment, known=known)
+    plainly = make_plan(known.garment)
+    assert after.is_solved and after.cost_s == pytest.approx(min(known.cost_s, plainly.cost_s), abs=1e-9)
+    assert after.statistics.bound_s == pytest.approx(after.cost_s, abs=1e-9), "that is proved now"
+
+
+def test_a_plan_that_is_known_is_the_answer_when_time_runs_out():
+    before = planned("jeans").answer
+    known = adapt_plan(before, before.garment)
+    after = make_plan(before.garment, known=known, max_expanded=1)
+    assert after.is_solved and after.cost_s == known.cost_s
+    assert after.statistics.bound_s < after.cost_s, "whether it is the quickest is not known"
+
+
+def test_a_slower_plan_that_is_known_gives_way_to_the_quickest():
+    quick, slow = planned("hand-towel").answer, make_plan(load_garment("hand-towel"), start_station="left")
+    assert make_plan(quick.garment, known=slow).cost_s == pytest.approx(quick.cost_s, abs=1e-9)
