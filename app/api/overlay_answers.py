@@ -87,6 +87,25 @@ class PathsAnswer(BaseModel):
     grips: list[PathGripAnswer]
 
 
+class ShortfallAnswer(BaseModel):
+    """Round a point out of reach: what that hand, turned as it must be, cannot have at that height (m, rad).
+
+    `beyond` is of a disc of `radius_m`, `edge` the lines at which it ends; heading and pitch are in the base frame.
+    """
+
+    fold: int | None
+    arm: str
+    station: str
+    back_off_m: float
+    comfort_m: float
+    point: Point3
+    heading_rad: float
+    pitch_rad: float
+    radius_m: float
+    beyond: list[RegionAnswer]
+    edge: list[list[Point]]
+
+
 class OverlaysAnswer(BaseModel):
     """Overlays at one moment, in the article frame as it lies then."""
 
@@ -103,6 +122,7 @@ class OverlaysAnswer(BaseModel):
     slip: SlipAnswer | None
     base: BaseWayAnswer | None
     paths: list[PathsAnswer] | None
+    shortfall: ShortfallAnswer | None
 
 
 class PlaceAnswer(BaseModel):

@@ -17,6 +17,7 @@ from planner.errors import FoldError, GarmentError
 from planner.folds.attachment import Replay, attached, place_of
 from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.geometry.chord import nearest_chord
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
@@ -73,7 +74,7 @@ def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m
     places = tuple(_place(end, replay, names, is_red=crease.is_red) for end in crease.ends)
     first: Problem | None = None
     for start, end in _candidates(places[0], places[1], replay, is_red=crease.is_red):
-        found = _tried(crease, (start, end), index, replay, radius_m)
+        found = _tried(crease, (start, end), index, replay, names, radius_m)
         if not isinstance(found, Problem):
             line, folded = found
             return FoundLine(_settled(crease, places, line, replay, names), line, folded)
@@ -107,13 +108,15 @@ def _slid(places: Sequence[_Place], slides: Sequence[bool], silhouette: Region) 
 
 
 def _tried(
-    crease: Crease, ends: tuple[Point2, Point2], index: int, replay: Replay, radius_m: float
+    crease: Crease, ends: tuple[Point2, Point2], index: int, replay: Replay, names: Names, radius_m: float
 ) -> tuple[Segment, Folded] | Problem:
     silhouette = flap_silhouette(replay.cloths[-1], is_red=crease.is_red)
     lines = (Segment(*ends),) if ends[0] != ends[1] else ()
     off = tuple(point for point in ends if silhouette.boundary_distance(point) > SNAP_M)
     try:
         drawn = DrawnFold(crease.name, crease.kind, *ends, radius_m)
+        if crease.is_red and is_flap_missed(replay.cloths[-1], Segment(*ends)):
+            raise FoldError("start", flap_missed(names.titles[index - 1]))
         line = snapped_line(drawn, silhouette)
         before = replay.lines[-1] if crease.is_red else None
         return line, fold_cloth(replay.cloths[-1], line, is_red=crease.is_red, crease=before)

@@ -17,6 +17,7 @@ from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import FoldError, RequestError
 from planner.folds.attachment import Replay, attached
 from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.geometry.chord import chords, nearest_chord
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
@@ -73,7 +74,10 @@ def grab_and_drop(
     if apart < EDGE_MIN_M:
         raise RequestError("grab.to", f"is {apart * 1000:.3f} mm from where the cloth is grabbed, less than 1 mm")
     if not _is_on(silhouette, grabbed):
-        raise RequestError("grab.from", f"there is no cloth at ({grabbed[0]:.4f}, {grabbed[1]:.4f}) m")
+        place = f"({grabbed[0]:.4f}, {grabbed[1]:.4f}) m"
+        if _is_on(replay.cloths[-1].silhouette, grabbed):
+            raise RequestError("grab.from", f"{place} is on cloth that a red fold leaves where it is")
+        raise RequestError("grab.from", f"there is no cloth at {place}")
     line = _parting_chord(silhouette, grabbed, dropped)
     if line is None:
         raise RequestError("grab.to", "no straight fold through the cloth takes the point there")
@@ -89,7 +93,10 @@ def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red:
     replay = _replay(solution, after)
     line = nearest_chord(_seen(replay, is_red=is_red), guide)
     if line is None:
-        raise RequestError("line", "does not cross the cloth")
+        whole = nearest_chord(replay.cloths[-1].silhouette, guide)
+        if whole is None or not is_flap_missed(replay.cloths[-1], whole):
+            raise RequestError("line", "does not cross the cloth")
+        raise RequestError("line", flap_missed(_last_name(solution, replay)))
     return _placed(solution, replay, line, "line", is_red=is_red)
 
 
@@ -107,6 +114,11 @@ def _seen(replay: Replay, *, is_red: bool) -> Region:
     if is_red and not replay.lines:
         raise RequestError("kind", "the first fold cannot be red: no fold comes before it")
     return flap_silhouette(replay.cloths[-1], is_red=is_red)
+
+
+def _last_name(solution: Solution, replay: Replay) -> str:
+    """What the last of the folds done is called."""
+    return solution.drawing.folds[len(replay.lines) - 1].name
 
 
 def _is_on(region: Region, point: Point2) -> bool:

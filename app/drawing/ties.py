@@ -17,17 +17,20 @@ class Names:
         corners: the corners' names.
         points: the corners (m).
         folds: the folds' names.
+        titles: what people call the folds.
     """
 
     corners: tuple[str, ...]
     points: tuple[Point2, ...]
     folds: tuple[str, ...]
+    titles: tuple[str, ...]
 
     @staticmethod
     def of(drawing: Drawing) -> "Names":
         """The names in a drawing."""
         corners = tuple(corner.id for corner in drawing.outline)
-        return Names(corners, drawing.points, tuple(fold.id for fold in drawing.folds))
+        folds = drawing.folds
+        return Names(corners, drawing.points, tuple(fold.id for fold in folds), tuple(fold.name for fold in folds))
 
     def attachment(self, tie: Tie | None) -> Attachment | None:
         """What a tie means; None if it is to nothing, or to something that is not there."""

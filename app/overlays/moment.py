@@ -14,6 +14,7 @@ from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
 from planner.plan.frame import Frame
 from planner.plan.plan import Plan
+from planner.plan.reason import Reason
 from planner.primitives.scene import Scene
 
 
@@ -37,6 +38,7 @@ class Moment:
         plan: the plan; None for the article as it is drawn.
         stints: its primitives, with what was true when each began.
         frame: the plan's frame; None for the article as it is drawn.
+        reason: why there is no plan for it, the first reason that names a place; None where none does.
     """
 
     scene: Scene
@@ -50,6 +52,7 @@ class Moment:
     plan: Plan | None = None
     stints: tuple[Stint, ...] = ()
     frame: Frame | None = None
+    reason: Reason | None = None
 
     @cached_property
     def table(self) -> TableInArticle:
@@ -59,7 +62,12 @@ class Moment:
     @property
     def base_in_article(self) -> Pose2:
         """The base in the article frame."""
-        return _seen_from(self.placement, self.base)
+        return self.in_article(self.base)
+
+    def in_article(self, pose: Pose2) -> Pose2:
+        """A pose of the table frame in the article frame."""
+        x, y = self.placement.to_inner(np.array([pose.x_m, pose.y_m]))
+        return Pose2(float(x), float(y), pose.yaw_rad - self.placement.yaw_rad)
 
     def to_article(self, points: FloatArray) -> FloatArray:
         """Points of the table frame, shape (..., 2) or (..., 3), in the article frame."""
@@ -124,6 +132,7 @@ def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float
         back_off_m,
         drawing.placement,
         state.solution.cloths[0],
+        reason=_reason(state),
     )
 
 
@@ -137,6 +146,8 @@ def _station(scene: Scene, base: Pose2) -> tuple[str | None, float]:
     return None, 0.0
 
 
-def _seen_from(placement: Pose2, pose: Pose2) -> Pose2:
-    x, y = placement.to_inner(np.array([pose.x_m, pose.y_m]))
-    return Pose2(float(x), float(y), pose.yaw_rad - placement.yaw_rad)
+def _reason(state: DocumentState) -> Reason | None:
+    """The first reason with a place why there is no plan for what is drawn."""
+    if state.answer is None or not state.is_answered:
+        return None
+    return next((reason for reason in state.answer.plan.reasons if reason.point is not None), None)

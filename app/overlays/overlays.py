@@ -10,6 +10,8 @@ from app.open_document import ROBOT
 from app.overlays.moment import Moment
 from app.overlays.motions import base_overlay, paths_overlay
 from app.overlays.reach_region import reach_regions
+from app.overlays.region_json import region_to_dict
+from app.overlays.shortfall import shortfall_overlay
 from app.overlays.slip import slip_overlay
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
@@ -67,13 +69,7 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
 
 def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[dict[str, Any]]:
     """A region of the base frame as far as it is on the table, article frame."""
-    return [_polygon(part) for part in region.moved(to_article).intersection(moment.table.region).pieces]
-
-
-def _polygon(part: Region) -> dict[str, Any]:
-    """A connected region by its outer ring and those of its holes."""
-    holes = Region.polygon(part.ring).difference(part)
-    return {"outer": part.ring.tolist(), "holes": [hole.ring.tolist() for hole in holes.pieces]}
+    return [region_to_dict(part) for part in region.moved(to_article).intersection(moment.table.region).pieces]
 
 
 OVERLAYS: dict[str, Callable[[Moment], Any]] = {
@@ -81,5 +77,6 @@ OVERLAYS: dict[str, Callable[[Moment], Any]] = {
     "slip": slip_overlay,
     "base": base_overlay,
     "paths": paths_overlay,
+    "shortfall": shortfall_overlay,
 }
 """What can be shown, and what makes it."""

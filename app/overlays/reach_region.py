@@ -6,26 +6,52 @@ edges nor where the base stands, so one region serves for all of them.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import TypeAlias
 
 import numpy as np
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
 from planner.primitives.reach import Reach
 from planner.primitives.work import BACK_OFF_STEP_M
 from planner.robot.pr2 import load_robot
 
-GRID_STEP_M = 0.02
-"""How far apart the places of the grid are (m)."""
-
 HALVINGS = 4
 """The border of the region is found to this many halvings of the grid."""
 
-_LOW, _COUNTS = (-1.0, -1.3), (106, 131)
-"""Where the grid begins in the base frame (m), and how many places it has: further no arm reaches."""
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Places in rows and columns, base frame.
+
+    Attributes:
+        low: the first of them (m).
+        counts: how many there are along x and along y.
+        step_m: how far apart they are (m).
+    """
+
+    low: Point2
+    counts: tuple[int, int]
+    step_m: float
+
+    @staticmethod
+    def about(middle: Point2, radius_m: float, steps: int) -> "Grid":
+        """A square with a place in its middle, from there to each side so many steps."""
+        x, y = middle
+        return Grid((x - radius_m, y - radius_m), (2 * steps + 1, 2 * steps + 1), radius_m / steps)
+
+    @property
+    def places(self) -> FloatArray:
+        """All of them, shape (counts[0], counts[1], 2), m."""
+        axes = (low + self.step_m * np.arange(count) for low, count in zip(self.low, self.counts, strict=True))
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+
+
+ALL_IN_REACH = Grid((-1.0, -1.3), (106, 131), 0.02)
+"""Further no arm reaches."""
 
 CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
 """Of points of the base frame, shape (n, 2), m: which of them an arm can take cloth at."""
@@ -50,31 +76,35 @@ def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: 
     return tuple(region_where(partial(_takeable, reach, arm, height_m)) for arm in arms)
 
 
-def region_where(can_take: CanTake) -> Region:
+def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH) -> Region:
     """The region of the grid's rectangle in which a question is answered with yes, base frame."""
-    nx, ny = _COUNTS
-    xs, ys = (low + GRID_STEP_M * np.arange(count) for low, count in zip(_LOW, _COUNTS, strict=True))
-    grid = np.stack(np.meshgrid(xs, ys, indexing="ij"), axis=-1)
+    nx, ny = places.counts
+    grid = places.places
     inside = can_take(grid.reshape(-1, 2)).reshape(nx, ny)
     along_x = _borders(can_take, grid[:-1], grid[1:], inside[:-1], inside[1:])
     along_y = _borders(can_take, grid[:, :-1], grid[:, 1:], inside[:, :-1], inside[:, 1:])
     whole = inside[:-1, :-1] & inside[1:, :-1] & inside[:-1, 1:] & inside[1:, 1:]
     some = inside[:-1, :-1] | inside[1:, :-1] | inside[:-1, 1:] | inside[1:, 1:]
-    pieces = [_rectangle(grid, column, rows) for column in range(nx - 1) for rows in _runs(whole[column])]
+    pieces = [_rectangle(grid, column, rows) for column in range(nx - 1) for rows in runs(whole[column])]
     for i, j in np.argwhere(some & ~whole):
         pieces.append(_cell(grid, inside, along_x, along_y, int(i), int(j)))
     return Region.union(pieces) if pieces else Region.empty()
 
 
+def in_approach(reach: Reach, arm: int, height_m: float, approach: int, points: FloatArray) -> BoolArray:
+    """At which points, shape (n, 2), so high over the floor (m) an arm is in comfort in one approach."""
+    tools = np.column_stack([points, np.full(len(points), height_m)])
+    return np.asarray(reach.from_anywhere(arm, tools, np.array([approach]), 1, BACK_OFF_STEP_M)[0])
+
+
 def _takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> BoolArray:
     """At which points, shape (n, 2), an arm is in comfort in at least one approach."""
-    tools = np.column_stack([points, np.full(len(points), height_m)])
     found = np.zeros(len(points), dtype=np.bool_)
     left = np.arange(len(points))
     for approach in range(len(reach.approaches)):
         if not len(left):
             break
-        can = reach.from_anywhere(arm, tools[left], np.array([approach]), 1, BACK_OFF_STEP_M)[0]
+        can = in_approach(reach, arm, height_m, approach, points[left])
         found[left[can]] = True
         left = left[~can]
     return found
@@ -93,7 +123,7 @@ def _borders(can_take: CanTake, a: FloatArray, b: FloatArray, in_a: BoolArray, i
     return border
 
 
-def _runs(marked: BoolArray) -> list[tuple[int, int]]:
+def runs(marked: BoolArray) -> list[tuple[int, int]]:
     """The stretches of a row that are marked: where each begins and where it has ended."""
     steps = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(np.int8)))
     return [(int(start), int(end)) for start, end in zip(steps[::2], steps[1::2], strict=True)]

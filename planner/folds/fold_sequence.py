@@ -19,9 +19,11 @@ from planner.errors import FoldError
 from planner.folds.fold import Fold, snapped_line
 from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
 from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
+from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
+from planner.geometry.segment import Segment
 
 
 @dataclass(frozen=True)
@@ -126,6 +128,8 @@ def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:
 
 def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold]) -> tuple[Fold, Folded]:
     drawn = garment.folds[index]
+    if drawn.is_red and is_flap_missed(cloth, Segment(drawn.start, drawn.end)):
+        raise FoldError("start", flap_missed(before[-1].name))
     line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
     fold = Fold(index, drawn.name, drawn.is_red, line, drawn.grip_radius_m)
     crease = before[-1].line if drawn.is_red else None

@@ -87,3 +87,61 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page)
     )
     # The axis is x = 2; corners on it stay single.
     assert [corner["point"] for corner in outline] == [[2, 2.5], [0.5, 2], [0, 0], [4, 0], [3.5, 2]]
+
+
+def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any:
+    """Where a point is carried by the axis of an outline."""
+    carried = f"import('/static/js/board/geometry.js').then((g) => g.mirrored({point}, ...m.axisOf({outline})))"
+    return asked(page, "symmetry", carried)
+
+
+def test_a_garment_of_which_a_corner_is_pulled_away_keeps_its_axis(page: Page) -> None:
+    # Symmetric about x = 2 but for (4.9, -0.3), which was (4, 0); the middle of the box is at 1.95.
+    pulled = [[0, 0], [4.9, -0.3], [4, 3], [5, 2], [5, 4], [3, 5], [1, 5], [-1, 4], [-1, 2], [0, 3]]
+    assert over_axis(page, pulled, [0, 0]) == pytest.approx([4, 0])
+
+
+def test_an_axis_may_slant_if_all_corners_say_so(page: Page) -> None:
+    # A kite with its tips on y = x.
+    assert over_axis(page, [[0, 0], [2, 1], [4, 4], [1, 2]], [3, 0]) == pytest.approx([0, 3])
+
+
+def test_of_two_axes_the_upright_one_is_meant(page: Page) -> None:
+    assert over_axis(page, [[0, 0], [2, 0], [2, 5], [0, 5]], [0.5, 1]) == pytest.approx([1.5, 1])
+
+
+def test_a_garment_without_an_axis_is_mirrored_over_the_middle_of_its_box(page: Page) -> None:
+    # No two corners are level with or plumb to each other; x from -1 to 6.
+    odd = [[0, 0], [5, 1], [6, 4], [2, 7], [-1, 3]]
+    assert over_axis(page, odd, [0, 0]) == pytest.approx([5, 0])
+
+
+def laid(page: Page, edge: list[list[float]], onto: list[list[float]], point: list[float]) -> Any:
+    """Where a point is carried by the fold that lays an edge on another; null where none does."""
+    carry = f"import('/static/js/board/geometry.js').then((g) => line && g.mirrored({point}, ...line))"
+    return asked(page, "edge_onto_edge", f"((line) => {carry})(m.layingOnto({edge}, {onto}))")
+
+
+def test_an_edge_is_laid_on_one_that_meets_it_over_the_corners_bisector(page: Page) -> None:
+    # Along the x axis and up the line y = x: halved at 22.5 degrees, (2, 0) comes to lie on it, 2 from the corner.
+    found = laid(page, [[0, 0], [3, 0]], [[3, 3], [0, 0]], [2, 0])
+    assert found == pytest.approx([2**0.5, 2**0.5])
+
+
+def test_an_edge_is_laid_on_a_parallel_one_over_the_line_midway(page: Page) -> None:
+    assert laid(page, [[0, 0], [4, 0]], [[3, 1], [1, 1]], [2, 0]) == pytest.approx([2, 1])
+
+
+def test_an_edge_is_not_laid_beside_another(page: Page) -> None:
+    # Parallel, but one from x = 0 to 1 and the other from x = 2 to 3; and two stretches of one line.
+    assert laid(page, [[0, 0], [1, 0]], [[3, 1], [2, 1]], [0, 0]) is None
+    assert laid(page, [[0, 0], [1, 0]], [[2, 0], [3, 0]], [0, 0]) is None
+
+
+def test_a_crease_from_a_corner_ends_where_it_lays_edges_on_edges(page: Page) -> None:
+    # From the corner of a square only its diagonal does; from a place that is on no bisector nothing does.
+    square = [[[0, 0], [2, 0], [2, 2], [0, 2]]]
+    ends = asked(page, "edge_onto_edge", f"m.endsOnto([0, 0], {square}).map(({{ at }}) => at)")
+    assert ends
+    assert all(end == pytest.approx([2, 2]) for end in ends)
+    assert asked(page, "edge_onto_edge", f"m.endsOnto([0.7, 0], {square})") == []

@@ -167,6 +167,7 @@ def test_a_garment_and_its_folds_are_drawn_with_a_finger(
     finger.drag((0.125, 0.0), (0.125, 0.6))
     finger.drag((0.375, 0.6), (0.375, 0.0))
     finger.drag((0.375, 0.25), (0.125, 0.25))
+    expect(page.locator(".strip-moment")).to_contain_text("After 3")
     expect(page.get_by_role("status")).to_contain_text("Planned: ")
     assert [fold["status"] for fold in sheet.state["solved"]] == ["legal"] * 3
     assert_near(points(sheet), SEVEN, 0.006)

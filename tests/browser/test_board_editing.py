@@ -263,6 +263,59 @@ def test_a_point_grabbed_and_dropped_makes_the_fold_that_takes_it_there(page: Pa
     expect(page.locator(".strip-moment")).to_have_text("After 1: bottom up")
 
 
+def test_cloth_grabbed_by_an_edge_and_dropped_on_another_lays_edge_on_edge(page: Page, desk: Desk) -> None:
+    square = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]
+    desk.lay({"name": "square", "outline": square, "folds": []})
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    # Grabbed a little above the lower edge, dropped somewhere on the left one: halved is the corner between them.
+    above = 14 / float(str(hand.board.get_attribute("data-px-per-m")))
+    hand.drag((0.2, above), (0.004, 0.37), is_released=False)
+    expect(page.locator(".snap-name")).to_have_text("edge onto edge")
+    page.mouse.up()
+    expect_step(page, "Draw fold")
+    found = fold(desk, 0)
+    assert sorted(found["start"] + found["end"]) == pytest.approx([0.0, 0.0, 0.6, 0.6], abs=1e-6)
+
+
+def test_a_crease_from_a_corner_snaps_to_where_it_lays_one_edge_on_the_other(page: Page, desk: Desk) -> None:
+    desk.lay({"name": "slanted", "outline": [[0.0, 0.0], [0.6, 0.0], [0.5, 0.4], [0.0, 0.4]], "folds": []})
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    # Halved is the corner between the lower edge and the slanted one, which is sqrt(0.17) m long: with the stretch of
+    # the upper edge as far as the crease it makes a triangle with two equal angles, so that stretch is as long.
+    across = (0.5 - 0.17**0.5, 0.4)
+    hand.drag((0.6, 0.0), (across[0] + 0.005, across[1] + 0.004), is_released=False)
+    expect(page.locator(".snap-name")).to_have_text("edge onto edge")
+    page.mouse.up()
+    expect_step(page, "Draw fold")
+    assert fold(desk, 0)["end"] == pytest.approx(across, abs=1e-6)
+    hand.tool("Select")
+    page.get_by_role("button", name="Step before").click()
+    desk.edit(lambda drawing: drawing["folds"][0].update(end={"point": [0.25, 0.4], "on": None}))
+    expect_step(page, "Elsewhere")
+    hand.click((0.425, 0.2))
+    hand.drag((0.25, 0.4), (across[0] + 0.005, across[1] + 0.004))
+    expect_step(page, "Move fold")
+    assert fold(desk, 0)["end"] == pytest.approx(across, abs=1e-6)
+
+
+def test_mirroring_a_garment_pulled_out_of_shape_keeps_to_its_own_axis(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.drag(BOTTOM_RIGHT, (0.52, -0.06))
+    expect_step(page, "Move vertex")
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Mirror").hover()
+    expect(page.locator(".mirror-axis")).to_have_count(1)
+    hand.tool("Mirror")
+    expect_step(page, "Mirror outline")
+    found = [point["point"] for point in cloth.drawing["outline"]]
+    assert any(point == pytest.approx(BOTTOM_RIGHT, abs=0.002) for point in found)
+    assert len(found) == 10
+    page.mouse.move(*hand.px((0.2, 0.3)))
+    expect(page.locator(".mirror-axis")).to_have_count(0)
+
+
 def test_the_first_fold_is_not_drawn_red_and_the_reason_is_told(page: Page, cloth: Desk) -> None:
     hand = Hand(page)
     hand.tool("Draw fold")

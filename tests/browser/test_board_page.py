@@ -155,11 +155,22 @@ def test_nothing_is_wider_than_a_phone(phone: Page, new_sheet: Callable[[Garment
     phone.goto(new_sheet("t-shirt").page_url)
     expect(phone.locator(".corner")).to_have_count(10)
     assert phone.evaluate("document.documentElement.scrollWidth") == 390
-    for name in ("New", "Import", "Export", "Undo", "Help"):
+    for name in ("Rename", "New", "Import", "Export", "Undo", "Help"):
         box = phone.get_by_role("button", name=name, exact=True).bounding_box()
         assert box is not None
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
+
+
+def test_a_garment_is_renamed_on_a_phone(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    sheet = new_sheet("hand-towel")
+    phone.goto(sheet.page_url)
+    expect(phone.locator(".corner")).to_have_count(4)
+    phone.get_by_role("button", name="Rename", exact=True).tap()
+    phone.get_by_label("Name", exact=True).fill("Guest towel")
+    phone.keyboard.press("Enter")
+    expect(phone).to_have_title("Guest towel - Pleat")
+    assert sheet.drawing["name"] == "guest-towel"
 
 
 def test_every_name_that_others_look_for_is_there_once(page: Page, desk: Desk) -> None:
@@ -185,3 +196,29 @@ def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, desk: Desk
     short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
     expect(status).to_contain_text(f"the right hand is {short} short")
     expect(page.locator(".table-line")).to_have_count(1)
+    # Straight below there is reach, at that height there is none: all that is near is hatched, and no edge is drawn.
+    expect(page.locator(".beyond")).to_have_count(1)
+    expect(page.locator(".beyond-edge")).to_have_count(0)
+
+
+def test_where_a_hand_falls_short_along_the_table_its_reach_ends_at_the_arrow(page: Page, desk: Desk) -> None:
+    desk.lay(desk.garment("t-shirt"))
+    only_front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "back_off_max_m": 0.0}
+    desk.edit(lambda drawing: drawing["scene"].update(only_front))
+    expect(page.get_by_role("status")).to_contain_text("short (too far)")
+    expect(page.locator(".beyond-edge")).to_have_count(1)
+    cross = page.locator(".problem-cross").bounding_box()
+    edge = page.locator(".beyond-edge")
+    assert cross is not None
+    x, y = cross["x"] + cross["width"] / 2, cross["y"] + cross["height"] / 2
+    away = edge.evaluate(
+        """(edge, [x, y]) => {
+          const box = edge.ownerSVGElement.getBoundingClientRect();
+          const step = edge.getTotalLength() / 400;
+          const places = Array.from({ length: 401 }, (_, n) => edge.getPointAtLength(step * n));
+          return Math.min(...places.map((place) => Math.hypot(place.x + box.x - x, place.y + box.y - y)));
+        }""",
+        [x, y],
+    )
+    short_m = float(str(page.locator(".reason-text").text_content()).partition(" cm")[0]) / 100
+    assert away / float(str(Hand(page).board.get_attribute("data-px-per-m"))) == pytest.approx(short_m, abs=0.006)

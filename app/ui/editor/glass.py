@@ -4,9 +4,16 @@ viser's camera stays where it is while a node is dragged. With the box every pla
 nothing that is done with the left button can turn the camera. The box lies beyond what the camera sees, and so does the
 arrow that viser draws while a node is dragged. Only its inside faces the camera, so it is not outlined either when the
 pointer is over it.
+
+viser parts a drag where a modifier key goes down or up: it tells of an end, and if the button is still held a tenth of
+a second later, or the pointer moves on, of a start with the same place under the hand. Here such a drag is one: an end
+counts only once no such start has followed.
 """
 
+import asyncio
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
 import numpy as np
@@ -14,6 +21,7 @@ import viser
 
 from app.ui.editor.aim import Aim, aim, pixel_angle
 from planner.geometry.pose import Point3
+from planner.geometry.tolerance import GRID_M
 
 NODE = "/editor/glass"
 
@@ -36,8 +44,36 @@ _Modifier: TypeAlias = Literal[
 _MODIFIERS: tuple[_Modifier | None, ...] = (None, *get_args(_Modifier))
 """viser asks for each of them; keys that are held make no difference here."""
 
+GOES_ON_S = 0.25
+"""So long after its end a drag may go on with other keys held (s): more than viser's tenth, and what the wire takes."""
+
 Touch: TypeAlias = Literal["press", "drag", "release", "tap"]
 OnTouch: TypeAlias = Callable[[Touch, Aim | None], None]
+
+
+_DragEvent: TypeAlias = viser.SceneNodeDragEvent[viser.MeshHandle]
+
+
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    """A drag that viser has called ended.
+
+    Attributes:
+        start: where it began, on the glass.
+        modifier: the keys that were held.
+        aim: where the pointer was.
+        timer: what will let go.
+    """
+
+    start: Point3
+    modifier: _Modifier | None
+    aim: Aim | None
+    timer: asyncio.TimerHandle
+
+    def goes_on_as(self, event: _DragEvent) -> bool:
+        """Whether what begins is the same drag with other keys held: the hand still has the same place of the glass."""
+        is_same_place = math.dist(self.start, event.start_position) <= GRID_M * _HALF_M
+        return is_same_place and event.modifier != self.modifier
 
 
 class Glass:
@@ -52,6 +88,7 @@ class Glass:
         """
         self._client = client
         self._on_touch = on_touch
+        self._ended: _Ended | None = None
         self._box = client.scene.add_mesh_simple(
             NODE, _CORNERS, _INWARDS, side="front", cast_shadow=False, receive_shadow=False, visible=False
         )
@@ -64,12 +101,31 @@ class Glass:
         if self._box.visible != is_on:
             self._box.visible = is_on
 
-    async def _dragged(self, event: viser.SceneNodeDragEvent[viser.MeshHandle]) -> None:
+    async def _dragged(self, event: _DragEvent) -> None:
+        aim = self._aim(event.end_position)
+        if event.phase == "end":
+            self._let_go()
+            timer = asyncio.get_running_loop().call_later(GOES_ON_S, self._let_go)
+            self._ended = _Ended(event.start_position, event.modifier, aim, timer)
+            return
         if event.phase == "start":
-            self._on_touch("press", self._aim(event.start_position))
-        self._on_touch("release" if event.phase == "end" else "drag", self._aim(event.end_position))
+            if self._ended is not None and self._ended.goes_on_as(event):
+                self._ended.timer.cancel()
+                self._ended = None
+            else:
+                self._let_go()
+                self._on_touch("press", self._aim(event.start_position))
+        self._on_touch("drag", aim)
+
+    def _let_go(self) -> None:
+        """What has ended does not go on."""
+        ended, self._ended = self._ended, None
+        if ended is not None:
+            ended.timer.cancel()
+            self._on_touch("release", ended.aim)
 
     async def _clicked(self, event: viser.SceneNodePointerEvent[viser.MeshHandle]) -> None:
+        self._let_go()
         origin, along = event.ray_origin, event.ray_direction
         through = (origin[0] + along[0], origin[1] + along[1], origin[2] + along[2])
         self._on_touch("tap", aim(origin, through, self._pixel_rad))

@@ -28,6 +28,9 @@ import { TypedLength } from "./typed.js";
 import { length } from "./units.js";
 import { View } from "./view.js";
 
+/** So long the axis is seen after something was mirrored over it by a key (ms). */
+const AXIS_MS = 1500;
+
 export class Board extends Shown {
   /** @param {import("../store.js").Store} store @param {HTMLElement} root @param {() => void} togglePlay */
   constructor(store, root, togglePlay) {
@@ -43,6 +46,9 @@ export class Board extends Shown {
     /** @type {{moving: any[], landed: any[]}|null} */
     this.ghost = null;
     this.said = "";
+    this.isAxisShown = false;
+    /** @type {number|undefined} */
+    this.axisTimer = undefined;
     this.paint = new FoldPaint(this);
     /** @type {import("./rail.js").Rail|null} */
     this.rail = null;
@@ -182,8 +188,19 @@ export class Board extends Shown {
     return true;
   }
 
+  /** Show the axis over which things are mirrored, or not any more. @param {boolean} isShown */
+  showAxis(isShown) {
+    clearTimeout(this.axisTimer);
+    this.isAxisShown = isShown;
+    this.render();
+  }
+
   /** The folds that are meant, or the selected corners, or the outline's left half. */
   mirror() {
+    if (!this.isAxisShown) {
+      this.showAxis(true);
+      this.axisTimer = setTimeout(() => this.showAxis(false), AXIS_MS);
+    }
     const { kind, ids = [] } = this.store.selection ?? {};
     if (!this.drawing.outline.length || this.paint.mirror()) return;
     if (kind === "vertex") this.store.edit("Mirror vertices", (drawing) => mirrorCorners(drawing, ids));

@@ -1,11 +1,12 @@
 /** Everything on the board, from the table up to the cursor. */
 
 import { drawCloth } from "./draw_cloth.js";
-import { drawChecks, drawProblems, drawReason } from "./draw_findings.js";
+import { drawChecks, drawProblems } from "./draw_findings.js";
 import { drawFolds, drawGhost } from "./draw_folds.js";
 import { drawGrid } from "./draw_grid.js";
 import { drawHandles } from "./draw_handles.js";
-import { drawCursor, drawPreview } from "./draw_marks.js";
+import { drawAxis, drawCursor, drawPreview } from "./draw_marks.js";
+import { drawReason } from "./draw_reason.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
 
 /** The layers, the lowest first. */
@@ -44,13 +45,14 @@ export function drawAll(board) {
     ...drawProblems(board),
     ...drawReason(board),
   ]);
-  sheets.preview.draw(drawPreview(board));
+  sheets.preview.draw([...drawAxis(board), ...drawPreview(board)]);
   sheets.handles.draw(drawHandles(board));
   sheets.tool.draw(tool.items());
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
   const [x, y] = view.toPx([0, 0]);
   svg.dataset.originPx = `${x},${y}`;
   svg.dataset.pxPerM = String(view.scale);
+  svg.dataset.version = String(board.state.version);
   svg.style.cursor = tool.cursor;
   svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);

@@ -1,31 +1,65 @@
-/** Marks that come and go: the snap in force by its name, and what a suggestion would change. */
+/** Marks that come and go: the snap in force by its name, the garment's axis, and what a suggestion would change. */
 
 import { dimension } from "./draw_dimension.js";
 import { foldItems } from "./draw_folds.js";
 import { path } from "./sheet.js";
-import { distance, toInner, toOuter } from "./geometry.js";
-import { middleOf } from "./edits.js";
+import { distance, dot, minus, plus, times, toInner, toOuter, unit } from "./geometry.js";
+import { axisOfGarment, middleOf } from "./edits.js";
 import { length } from "./units.js";
 
 /** @param {import("./board.js").Board} board */
 export function drawCursor({ snapped, view, said }) {
   if (!snapped) return [];
-  const [x, y] = view.toPx(snapped.at);
+  const [x, y] = view.toPx(snapped.where ?? snapped.at);
   const text = said || snapped.name;
   if (!text) return [];
+  const lines = wrapped(text, LINE_LETTERS);
+  const wide = Math.max(...lines.map((line) => line.length)) * LETTER_PX;
   const isRight = x > view.width - 120;
+  const start = isRight ? x - ASIDE_PX - wide : x + ASIDE_PX;
+  const left = Math.max(Math.min(start, view.width - wide - 4), 4);
+  const top = y - ASIDE_PX - LINE_PX * (lines.length - 1);
+  const first = top < LINE_PX ? y + LINE_PX + 8 : top;
   return [
     snapped.key !== "" && { key: "snap", tag: "rect", class: "snap-mark", x: x - 5, y: y - 5, width: 10, height: 10 },
-    {
-      key: "name",
+    ...lines.map((line, n) => ({
+      key: `name${n}`,
       tag: "text",
       class: said ? "snap-name is-said" : "snap-name",
-      x: x + (isRight ? -12 : 12),
-      y: y < 30 ? y + 22 : y - 12,
+      x: isRight ? left + wide : left,
+      y: first + n * LINE_PX,
       "text-anchor": isRight ? "end" : "start",
-      text,
-    },
+      text: line,
+    })),
   ];
+}
+
+/** Words in lines of at most so many letters, unless a word is longer. @param {string} text @param {number} most */
+function wrapped(text, most) {
+  return text.split(" ").reduce((lines, word) => {
+    const longer = `${lines.at(-1) ?? ""} ${word}`.trim();
+    return longer.length <= most || !lines.length ? [...lines.slice(0, -1), longer] : [...lines, word];
+  }, /** @type {string[]} */ ([]));
+}
+
+/** Words at the cursor: how far from it, how wide a letter is at most on average, how high a line (px), how long. */
+const ASIDE_PX = 12;
+const LETTER_PX = 7;
+const LINE_PX = 14;
+const LINE_LETTERS = 44;
+/** How far the axis is drawn beyond the garment (px). */
+const BEYOND_PX = 28;
+
+/** The axis over which Mirror takes things, while it is at hand. @param {import("./board.js").Board} board */
+export function drawAxis({ isAxisShown, drawing, view }) {
+  if (!isAxisShown || drawing.outline.length < 3) return [];
+  const [start, end] = axisOfGarment(drawing);
+  const way = unit(minus(end, start));
+  const along = drawing.outline.map(({ point }) => dot(minus(point, start), way));
+  const beyond = BEYOND_PX / view.scale;
+  const ends = [Math.min(...along) - beyond, Math.max(...along) + beyond];
+  const line = ends.map((far) => view.toPx(plus(start, times(way, far))));
+  return [{ key: "axis", tag: "path", class: "mirror-axis", d: path(line, false) }];
 }
 
 /**

@@ -95,7 +95,7 @@ function slip({ view }, found) {
         class: "length",
         x: x + 6,
         y: y - 6,
-        text: `${length(at_m)} over ${edge}`,
+        text: `${length(at_m)} over the ${edge} edge`,
       },
     ];
   });

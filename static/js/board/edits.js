@@ -1,9 +1,12 @@
 /** Changes to a drawing. Each alters the drawing it is given, which is a copy. */
 
 import { between, boxOf, mirrored, turned } from "./geometry.js";
+import { axisOf, leftOf } from "./symmetry.js";
 
 /** How far inside the table's edge cloth is laid (m). */
 const INSIDE_M = 0.05;
+/** A corner this near to the axis lies on it (m). */
+const ON_AXIS_M = 1e-4;
 
 /** @typedef {[number, number]} Point */
 
@@ -122,25 +125,24 @@ export function mirrorFolds(drawing, ids) {
   }
 }
 
-/** Make the right half of the outline the mirror of the left one. @param {any} drawing */
+/** Make what is right of the garment's axis the mirror image of what is left of it. @param {any} drawing */
 export function mirrorOutline(drawing) {
-  const axis = axisOf(drawing);
+  const axis = axisOfGarment(drawing);
+  const isLeft = ({ point }) => leftOf(point, axis) >= -ON_AXIS_M;
   const ring = drawing.outline;
-  const first = ring.findIndex(
-    ({ point }, index) => isLeft(point, axis) && !isLeft(ring[(index + ring.length - 1) % ring.length].point, axis),
-  );
+  const first = ring.findIndex((corner, index) => isLeft(corner) && !isLeft(ring.at(index - 1)));
   const half = [];
   for (let n = 0; first >= 0 && n < ring.length; n += 1) {
     const corner = ring[(first + n) % ring.length];
-    if (!isLeft(corner.point, axis)) break;
+    if (!isLeft(corner)) break;
     half.push(corner);
   }
   if (half.length < 2) return;
   const taken = [...ring];
   const other = half
-    .filter(({ point }) => point[0] < axis - 1e-4)
+    .filter(({ point }) => leftOf(point, axis) > ON_AXIS_M)
     .map(({ point }) => {
-      const made = { id: freshId("v", taken), point: /** @type {Point} */ ([2 * axis - point[0], point[1]]) };
+      const made = { id: freshId("v", taken), point: mirrored(point, axis[0], axis[1]) };
       taken.push(made);
       return made;
     });
@@ -160,11 +162,8 @@ export function mirrorCorners(drawing, ids) {
   moveCorners(drawing, places);
 }
 
-/** The garment's own axis: the middle of its width. @param {any} drawing */
-export function axisOf(drawing) {
-  const box = boxOf(drawing.outline.map(({ point }) => point));
-  return box ? (box.low[0] + box.high[0]) / 2 : 0;
-}
+/** @param {any} drawing */
+export const axisOfGarment = ({ outline }) => axisOf(outline.map(({ point }) => point));
 
 /** The middle of the garment's box; it is turned about that. @param {any} drawing @returns {Point} */
 export function middleOf(drawing) {
@@ -174,11 +173,9 @@ export function middleOf(drawing) {
 
 /** @param {any} drawing @param {Point} point @returns {Point} */
 function overAxis(drawing, point) {
-  const axis = axisOf(drawing);
-  return mirrored(point, [axis, 0], [axis, 1]);
+  const [a, b] = axisOfGarment(drawing);
+  return mirrored(point, a, b);
 }
-
-const isLeft = (point, axis) => point[0] <= axis + 1e-4;
 
 function otherSide(name) {
   const swap = { left: "right", right: "left", Left: "Right", Right: "Left" };

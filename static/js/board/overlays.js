@@ -1,9 +1,11 @@
 /** "See why": asks the server for what is switched on, at the moment that is looked at. */
 
 import { drawOver, drawUnder } from "./draw_overlays.js";
+import { reasonWithPlace } from "./draw_reason.js";
 
 /** What the server's overlays are made of; grips come with the plan. */
 const PARTS = ["reach", "slip", "base", "paths"];
+const SHORTFALL = "shortfall";
 const EVERY_MS = 200;
 
 export class Overlays {
@@ -22,8 +24,14 @@ export class Overlays {
       store.addEventListener(name, () => this.look());
   }
 
-  get wanted() {
+  /** What is switched on. */
+  get shown() {
     return PARTS.filter((name) => this.board.store.overlays.has(name));
+  }
+
+  /** That, and the reach that belongs to the reason why there is no plan. */
+  get wanted() {
+    return reasonWithPlace(this.board.store)?.towards ? [...this.shown, SHORTFALL] : this.shown;
   }
 
   /** Ask soon, unless all is known already. */
@@ -74,10 +82,10 @@ export class Overlays {
   }
 
   under() {
-    return drawUnder(this.board, this.found, this.places);
+    return drawUnder(this.board, this.shown.length ? this.found : null, this.places);
   }
 
   over() {
-    return drawOver(this.board, this.found);
+    return drawOver(this.board, this.shown.length ? this.found : null);
   }
 }

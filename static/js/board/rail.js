@@ -24,12 +24,20 @@ export class Rail {
       made.dataset.tool = name;
       this.tools.set(name, made);
     }
-    this.mirror = railButton("mirror", "Mirror", "Mirror what is selected, or the outline's left half (S)", () =>
-      board.mirror(),
-    );
+    const what = "Mirror what is selected, or the outline's left half, over the garment's axis (S)";
+    this.mirror = railButton("mirror", "Mirror", what, () => board.mirror());
+    this.showAxisAtHand();
     this.snap = railButton("snap", "Snap", "Snapping on or off (N); Ctrl suspends it", () => board.toggleSnap());
     const [select, outline, fold, place, measure, photo] = this.tools.values();
     root.append(select, outline, fold, place, divider(), this.mirror, this.snap, divider(), measure, photo);
+  }
+
+  /** The axis is seen before anything is mirrored. */
+  showAxisAtHand() {
+    const { board, mirror } = this;
+    mirror.addEventListener("pointerenter", () => board.showAxis(true));
+    mirror.addEventListener("focus", () => mirror.matches(":focus-visible") && board.showAxis(true));
+    for (const name of ["pointerleave", "blur"]) mirror.addEventListener(name, () => board.showAxis(false));
   }
 
   draw() {

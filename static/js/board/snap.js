@@ -19,7 +19,7 @@ import {
 import { spacing } from "./draw_grid.js";
 
 /** How near each kind has to be (px), the strongest first. */
-const REACH_PX = { close: 12, vertex: 10, fraction: 9, edge: 8, guide: 6, grid: 4 };
+export const REACH_PX = { close: 12, vertex: 10, dropped: 8, fraction: 9, bisector: 8, edge: 8, guide: 6, grid: 4 };
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
@@ -33,7 +33,15 @@ const FRACTIONS = [
 const TURN_RAD = Math.PI / 12;
 
 /** @typedef {[number, number]} Point */
-/** @typedef {{at: Point, name: string, key: string, isOnCloth: boolean}} Snapped article frame (m) */
+/**
+ * @typedef {object} Snapped article frame (m)
+ * @property {Point} at
+ * @property {string} name
+ * @property {string} key
+ * @property {boolean} isOnCloth
+ * @property {string} [kind] of REACH_PX; none where nothing snaps
+ * @property {Point} [where] it is shown, where that is not the same
+ */
 /**
  * @typedef {object} Targets what is visible and may be snapped to
  * @property {Point[][]} rings the cloth's outlines
@@ -41,6 +49,7 @@ const TURN_RAD = Math.PI / 12;
  * @property {Point|null} [close] a first point that would close a ring
  * @property {Point|null} [from] where the line that is being drawn begins
  * @property {Point[]} [guides] corners to be in line with
+ * @property {import("./edge_onto_edge.js").Laid[]} [laid] where an edge would be laid on another
  * @property {boolean} [onlyCloth] whether grid and guides are left out
  */
 
@@ -76,9 +85,9 @@ export class Snapper {
     for (const kind of Object.keys(REACH_PX)) {
       let best = null;
       for (const candidate of CANDIDATES[kind](pointer.at, targets, view)) {
-        const away = distance(candidate.at, pointer.at) * view.scale;
+        const away = distance(candidate.where ?? candidate.at, pointer.at) * view.scale;
         const reach = REACH_PX[kind] * wide * (candidate.key === this.heldKey ? RELEASE : 1);
-        if (away <= reach && (!best || away < best.away)) best = { ...candidate, away };
+        if (away <= reach && (!best || away < best.away)) best = { ...candidate, kind, away };
       }
       if (best) return best;
     }
@@ -92,6 +101,8 @@ const CANDIDATES = {
     ...rings.flat().map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: true })),
     ...points.map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: false })),
   ],
+  dropped: (p, { laid = [] }) =>
+    laid.flatMap(({ at, on }) => (on ? [onto(at, at), onto(at, nearestOn(p, on[0], on[1]))] : [])),
   fraction: (_, { rings }) =>
     rings.flatMap(edgesOf).flatMap(([a, b]) =>
       FRACTIONS.map(([t, text]) => ({
@@ -101,6 +112,7 @@ const CANDIDATES = {
         isOnCloth: true,
       })),
     ),
+  bisector: (_, { laid = [] }) => laid.flatMap(({ at, on }) => (on ? [] : [onto(at, at)])),
   edge: (p, { rings }, view) =>
     rings.flatMap(edgesOf).map(([a, b]) => ({
       at: roundOnEdge(nearestOn(p, a, b), a, b, view),
@@ -111,6 +123,8 @@ const CANDIDATES = {
   guide: (p, { guides = [], onlyCloth }) => (onlyCloth ? [] : inLine(p, guides)),
   grid: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view)),
 };
+
+const onto = (at, where) => ({ at, where, name: "edge onto edge", key: `o${at}`, isOnCloth: false });
 
 /** A place on an edge, moved to where the edge crosses a line of the grid if that is near. */
 function roundOnEdge(p, a, b, view) {

@@ -36,12 +36,12 @@ export class Strip {
     const { board } = this;
     const { store } = board;
     const last = store.moments - 1;
-    this.back.disabled = store.step === 0;
-    this.next.disabled = store.step >= last;
-    const done = board.drawing.folds[store.step - 1];
-    this.moment.textContent =
-      store.step === 0 ? "Spread out" : `After ${store.step}${done?.name ? `: ${done.name}` : ""}`;
-    this.moment.title = `Moment ${store.step} of ${last}`;
+    this.back.disabled = board.step === 0;
+    this.next.disabled = board.isPlacing || store.step >= last;
+    const done = board.drawing.folds[board.step - 1];
+    const after = `After ${board.step}${done?.name ? `: ${done.name}` : ""}`;
+    this.moment.textContent = board.isPlacing ? "On the table" : board.isSpread ? "Spread out" : after;
+    this.moment.title = board.isPlacing ? "" : `Moment ${store.step} of ${last}`;
     const kind = board.paint.shown;
     this.blue.setAttribute("aria-pressed", String(kind === "blue"));
     this.red.setAttribute("aria-pressed", String(kind === "red"));

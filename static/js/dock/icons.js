@@ -2,6 +2,7 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** Each as a path, and whether it is filled. @satisfies {Record<string, [string, boolean]>} */
 const PATHS = {
   play: ["M5 3.2v9.6L13 8z", true],
   pause: ["M4.5 3h2.6v10H4.5zM8.9 3h2.6v10H8.9z", true],

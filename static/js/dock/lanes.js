@@ -153,7 +153,9 @@ export class Lanes {
 
   /** Tab stops at one block, the arrows lead on. @param {Element|null} stop */
   stopAt(stop) {
-    for (const block of this.root.querySelectorAll(".block")) block.tabIndex = block === stop ? 0 : -1;
+    /** @type {NodeListOf<HTMLElement>} */
+    const blocks = this.root.querySelectorAll(".block");
+    for (const block of blocks) block.tabIndex = block === stop ? 0 : -1;
   }
 
   /** Arrows go from block to block along a lane and from lane to lane. */

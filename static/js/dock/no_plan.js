@@ -24,7 +24,7 @@ export class NoPlan {
     this.all = element("ul", "reasons");
     this.all.setAttribute("aria-label", "Reasons");
     this.inFull = element("div", "in-full", this.all, this.more);
-    this.why = button("chip why", () => this.unfold(this.inFull.hidden), "Why?");
+    this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
     this.root = element("div", "no-plan", this.sentence, this.progress, this.help, this.inFull);
     this.search.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());

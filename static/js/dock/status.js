@@ -20,6 +20,7 @@ export function mountStatus(store, pill) {
     pill.setAttribute("aria-busy", String(planning.wait !== ""));
     bar.hidden = planning.wait !== "long";
     if (text === null) return;
+    if (!planning.isGoingOn && store.plan) pill.dataset.version = String(store.plan.version);
     if (words.textContent !== text) words.textContent = pill.title = text;
     pill.dataset.status = kind;
   }

@@ -12,6 +12,8 @@ from planner.geometry.segment import Segment
 from tests.app.drawing.drawings import crease, outlined, towel_drawing
 
 TOWEL = solve(towel_drawing(folds=[]))
+CUFF = crease("cuff", (0.3, 0.3), (0.3, 0.0))
+MISSED = "the line crosses the cloth, but not the flap of 'cuff', which is all that a red fold takes"
 HALVED = solve(towel_drawing(crease("half", (0.4, 0.15), (0.0, 0.15))))
 # A body 0.2 m wide and two sleeves of 0.1 x 0.1 m.
 SHIRT = solve(
@@ -119,3 +121,24 @@ def test_a_line_beside_the_cloth_is_no_fold():
     with pytest.raises(RequestError) as refused:
         along_line(TOWEL, None, Segment((0.0, 0.4), (0.4, 0.4)), is_red=False)
     assert refused.value.field == "line"
+
+
+def test_a_red_line_that_misses_the_flap_is_told_so_by_the_flaps_name():
+    """The last 0.1 m of the towel have gone over x = 0.3 and cover 0.2 to 0.3; x = 0.1 is cloth that lies still."""
+    cuffed = solve(towel_drawing(CUFF))
+    with pytest.raises(RequestError) as refused:
+        along_line(cuffed, None, Segment((0.1, 0.0), (0.1, 0.3)), is_red=True)
+    assert (refused.value.field, refused.value.message) == ("line", MISSED)
+    with pytest.raises(RequestError) as grabbed:
+        grab_and_drop(cuffed, None, (0.1, 0.1), (0.2, 0.1), is_red=True)
+    assert grabbed.value.field == "grab.from"
+    assert "on cloth that a red fold leaves where it is" in grabbed.value.message
+    with pytest.raises(RequestError) as beside:
+        along_line(cuffed, None, Segment((0.5, 0.0), (0.5, 0.3)), is_red=True)
+    assert beside.value.message == "does not cross the cloth"
+
+
+def test_a_red_fold_drawn_beside_the_flap_is_a_problem_that_says_so():
+    solution = solve(towel_drawing(CUFF, crease("over", (0.1, 0.0), (0.1, 0.3), "red")))
+    (problem,) = solution.problems
+    assert (problem.fold, problem.message) == (1, MISSED)

@@ -72,6 +72,39 @@ def test_a_corner_is_dragged_and_undone(visitor: Visitor, document: Document) ->
     assert document.state.drawing == before
 
 
+def test_a_key_that_goes_down_in_the_middle_of_a_drag_does_not_end_it(visitor: Visitor, document: Document) -> None:
+    visitor.choose("Mode", "Move points")
+    visitor.until(lambda: visitor.is_shown(NODE))
+    visitor.touch("start", FAR_CORNER, FAR_CORNER)
+    visitor.touch("update", FAR_CORNER, (-0.35, -0.2))
+    visitor.touch("end", FAR_CORNER, (-0.35, -0.2))  # Shift goes down: viser parts the drag there
+    visitor.touch("start", FAR_CORNER, (-0.35, -0.22), "shift")
+    visitor.touch("update", FAR_CORNER, (-0.35, -0.25), "shift")
+    visitor.touch("end", FAR_CORNER, (-0.35, -0.25), "shift")  # and up again
+    visitor.touch("start", FAR_CORNER, (-0.35, -0.28))
+    visitor.touch("end", FAR_CORNER, ELSEWHERE)
+    visitor.until(lambda: grown(document.state.drawing) and document.state.draft.gesture is None)
+    history = document.state.draft.history
+    assert history.can_undo == "Move vertex"
+    document.undo()
+    assert document.state.draft.history.can_undo is None  # all of it was one step
+
+
+def test_two_drags_in_quick_succession_are_two(visitor: Visitor, document: Document) -> None:
+    visitor.choose("Mode", "Move points")
+    visitor.until(lambda: visitor.is_shown(NODE))
+    between = (-0.35, -0.2)
+    visitor.touch("start", FAR_CORNER, FAR_CORNER)
+    visitor.touch("end", FAR_CORNER, between)
+    visitor.touch("start", between, between, "shift")
+    visitor.touch("end", between, ELSEWHERE, "shift")
+    visitor.until(lambda: grown(document.state.drawing) and document.state.draft.gesture is None)
+    for _ in range(2):
+        assert document.state.draft.history.can_undo == "Move vertex"
+        document.undo()
+    assert document.state.draft.history.can_undo is None
+
+
 def test_an_outline_is_clicked(visitor: Visitor, document: Document) -> None:
     visitor.choose("Mode", "Draw outline")
     visitor.until(lambda: visitor.is_shown(NODE))

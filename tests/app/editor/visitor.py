@@ -78,8 +78,8 @@ class Visitor:
     def is_shown(self, node: str) -> bool:
         return node in self.nodes and bool(self.nodes[node]["visible"])
 
-    def touch(self, phase: str, start: Point2, end: Point2) -> None:
-        """Drag on the glass: where on the cloth the pointer went down, and where it is."""
+    def touch(self, phase: str, start: Point2, end: Point2, modifier: str | None = None) -> None:
+        """Drag on the glass: where on the cloth the pointer went down, where it is, and what keys are held."""
         places = {"start_position": beyond(start), "end_position": beyond(end)}
         screen = {"start_screen_pos": (0.5, 0.5), "end_screen_pos": (0.5, 0.5)}
         self._say(
@@ -90,7 +90,7 @@ class Visitor:
             **places,
             **screen,
             button="left",
-            modifier=None,
+            modifier=modifier,
             owner=self.nodes[NODE]["owner"],
         )
 

@@ -6,14 +6,18 @@
 import { CreaseQuestion } from "../crease.js";
 import { foldItems } from "../draw_folds.js";
 import { lengthLabel } from "../draw_handles.js";
+import { dropsOnto, edgeNear, endsOnto } from "../edge_onto_edge.js";
 import { freshId, insertFold } from "../edits.js";
 import { distance, isInside, nearestOnRings } from "../geometry.js";
-import { atLength } from "../snap.js";
+import { atLength, REACH_PX } from "../snap.js";
 import { ghostOf, lineOf, nameOf } from "../stroke.js";
 import { Tool } from "./tool.js";
 
 const LEAST_M = 0.002;
-const EDGE_PX = 8;
+/** Cloth that is grabbed so near to an edge is grabbed by that edge (px). */
+const BY_EDGE_PX = 20;
+/** Kinds of snaps that mean the point itself, not its edge. */
+const POINTS = new Set(["vertex", "fraction"]);
 const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
 
 export class FoldTool extends Tool {
@@ -57,8 +61,9 @@ export class FoldTool extends Tool {
 
   hover(pointer) {
     this.board.hover = null;
-    const { isGrab = false, from = null } = this.stroke ?? {};
-    const snapped = this.board.snapTo(pointer, { rings: this.board.rings, points: [], onlyCloth: !isGrab, from });
+    const { isGrab = false, from = null, laid = [] } = this.stroke ?? {};
+    const { rings } = this.board;
+    const snapped = this.board.snapTo(pointer, { rings, points: [], onlyCloth: !isGrab, from, laid });
     this.cursor = !this.stroke && !snapped.isOnCloth && isInside(pointer.at, this.board.rings) ? "grab" : "crosshair";
     if (this.stroke) this.lead(snapped.at);
     return snapped;
@@ -77,7 +82,17 @@ export class FoldTool extends Tool {
     }
     const isGrab = pointer.alt || (!snapped.isOnCloth && isInside(snapped.at, this.board.rings));
     const isEarly = this.begun > this.done;
-    this.stroke = { isGrab, isEarly, isTouch: pointer.isTouch, from: snapped.at, to: snapped.at, isArmed: false };
+    const { isTouch } = pointer;
+    const laid = this.laid(isGrab, snapped, isTouch);
+    this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid };
+  }
+
+  /** Where a stroke would have to end to lay one edge on another. */
+  laid(isGrab, { at, kind }, isTouch) {
+    const { rings, view } = this.board;
+    if (!isGrab) return endsOnto(at, rings);
+    const edge = POINTS.has(kind) ? null : edgeNear(at, rings, ((isTouch ? 2 : 1) * BY_EDGE_PX) / view.scale);
+    return edge ? dropsOnto(at, edge, rings) : [];
   }
 
   drag(pointer) {
@@ -118,6 +133,7 @@ export class FoldTool extends Tool {
   finish() {
     const { stroke, board } = this;
     board.closeTyped();
+    board.snapped = null;
     if (distance(stroke.from, stroke.to) < LEAST_M) {
       this.cancel();
       return;
@@ -136,6 +152,7 @@ export class FoldTool extends Tool {
     const answer = await this.question.answer(stroke);
     if (answer.ok) await this.add(answer.told);
     else board.store.refuse(answer.told.detail);
+    if (!this.stroke) board.say("");
     this.done += 1;
     if (!this.stroke) this.drop();
     board.render();
@@ -145,7 +162,7 @@ export class FoldTool extends Tool {
   isOnEdge({ from, isTouch }) {
     const { rings, view } = this.board;
     const near = nearestOnRings(from, rings);
-    return near !== null && distance(near, from) * view.scale <= (isTouch ? 2 : 1) * EDGE_PX;
+    return near !== null && distance(near, from) * view.scale <= (isTouch ? 2 : 1) * REACH_PX.edge;
   }
 
   async add({ start, end }) {

@@ -1,5 +1,6 @@
 /** The tool `Select`: takes corners, edges, folds and their ends; drags them, nudges them, removes them. */
 
+import { endsOnto } from "../edge_onto_edge.js";
 import { freshId, insertCorner, moveCorners, moveFold, removeCorners, removeFolds } from "../edits.js";
 import { Gesture } from "../gesture.js";
 import { chordAlong, distance, minus, nearestOnRings, plus } from "../geometry.js";
@@ -18,6 +19,7 @@ export class SelectTool extends Tool {
   }
 
   get hint() {
+    if (!this.board.isSpread) return "Folded so far. Corners and earlier folds are changed where it is spread out: [";
     return "Drag corners, edges and folds. Double-click an edge for a new corner.";
   }
 
@@ -125,8 +127,9 @@ export class SelectTool extends Tool {
   drag_end({ hit: { id, end } }) {
     const rings = this.board.ringsOf(id);
     const other = this.board.fold(id)[end === "start" ? "end" : "start"].point;
+    const targets = { rings, points: [], onlyCloth: true, from: other, laid: endsOnto(other, rings) };
     return (pointer) => {
-      const { at } = this.board.snapTo(pointer, { rings, points: [], onlyCloth: true, from: other });
+      const { at } = this.board.snapTo(pointer, targets);
       const point = nearestOnRings(at, rings) ?? at;
       return (drawing) => moveFold(drawing, id, { [end]: { point, on: null } });
     };

@@ -1,0 +1,128 @@
+import asyncio
+import math
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from app.overlays.shortfall import Lack, NearReach, near_reach
+from planner import load_garment
+from planner.geometry.pose import Pose2
+from planner.robot.pr2 import load_robot
+
+pytestmark = pytest.mark.anyio
+
+TORSO_M, COMFORT_M = 0.29, 0.03
+HERE = Pose2(0.0, 0.0, 0.0)
+
+# Places of the left hand, base frame (m), and how it is turned (index into the approaches: 13 headings at each of four
+# pitches, then straight down); the first two lack something along the table, the third is too high for its pitch.
+FAR_AHEAD, FAR_ASIDE, TOO_HIGH = ((0.95, 0.15, 0.81), 6), ((0.5, 0.95, 0.81), 52), ((0.45, 0.3, 1.6), 32)
+
+
+def lack(point: tuple[float, float, float], approach: int) -> Lack:
+    found = load_robot("pr2").reach(TORSO_M, COMFORT_M).shortfall(0, np.array([point]), np.array([approach]))
+    assert found is not None and not found.is_at_least
+    return Lack(0, point, found.towards, found.short_by_m, HERE)
+
+
+def near(lacking: Lack) -> NearReach:
+    found = near_reach("pr2", TORSO_M, COMFORT_M, lacking)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize(("point", "approach"), [FAR_AHEAD, FAR_ASIDE])
+def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tuple[float, float, float], approach: int):
+    lacking = lack(point, approach)
+    found = near(lacking)
+    assert found.approach == load_robot("pr2").reach(TORSO_M, COMFORT_M).approaches[approach]
+    start, along = np.array(point[:2]), np.array(lacking.towards[:2])
+    assert np.hypot(*along) == pytest.approx(1.0)
+    # The shortfall is known to 1 mm; the grid round the point is at most 1 cm wide, halved four times.
+    on_way = [found.beyond.contains(tuple(start + share * lacking.short_by_m * along)) for share in (0.0, 0.5, 0.9)]
+    assert on_way == [True, True, True]
+    tip = tuple(start + (lacking.short_by_m + 0.002) * along)
+    assert not found.beyond.contains(tip)
+    gaps = [np.hypot(*(line - tip).T).min() for line in found.edge]
+    assert min(gaps) < 0.01
+
+
+def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it():
+    point, approach = TOO_HIGH
+    lacking = lack(point, approach)
+    assert lacking.towards[2] == -1.0
+    found = near(lacking)
+    assert found.beyond.contains(point[:2])
+    assert found.edge == ()
+    # A polygon of 96 corners on the circle.
+    whole = 48 * lacking.radius_m**2 * math.sin(math.tau / 96)
+    assert found.beyond.area == pytest.approx(whole, rel=1e-4)
+
+
+def test_a_number_that_no_orientation_lacks_is_given_no_picture():
+    lacking = lack(*FAR_AHEAD)
+    other = Lack(0, lacking.seen, lacking.towards, lacking.short_by_m + 0.3, HERE)
+    assert near_reach("pr2", TORSO_M, COMFORT_M, other) is None
+
+
+def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can():
+    point, approach = FAR_AHEAD
+    robot = load_robot("pr2")
+    lacking = lack(point, approach)
+    found = near(lacking)
+    rng = np.random.default_rng(3)
+    asked = rng.uniform(-lacking.radius_m, lacking.radius_m, (80, 2)) * math.sqrt(0.5) + np.array(point[:2])
+    answers = set()
+    for x, y in asked:
+        is_beyond = found.beyond.contains((float(x), float(y)))
+        if found.beyond.boundary_distance((float(x), float(y))) < 0.004:
+            continue
+        # Comfort: the place and four on the circle round it.
+        ring = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)]) * COMFORT_M + (x, y)
+        tools = np.column_stack([ring, np.full(5, point[2])])
+        rotations = np.repeat(found.approach.rotation[None], 5, axis=0)
+        assert bool(robot.can_reach(0, tools, rotations, TORSO_M).all()) is not is_beyond
+        answers.add(is_beyond)
+    assert answers == {True, False}
+
+
+async def refused(client: httpx.AsyncClient, garment: Any, **drawing: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The first reason with a place why a document has no plan, and what is told of the reach there."""
+    state = (await client.post("/api/documents", json={"garment": garment})).json()
+    body = {"base_version": state["version"], "label": "Begin", "drawing": {**state["drawing"], **drawing}}
+    await client.put(f"/api/documents/{state['id']}/drawing", json=body)
+    plan = (await client.post("/api/plans", json={"garment": garment, **drawing})).json()
+    reason = next(reason for reason in plan["reasons"] if reason["point"])
+    for _ in range(200):
+        told = (await client.get(f"/api/documents/{state['id']}/overlays?show=shortfall")).json()
+        if told["shortfall"] is not None:
+            return reason, told["shortfall"]
+        await asyncio.sleep(0.1)
+    raise AssertionError("nothing is told of the reach")
+
+
+async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(client: httpx.AsyncClient) -> None:
+    stations = {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}
+    reason, told = await refused(client, "t-shirt", scene={"stations": stations, "back_off_max_m": 0.0})
+    assert (told["arm"], told["station"], told["fold"]) == (reason["arm"], "front", reason["fold"])
+    # The shirt lies unturned, so the article's axes are the table's.
+    placement = load_garment("t-shirt").placement
+    x, y, z = reason["point"]
+    assert told["point"] == pytest.approx([x - placement.x_m, y - placement.y_m, z])
+    edge = np.vstack([np.array(line) for line in told["edge"]])
+    assert np.hypot(*(edge - told["point"][:2]).T).min() == pytest.approx(reason["short_by_m"], abs=0.005)
+
+
+async def test_a_document_that_is_planned_has_no_reach_to_show(client: httpx.AsyncClient) -> None:
+    state = (await client.post("/api/documents", json={"garment": "hand-towel"})).json()
+    path = f"/api/documents/{state['id']}/overlays"
+    for _ in range(200):
+        if (await client.get(f"{path}?show=slip")).json()["plan_version"] is not None:
+            break
+        await asyncio.sleep(0.1)
+    else:
+        raise AssertionError("it is never planned")
+    for query in ("", "?station=front"):
+        assert (await client.get(path + query)).json()["shortfall"] is None
