@@ -110,14 +110,14 @@ class Document:
         with self._edits:
             self._has_ended = True
 
-    def settle(self, version: int, question: Question, plan: Plan, plan_id: str) -> None:
-        """Put in the answer to a question that was asked at a version; one that comes too late is dropped."""
+    def settle(self, version: int, question: Question, plan: Plan, plan_id: str, *, is_final: bool = True) -> None:
+        """Put in an answer to a question that was asked at a version; one that comes too late is dropped."""
 
         def change(state: DocumentState) -> DocumentState:
             belongs_to = state.version if state.question == question else version
             if state.answer is not None and belongs_to < state.answer.version:
                 return state
-            answered = state.answered(Answer(belongs_to, question, plan, plan_id))
+            answered = state.answered(Answer(belongs_to, question, plan, plan_id, is_final))
             if plan.is_solved:
                 return answered
             return replace(answered, film=None, playback=state.playback.lasting(self._clock(), 0.0))
@@ -148,8 +148,16 @@ class Document:
         self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def stop_planning(self) -> None:
-        """Do without an answer to this version, if it is still being worked out."""
-        self._change(lambda state: replace(state, failure=STOPPED) if state.is_planning else state)
+        """Do without an answer to this version, or without a better one, if that is still being worked out."""
+
+        def change(state: DocumentState) -> DocumentState:
+            if state.is_planning:
+                return replace(state, failure=STOPPED)
+            if state.answer is None or not state.is_answered or state.answer.is_final:
+                return state
+            return replace(state, answer=replace(state.answer, is_final=True))
+
+        self._change(change)
 
     def play(self) -> None:
         """Let time run; without a solved plan nothing happens."""

@@ -41,12 +41,14 @@ class Answer:
         question: what was asked.
         plan: the plan.
         plan_id: the name under which it can be read.
+        is_final: whether nothing better is looked for any more.
     """
 
     version: int
     question: Question
     plan: Plan
     plan_id: str
+    is_final: bool = True
 
     @cached_property
     def body(self) -> dict[str, Any]:

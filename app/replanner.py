@@ -1,8 +1,11 @@
 """Plans a document anew whenever its drawing changes. The latest wins.
 
-A search for an older drawing is stopped, with one exception. While somebody drags, the next drawing comes before a
-search is done, and stopping each for the next would never show a plan. So during a gesture a search is given a little
-time to end, and its plan is shown as what it is: that of an older version.
+Mostly the plan that was shown last still does, with the drawing's new measures. That is found out much sooner than what
+is the quickest, so it is shown first, and replaced if the search comes to another.
+
+A search for an older drawing is stopped, with one exception. While somebody drags, the next drawing may come before
+anything is found, and stopping each for the next would never show a plan. So during a gesture a search is given a
+little time to find the first, and that is shown as what it is: a plan for an older version.
 """
 
 import logging
@@ -16,12 +19,12 @@ from app.document_state import DocumentState, Question
 from app.held_folds import held_folds
 from app.job_pool import Job, JobPool, ShouldStop
 from app.plan_store import PlanStore
-from planner import make_plan
+from planner import adapt_plan, make_plan
 from planner.errors import FoldingError, SceneError
 from planner.plan.plan import Plan
 
 PATIENCE_S = 0.5
-"""So long after it began a search may go on although a preview has made it out of date (s)."""
+"""So long after it began a search for a first plan may go on although a preview has made it out of date (s)."""
 
 _REMEMBERED = 8
 _GIVE_WAY_S = 0.1
@@ -44,6 +47,7 @@ class Replanner:
         self._asked: DocumentState | None = None
         self._is_behind = False
         self._filming: Plan | None = None
+        self._latest: Plan | None = None
         self._remembered: OrderedDict[Question, Plan] = OrderedDict()
         self._unsubscribe = document.subscribe(self._look)
         self._look()
@@ -82,7 +86,7 @@ class Replanner:
             return False
         if state.question is None:
             return True
-        if state.answer is None or not state.is_answered:
+        if state.answer is None or not state.is_answered or not state.answer.is_final:
             return False
         plan, film = state.answer.plan, state.film
         return not plan.is_solved or self._filming is plan or (film is not None and film.plan is plan)
@@ -96,8 +100,12 @@ class Replanner:
         def is_unwanted() -> bool:
             self._document.give_way(_GIVE_WAY_S)
             now = self._document.state
-            is_stopped = now.version == state.version and now.failure is not None
-            return is_stopped or should_stop() or (self._is_behind and time.monotonic() - began_s > PATIENCE_S)
+            shown = now.answer if now.answer is not None and now.answer.version == state.version else None
+            is_done = now.failure is not None or (shown is not None and shown.is_final)
+            if now.version == state.version and is_done:
+                return True
+            patience_s = PATIENCE_S if shown is None else 0.0
+            return should_stop() or (self._is_behind and time.monotonic() - began_s > patience_s)
 
         plan: Plan | None = None
         try:
@@ -113,6 +121,8 @@ class Replanner:
         film_of = self._to_be_filmed(state, plan)
         if film_of is not None:
             self._film(film_of)
+            with self._lock:
+                self._filming = None
 
     def _to_be_filmed(self, state: DocumentState, plan: Plan | None) -> Plan | None:
         """The plan that a search ended with, if it is shown now; if something else is wanted by now, that is begun."""
@@ -127,15 +137,13 @@ class Replanner:
             return self._filming
 
     def _film(self, plan: Plan) -> None:
-        timeline = None
+        """Have a plan played; what is done in it may be on the film already that is shown."""
+        shown = self._document.state.film
         try:
-            timeline = plan.timeline()
+            is_known = shown is not None and shown.plan.acts is plan.acts
+            self._document.show_film(plan, shown.timeline if shown is not None and is_known else plan.timeline())
         except Exception:
             _log.exception("a plan could not be filmed")
-        with self._lock:
-            self._filming = None
-        if timeline is not None:
-            self._document.show_film(plan, timeline)
 
     def _check(self, state: DocumentState) -> None:
         if state.checks is None or state.checks.version != state.version:
@@ -148,19 +156,39 @@ class Replanner:
             return None
         plan = self._remembered.get(question)
         if plan is None:
-            plan = make_plan(
-                question.garment,
-                question.scene,
-                start_station=question.start_station,
-                comfort_radius_m=question.comfort_radius_m,
-                should_stop=is_unwanted,
-            )
+            plan = self._quickest(question, self._adapted(state.version, question, is_unwanted), is_unwanted)
             if is_unwanted():
                 return None
-            if plan.status != "budget_exceeded":  # with more time, or on a quieter machine, there may be one
+            if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
                 self._remember(question, plan)
-        self._publish(state.version, question, plan)
+        self._publish(state.version, question, plan, is_final=True)
         return plan
+
+    def _adapted(self, version: int, question: Question, is_unwanted: ShouldStop) -> Plan | None:
+        """The latest plan as it is for this question, shown at once; None if it does not do any more."""
+        if self._latest is None:
+            return None
+        plan = adapt_plan(
+            self._latest,
+            question.garment,
+            question.scene,
+            start_station=question.start_station,
+            comfort_radius_m=question.comfort_radius_m,
+        )
+        if plan is not None and not is_unwanted():
+            self._publish(version, question, plan, is_final=False)
+            self._film(plan)
+        return plan
+
+    def _quickest(self, question: Question, known: Plan | None, is_unwanted: ShouldStop) -> Plan:
+        return make_plan(
+            question.garment,
+            question.scene,
+            start_station=question.start_station,
+            comfort_radius_m=question.comfort_radius_m,
+            should_stop=is_unwanted,
+            known=known,
+        )
 
     def _remember(self, question: Question, plan: Plan) -> None:
         with self._lock:
@@ -168,10 +196,11 @@ class Replanner:
             while len(self._remembered) > _REMEMBERED:
                 self._remembered.popitem(last=False)
 
-    def _publish(self, version: int, question: Question, plan: Plan) -> None:
+    def _publish(self, version: int, question: Question, plan: Plan, *, is_final: bool) -> None:
         """Show the plan; one made for a preview need not be readable any more when it is not shown any more."""
         before, plan_id = self._document.state.answer, self._plans.add(plan)
-        self._document.settle(version, question, plan, plan_id)
+        self._latest = plan if plan.is_solved else self._latest
+        self._document.settle(version, question, plan, plan_id, is_final=is_final)
         state = self._document.state
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
         for made in {plan_id} if before is None else {plan_id, before.plan_id}:

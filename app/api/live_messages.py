@@ -85,7 +85,13 @@ def status_text(state: DocumentState) -> str:
 
 
 def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:
-    return {"version": answer.version, "is_stale": answer.version != state.version, "id": answer.plan_id, **answer.body}
+    return {
+        "version": answer.version,
+        "is_stale": answer.version != state.version,
+        "is_final": answer.is_final,
+        "id": answer.plan_id,
+        **answer.body,
+    }
 
 
 def _figures(answer: Answer) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from planner.cloth.layer import Layer
 from planner.errors import UnsolvedPlanError
 from planner.folds.fold_dag import FoldDag
 from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.film import FilmMaker
 from planner.plan.machine import Machine
@@ -170,6 +171,14 @@ class Plan:
     def is_solved(self) -> bool:
         """Whether there is a plan."""
         return self.status == "solved"
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether it is known that nothing is quicker, or that there is no plan at all."""
+        bound_s = self.statistics.bound_s
+        if self.cost_s is None or bound_s is None:
+            return self.status == "infeasible"
+        return self.cost_s <= bound_s + TIME_S
 
     @cached_property
     def _timeline(self) -> Timeline:

@@ -44,7 +44,7 @@ class Desk:
 
     def rest(self) -> None:
         """Wait until everything that belongs to the drawing is there."""
-        self.until(lambda: self.is_answered and self.has_film)
+        self.until(lambda: self.is_answered and self.has_film and self.document.state.answer.is_final)
 
     @property
     def is_answered(self) -> bool:
@@ -62,6 +62,10 @@ def desk() -> Iterator[Desk]:
     yield made
     made.replanner.close()
     made.pool.close()
+
+
+def nothing(*_: object, **__: object) -> None:
+    """No plan can be adapted."""
 
 
 def moved(millimetres: float) -> Drawing:
@@ -220,6 +224,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
 
     with monkeypatch.context() as patch:
         patch.setattr("app.replanner.make_plan", endless)
+        patch.setattr("app.replanner.adapt_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
         assert begun.wait(PATIENCE_S)
         desk.document.stop_planning()
@@ -230,6 +235,52 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk.rest()
     desk.document.stop_planning()
     assert desk.document.state.failure is None, "there is nothing to stop any more"
+
+
+def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_one_is_looked_for(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    may_end = threading.Event()
+
+    def waiting(*arguments: object, **options: object) -> object:
+        assert may_end.wait(PATIENCE_S)
+        return make_plan(*arguments, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("app.replanner.make_plan", waiting)
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.until(lambda: desk.is_answered and desk.has_film)
+    first = desk.document.state.answer
+    assert first is not None and not first.is_final
+    assert first.plan.is_solved and first.plan.garment.outline[0] == (-0.02, 0.0)
+    may_end.set()
+    desk.rest()
+    last = desk.document.state.answer
+    assert last is not None and last.is_final and last.plan.is_proven
+    assert last.plan.cost_s <= first.plan.cost_s
+
+
+def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    stopped = threading.Event()
+
+    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        while not should_stop():
+            time.sleep(0.001)
+        stopped.set()
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("app.replanner.make_plan", endless)
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.until(lambda: desk.is_answered and desk.has_film)
+    shown = desk.document.state.answer
+    assert shown is not None
+    desk.document.stop_planning()
+    assert stopped.wait(PATIENCE_S)
+    desk.rest()
+    assert desk.document.state.failure is None and desk.document.state.answer.plan is shown.plan
 
 
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
