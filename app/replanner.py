@@ -109,7 +109,6 @@ class Replanner:
 
         plan: Plan | None = None
         try:
-            self._check(state)
             plan = self._planned(state, is_unwanted)
         except SceneError as error:
             self._document.fail(state.version, str(error.within("scene")))
@@ -152,11 +151,13 @@ class Replanner:
     def _planned(self, state: DocumentState, is_unwanted: ShouldStop) -> Plan | None:
         """The answer, once it is published; None when there is nothing to plan, or nobody wants it any more."""
         question = state.question
+        plan = None if question is None else self._remembered.get(question)
+        known = self._adapted(state.version, question, is_unwanted) if question is not None and plan is None else None
+        self._check(state)
         if question is None or is_unwanted():
             return None
-        plan = self._remembered.get(question)
         if plan is None:
-            plan = self._quickest(question, self._adapted(state.version, question, is_unwanted), is_unwanted)
+            plan = self._quickest(question, known, is_unwanted)
             if is_unwanted():
                 return None
             if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
@@ -166,7 +167,7 @@ class Replanner:
 
     def _adapted(self, version: int, question: Question, is_unwanted: ShouldStop) -> Plan | None:
         """The latest plan as it is for this question, shown at once; None if it does not do any more."""
-        if self._latest is None:
+        if self._latest is None or is_unwanted():
             return None
         plan = adapt_plan(
             self._latest,

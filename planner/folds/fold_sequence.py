@@ -53,19 +53,19 @@ class FoldSequence:
             FoldError: a fold is not legal; the field names it, as ``folds[2].start``.
         """
         cloth = ClothState.spread_out(garment.pattern)
+        cloths, parts = {0: cloth}, {}
         folds: list[Fold] = []
-        moving: list[Region] = []
         for index in range(len(garment.folds)):
             try:
                 fold, folded = _replay(garment, index, cloth, folds)
             except FoldError as error:
                 raise error.within(f"folds[{index}]") from None
             folds.append(fold)
-            moving.append(folded.moving)
             cloth = folded.cloth
-        dag = _dag(garment.pattern, folds, moving)
-        start = ClothState.spread_out(garment.pattern)
-        return FoldSequence(garment, tuple(folds), dag, cloth, {}, {0: start}, {})
+            parts[(1 << index) - 1, index] = folded
+            cloths[(2 << index) - 1] = cloth
+        dag = _dag(garment.pattern, folds, [folded.moving for folded in parts.values()])
+        return FoldSequence(garment, tuple(folds), dag, cloth, parts, cloths, {})
 
     def to_dict(self) -> dict[str, Any]:
         """The Fold-DAG and the final stack, bottom to top, as JSON."""

@@ -70,7 +70,8 @@ def test_the_two_kinds_have_the_two_colours_of_the_theme(stage: Stage):
 def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(stage: Stage, letter: Plan):
     # 0.39 m from the near edge. One layer lies there before the blue fold, two after it.
     blue = performed(letter, BLUE)
-    moments = ((0.0, letter.start.offset, 1), (blue.start_s + blue.duration_s - 1e-6, blue.step.after.offset, 2))
+    folded_s = blue.start_s + blue.duration_s - 1e-6
+    moments = ((0.0, letter.problem.start.offset, 1), (folded_s, blue.step.after.offset, 2))
     for t_s, offset, layers in moments:
         stage.show(letter.timeline().at(t_s))
         drawn = line(stage, RED)

@@ -49,6 +49,7 @@ def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
     shown = message["plan"]
     assert shown.pop("version") == message["version"]
     assert shown.pop("is_stale") is False
+    assert shown.pop("is_final") is True
     assert httpx.get(f"{served.url}/api/plans/{shown['id']}").json() == shown
 
 
