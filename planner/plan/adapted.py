@@ -44,7 +44,7 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
     for steps in islice(_again(act.steps, problem.work, state), _TRIES):
         if act.run is None:
             return Act(act.first, steps, None)
-        run = problem.maker.made(steps)
+        run = problem.maker.made(steps, like=act.run)
         if run is not None:
             return Act(act.first, run.steps, run)
     return None

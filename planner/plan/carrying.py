@@ -1,36 +1,21 @@
 """Joint paths for a run: both arms from before their grips, along the cloth's way, to where they have let go.
 
-A hand comes to its grip along its approach axis, fingers first, and leaves it backwards and upwards; these lines are
-part of the path, so that the joints with which the cloth is taken are ones with which it can be reached and left.
 Arms are led one after the other, the second round the first; if that fails, in the other order.
 """
 
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from itertools import pairwise, permutations, product
+from itertools import permutations, product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.plan.carried import Carried
+from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Lead, Leads, Lines
 from planner.plan.machine import Collisions, Machine
-from planner.plan.moments import Moments, about_x
-from planner.robot.arm_path import NoPath, ToolPath
-
-APPROACH_M, RETREAT_M = 0.10, 0.12
-"""How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""
-
-CLEAR_M = 0.12
-"""How high over the table a hand then is, where that is in reach: from there it travels (m)."""
-
-_STEP_M = 0.01
-"""How far hands go on these ways from one step to the next (m)."""
-
-Shares = tuple[tuple[float, float], ...]
-
-_NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
-_FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *_NEAR)
-"""How much of the straight line and of the rise is tried: what must do, and what had better."""
+from planner.plan.moments import Moments
+from planner.robot.arm_path import NoPath
 
 _STEEP = 0.6
 """Hands that point down by more than the angle of this sine may have one finger over the other; flatter ones would
@@ -44,46 +29,6 @@ _TOGETHER = 14
 
 _RUNS_KEPT, _PLACES_KEPT = 512, 8192
 """So many answers are remembered: of runs, some 50 kB each, and of places of a hand, some 2 kB each."""
-
-_OVER, _BESIDE = 0.5 * np.pi, 0.0
-"""The roll of a hand with one finger over the other, and side by side (rad)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Carried:
-    """The joints of a run.
-
-    Attributes:
-        moments: the moments while cloth is held.
-        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
-        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that do nothing are at home, those that have let
-            go wait where they withdrew to.
-        first: the step at which the grips are reached: the first of the moments.
-        is_used: which arms do something, shape (arms,).
-    """
-
-    moments: Moments
-    bases: FloatArray
-    joints: FloatArray
-    first: int
-    is_used: BoolArray
-
-    @property
-    def last(self) -> int:
-        """The step of the last of the moments, at which the hands let go."""
-        return self.first + len(self.moments) - 1
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Lead:
-    """One arm's part in a run: its tool path, and the step at which that begins."""
-
-    arm: int
-    path: ToolPath
-
-    @property
-    def last(self) -> int:
-        return len(self.path.positions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,36 +71,52 @@ class Carrier:
         if not all(self._can_hold(arms, moments, int(moment)) for moment in places):
             return None
         is_steep = all(moments.rotations[arm, 0, 2, 0] < -_STEEP for arm in arms)
-        for roll in (_OVER, _BESIDE) if is_steep else (_BESIDE,):
-            for shares in (_FAR, _NEAR):
-                found = self._with_lines(arms, moments, roll, shares)
+        for roll in (OVER, BESIDE) if is_steep else (BESIDE,):
+            for shares in (FAR, NEAR):
+                found = self._with_lines(moments, Lines(roll, shares))
                 if isinstance(found, Carried):
                     return found
                 if len(found.blocked) or found.is_core:
                     break
         return None
 
-    def _with_lines(self, arms: list[int], moments: Moments, roll_rad: float, shares: Shares) -> Carried | NoPath:
+    def adapted(self, moments: Moments, like: Carried) -> Carried | None:
+        """The joints of a run that differs a little from one that is known; None if they cannot be much the same."""
+        if _Asked.of(moments) == _Asked.of(like.moments):
+            return like
+        if not np.array_equal(moments.is_held.any(axis=1), like.is_used):
+            return None
+        leads = Leads.of(moments, like.lines, self._height_m, self._has_room)
+        guides = like.guides(leads.first, moments, len(leads.bases))
+        joints = self._at_home(len(leads.bases))
+        for number, lead in enumerate(leads.each):
+            others = None if number == 0 and len(leads.each) > 1 else joints
+            question = _Question(self._collisions, lead.arm, leads.bases, others)
+            near = guides[: lead.last, lead.arm]
+            found = self._machine.guided_arm_path(lead.arm, lead.path, self._torso_m, question.is_free, near)
+            if found is None:
+                return None
+            _put(joints, lead, found)
+        return Carried(moments, leads.bases, joints, leads.first, like.is_used, like.lines)
+
+    def _with_lines(self, moments: Moments, lines: Lines) -> Carried | NoPath:
         """The joints of a run whose hands come and leave along the first of some lines that there is room for.
 
         Where there are none, the moments are told at which an arm collides whatever it does, or cannot pass the other.
         """
-        ways = [self._way(arm, moments, roll_rad, shares) for arm in arms]
-        before = max(len(way.coming) for way in ways) - 1
-        after = max(len(way.leaving) for way in ways) - 1
-        start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
-        bases = np.concatenate([start, moments.bases, end])
-        leads = [way.lead(before, after) for way in ways]
-        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in leads} if len(leads) > 1 else {}
+        leads = Leads.of(moments, lines, self._height_m, self._has_room)
+        each, bases = leads.each, leads.bases
+        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in each} if len(each) > 1 else {}
         none = [found for found in alone.values() if isinstance(found, NoPath)]
-        for order in () if none else permutations(leads):
+        for order in () if none else permutations(each):
             joints = self._led(order, bases, alone.get(order[0].arm))
             if not isinstance(joints, NoPath):
-                return Carried(moments, bases, joints, before, np.asarray(moments.is_held.any(axis=1)))
-            none.append(joints if len(leads) == 1 else replace(joints, is_core=False))
+                is_used = np.asarray(moments.is_held.any(axis=1))
+                return Carried(moments, bases, joints, leads.first, is_used, lines)
+            none.append(joints if len(each) == 1 else replace(joints, is_core=False))
         return min(none, key=lambda one: len(one.blocked))
 
-    def _arm_path(self, lead: _Lead, bases: FloatArray, others: FloatArray | None) -> FloatArray | NoPath:
+    def _arm_path(self, lead: Lead, bases: FloatArray, others: FloatArray | None) -> FloatArray | NoPath:
         """One arm's joints, the others as they are at each step; None: out of the way."""
         question = _Question(self._collisions, lead.arm, bases, others)
         return self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, question.is_free)
@@ -190,91 +151,29 @@ class Carrier:
         )
 
     def _led(
-        self, order: tuple[_Lead, ...], bases: FloatArray, first: FloatArray | NoPath | None
+        self, order: tuple[Lead, ...], bases: FloatArray, first: FloatArray | NoPath | None
     ) -> FloatArray | NoPath:
         """All arms' joints, one arm led after the other, the first as it would go alone where that is known."""
-        homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
-        joints = np.broadcast_to(homes, (len(bases), *homes.shape)).copy()
+        joints = self._at_home(len(bases))
         for lead in order:
             found = first if lead is order[0] and first is not None else self._arm_path(lead, bases, joints)
             if isinstance(found, NoPath):
                 return found
-            joints[: lead.last, lead.arm] = found
-            joints[lead.last :, lead.arm] = found[-1]
+            _put(joints, lead, found)
         return joints
 
-    def _way(self, arm: int, moments: Moments, roll_rad: float, shares: Shares) -> "_Way":
-        held = np.flatnonzero(moments.is_held[arm])
-        positions = moments.positions[arm, held]
-        rotations = moments.rotations[arm, held] @ about_x(np.array([roll_rad]))[0]
-        upwards = np.array([0.0, 0.0, 1.0])
-        coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
-        leaving *= RETREAT_M / np.linalg.norm(leaving)
-        approach = self._away(arm, moments.bases[held[0]], positions[0], rotations[0], APPROACH_M * coming, shares)
-        retreat = self._away(arm, moments.bases[held[-1]], positions[-1], rotations[-1], leaving, shares)
-        spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
-        return _Way(arm, positions, rotations, spans, approach, retreat)
+    def _at_home(self, steps: int) -> FloatArray:
+        homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
+        return np.broadcast_to(homes, (steps, *homes.shape)).copy()
 
-    def _away(
-        self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray, line: FloatArray, shares: Shares
-    ) -> FloatArray:
-        """The corners of a way from a place along a line and up, as far as there is room, shape (3, 3)."""
-        lines = position + np.array(shares)[:, :1] * line
-        rises = np.maximum(self._height_m + CLEAR_M - lines[:, 2], 0.0) * np.array(shares)[:, 1]
-        ends = lines + rises[:, None] * np.array([0.0, 0.0, 1.0])
-        for corner, tip in zip(lines, ends, strict=True):
-            if len(self._postures(arm, base, tip, rotation)):
-                return np.array([position, corner, tip])
-        return np.array([position, position, position])
+    def _has_room(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> bool:
+        return len(self._postures(arm, base, position, rotation)) > 0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Way:
-    """Where an arm's tool goes: to its grip, along the cloth's way, and from where it lets go."""
-
-    arm: int
-    positions: FloatArray
-    rotations: FloatArray
-    spans_s: FloatArray
-    approach: FloatArray
-    retreat: FloatArray
-
-    @property
-    def coming(self) -> FloatArray:
-        return _stepped(self.approach)
-
-    @property
-    def leaving(self) -> FloatArray:
-        return _stepped(self.retreat)
-
-    def lead(self, before: int, after: int) -> _Lead:
-        """The tool's path, coming in so many steps and leaving in so many."""
-        coming = _resampled(self.coming, before)[:0:-1]
-        leaving = _resampled(self.leaving, after)[1:]
-        first, last = self.rotations[:1], self.rotations[-1:]
-        path = ToolPath(
-            np.concatenate([coming, self.positions, leaving]),
-            np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(after, 0)]),
-            np.concatenate([np.full(before, np.inf), self.spans_s, np.full(after, np.inf)]),
-            (before, before + len(self.positions)),
-        )
-        return _Lead(self.arm, path)
-
-
-def _stepped(corners: FloatArray) -> FloatArray:
-    """The points of a polyline, no more than a step apart, shape (n, 3), m; at least two."""
-    parts = [corners[:1]]
-    for start, end in pairwise(corners):
-        count = int(np.ceil(np.linalg.norm(end - start) / _STEP_M))
-        parts.append(start + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - start))
-    points = np.concatenate(parts)
-    return points if len(points) > 1 else points.repeat(2, 0)
-
-
-def _resampled(points: FloatArray, steps: int) -> FloatArray:
-    """A polyline's points as so many steps, shape (steps + 1, 3); no fewer than it has."""
-    numbers = np.linspace(0.0, len(points) - 1, steps + 1)
-    return np.column_stack([np.interp(numbers, np.arange(len(points)), column) for column in points.T])
+def _put(joints: FloatArray, lead: Lead, found: FloatArray) -> None:
+    """An arm goes its way, and waits where it withdrew to."""
+    joints[: lead.last, lead.arm] = found
+    joints[lead.last :, lead.arm] = found[-1]
 
 
 class _Question:

@@ -79,6 +79,12 @@ class Machine(Hashable, Protocol):
         """
         ...
 
+    def guided_arm_path(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
+    ) -> FloatArray | None:
+        """The same near to joints that are known, shape (n, 7); None if there are none, much sooner."""
+        ...
+
     def free_postures(
         self,
         arm: int,

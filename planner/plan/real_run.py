@@ -10,7 +10,8 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
-from planner.plan.carrying import Carried, Carrier
+from planner.plan.carried import Carried
+from planner.plan.carrying import Carrier
 from planner.plan.cue import Cue
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, moments_of
@@ -106,12 +107,13 @@ class RunMaker:
         made = (self.made(chosen) for chosen in islice(_choices(steps), _VARIANTS_MAX))
         return next((run for run in made if run is not None), None)
 
-    def made(self, steps: tuple[Step, ...]) -> RealRun | None:
-        """The run of steps exactly as they are; None if the arms cannot follow."""
+    def made(self, steps: tuple[Step, ...], like: RealRun | None = None) -> RealRun | None:
+        """The run of steps exactly as they are, its joints like those of another where they may; None without a way."""
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
         carrying = [(n, phase) for n, phase in phases if is_carrying(phase)]
         moments = moments_of([phase for _, phase in carrying], self._work.scene.table.height_m)
-        carried = self._carrier.carried(moments)
+        carried = None if like is None else self._carrier.adapted(moments, like.carried)
+        carried = carried or self._carrier.carried(moments)
         if carried is None:
             return None
         late = self._late(carried)

@@ -85,6 +85,26 @@ def arm_path(
     return _ArmPath(arm, speeds, path, torso_m, floor_m, is_free).found()
 
 
+def guided_arm_path(
+    arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
+) -> FloatArray | None:
+    """Joints that keep the tool on a path and are near to others that are known; much quicker than to look for any.
+
+    Args:
+        arm: the arm.
+        path: where the tool must be.
+        torso_m: how far the torso is raised (m).
+        is_free: which joints do not collide.
+        guides: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
+
+    Returns:
+        Joints (rad), shape (n, 7); None if there are none so near that a collision or a jump does not spoil.
+    """
+    positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
+    joints, bad = _along(arm, positions, arm.mirrored_rotations(path.rotations), arm.mirrored_joints(guides), is_free)
+    return None if len(bad) else joints
+
+
 def free_postures(
     arm: SidedArm,
     position: FloatArray,
@@ -162,13 +182,7 @@ class _ArmPath:
         """The joints along the whole path, shape (n, 7), and the poses at which they will not do."""
         everywhere = np.arange(len(self._positions))
         between = np.column_stack([np.interp(everywhere, self._links, column) for column in guides.T])
-        joints, is_found = filled(self._arm.shape, self._positions, self._rotations, between)
-        leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
-        is_bad = ~is_found | np.append(leaps, False)
-        if not is_bad.any():
-            joints = self._arm.mirrored_joints(joints)
-            is_bad = ~self._is_free(everywhere, joints, False)
-        return joints, np.flatnonzero(is_bad)
+        return _along(self._arm, self._positions, self._rotations, between, self._is_free)
 
     def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:
         """Ask all samples beside bad poses, at some tries more; where nothing collides drop the ones that were taken.
@@ -200,3 +214,16 @@ class _ArmPath:
             calmer[1:-1] = 0.25 * calmer[:-2] + 0.5 * calmer[1:-1] + 0.25 * calmer[2:]
         smooth, bad = self._followed(calmer)
         return joints if len(bad) else smooth
+
+
+def _along(
+    arm: SidedArm, positions: FloatArray, rotations: FloatArray, guides: FloatArray, is_free: IsFree
+) -> tuple[FloatArray, NDArray[np.int64]]:
+    """The joints near guides at every pose, poses and guides as the left arm sees them, and where they will not do."""
+    joints, is_found = filled(arm.shape, positions, rotations, guides)
+    leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
+    is_bad = ~is_found | np.append(leaps, False)
+    if not is_bad.any():
+        joints = arm.mirrored_joints(joints)
+        is_bad = ~is_free(np.arange(len(positions)), joints, False)
+    return joints, np.flatnonzero(is_bad)

@@ -10,7 +10,7 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
-from planner.robot.arm_path import IsFree, NoPath, ToolPath, arm_path, free_postures
+from planner.robot.arm_path import IsFree, NoPath, ToolPath, arm_path, free_postures, guided_arm_path
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -136,6 +136,12 @@ class Pr2:
         """
         speeds = np.array(self._card.arms[arm].speeds_rad_s)
         return arm_path(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
+
+    def guided_arm_path(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
+    ) -> FloatArray | None:
+        """Joints near to others that keep an arm's tool on a path, if there are any (see `guided_arm_path`)."""
+        return guided_arm_path(self._arms[arm], path, float(torso_m), is_free, guides)
 
     def free_postures(
         self,

@@ -1,0 +1,60 @@
+"""The joints of a run."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.plan.leads import Lines
+from planner.plan.moments import Moments
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Carried:
+    """The joints of a run.
+
+    Attributes:
+        moments: the moments while cloth is held.
+        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that do nothing are at home, those that have let
+            go wait where they withdrew to.
+        first: the step at which the grips are reached: the first of the moments.
+        is_used: which arms do something, shape (arms,).
+        lines: how the hands come and leave.
+    """
+
+    moments: Moments
+    bases: FloatArray
+    joints: FloatArray
+    first: int
+    is_used: BoolArray
+    lines: Lines
+
+    @property
+    def last(self) -> int:
+        """The step of the last of the moments, at which the hands let go."""
+        return self.first + len(self.moments) - 1
+
+    def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
+        """Its joints as guides for a run that differs a little, shape (steps, arms, 7).
+
+        Args:
+            first: the step of that run at which the grips are reached.
+            moments: its moments.
+            steps: its steps in all.
+        """
+        old, new = _progress(self.moments), _progress(moments)
+        held = np.interp(new, old, np.arange(len(old))) + self.first
+        coming = np.linspace(0.0, self.first, first, endpoint=False)
+        leaving = np.linspace(self.last, len(self.joints) - 1.0, steps - first - len(new) + 1)[1:]
+        places = np.concatenate([coming, held, leaving])
+        before = np.minimum(places.astype(np.int64), len(self.joints) - 1)
+        along = (places - before)[:, None, None]
+        after = np.minimum(before + 1, len(self.joints) - 1)
+        return np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
+
+
+def _progress(moments: Moments) -> FloatArray:
+    """How far a run is at each moment, 0 to 1; every phase counts the same."""
+    done = moments.phases + moments.fractions
+    return np.asarray(done / max(float(done[-1]), 1.0))

@@ -1,0 +1,165 @@
+"""Where the arms' tools go in a run: straight to their grips, along the cloth's way, and straight away from it.
+
+A hand comes to its grip along its approach axis, fingers first, and leaves it backwards and upwards; these lines are
+part of the path, so that the joints with which the cloth is taken are ones with which it can be reached and left.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.plan.moments import Moments, about_x
+from planner.robot.arm_path import ToolPath
+
+APPROACH_M, RETREAT_M = 0.10, 0.12
+"""How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""
+
+CLEAR_M = 0.12
+"""How high over the table a hand then is, where that is in reach: from there it travels (m)."""
+
+_STEP_M = 0.01
+"""How far hands go on these ways from one step to the next (m)."""
+
+Shares = tuple[tuple[float, float], ...]
+
+NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
+FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
+"""How much of the straight line and of the rise is tried: what must do, and what had better."""
+
+OVER, BESIDE = 0.5 * np.pi, 0.0
+"""The roll of a hand with one finger over the other, and side by side (rad)."""
+
+HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray], bool]
+"""Asked with an arm, the base (x, y, yaw; table frame), a tool's place (m) and axes (base frame): can it be there?"""
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """How hands come and leave.
+
+    Attributes:
+        roll_rad: how far they have rolled about their approach axes.
+        shares: how much of the straight line and of the rise is tried, the first that there is room for is taken.
+    """
+
+    roll_rad: float
+    shares: Shares
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lead:
+    """One arm's part in a run.
+
+    Attributes:
+        arm: which arm.
+        path: where its tool must be, from the first step on.
+    """
+
+    arm: int
+    path: ToolPath
+
+    @property
+    def last(self) -> int:
+        """The step after its last."""
+        return len(self.path.positions)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leads:
+    """All arms' parts in a run.
+
+    Attributes:
+        each: the arms that do something.
+        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        first: the step at which the grips are reached.
+    """
+
+    each: tuple[Lead, ...]
+    bases: FloatArray
+    first: int
+
+    @staticmethod
+    def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom) -> "Leads":
+        """The parts of the arms that hold cloth at some of the moments.
+
+        Args:
+            moments: the moments while cloth is held.
+            lines: how hands come and leave.
+            height_m: the table top's height over the floor.
+            has_room: where a hand can be.
+        """
+        arms = np.flatnonzero(moments.is_held.any(axis=1))
+        ways = [_way(int(arm), moments, lines, height_m, has_room) for arm in arms]
+        before = max(len(_stepped(way.approach)) for way in ways) - 1
+        after = max(len(_stepped(way.retreat)) for way in ways) - 1
+        start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
+        bases = np.concatenate([start, moments.bases, end])
+        return Leads(tuple(way.lead(before, after) for way in ways), bases, before)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Way:
+    """Where an arm's tool goes: to its grip, along the cloth's way, and from where it lets go."""
+
+    arm: int
+    positions: FloatArray
+    rotations: FloatArray
+    spans_s: FloatArray
+    approach: FloatArray
+    retreat: FloatArray
+
+    def lead(self, before: int, after: int) -> Lead:
+        """The tool's path, coming in so many steps and leaving in so many."""
+        coming = _resampled(_stepped(self.approach), before)[:0:-1]
+        leaving = _resampled(_stepped(self.retreat), after)[1:]
+        first, last = self.rotations[:1], self.rotations[-1:]
+        path = ToolPath(
+            np.concatenate([coming, self.positions, leaving]),
+            np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(after, 0)]),
+            np.concatenate([np.full(before, np.inf), self.spans_s, np.full(after, np.inf)]),
+            (before, before + len(self.positions)),
+        )
+        return Lead(self.arm, path)
+
+
+def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom) -> _Way:
+    held = np.flatnonzero(moments.is_held[arm])
+    positions = moments.positions[arm, held]
+    rotations = moments.rotations[arm, held] @ about_x(np.array([lines.roll_rad]))[0]
+    upwards = np.array([0.0, 0.0, 1.0])
+    coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
+    leaving *= RETREAT_M / np.linalg.norm(leaving)
+    ends = []
+    for number, line in ((0, APPROACH_M * coming), (-1, leaving)):
+        base, rotation = moments.bases[held[number]], rotations[number]
+        corners = _corners(positions[number], line, lines.shares, height_m)
+        ends.append(next((c for c in corners if has_room(arm, base, c[-1], rotation)), positions[[number] * 3]))
+    spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
+    return _Way(arm, positions, rotations, spans, *ends)
+
+
+def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: float) -> list[FloatArray]:
+    """The corners of ways from a place along a line and up, each of shape (3, 3), m."""
+    far = position + np.array(shares)[:, :1] * line
+    rises = np.maximum(height_m + CLEAR_M - far[:, 2], 0.0) * np.array(shares)[:, 1]
+    tips = far + rises[:, None] * np.array([0.0, 0.0, 1.0])
+    return [np.array([position, corner, tip]) for corner, tip in zip(far, tips, strict=True)]
+
+
+def _stepped(corners: FloatArray) -> FloatArray:
+    """The points of a polyline, no more than a step apart, shape (n, 3), m; at least two."""
+    parts = [corners[:1]]
+    for start, end in pairwise(corners):
+        count = int(np.ceil(np.linalg.norm(end - start) / _STEP_M))
+        parts.append(start + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - start))
+    points = np.concatenate(parts)
+    return points if len(points) > 1 else points.repeat(2, 0)
+
+
+def _resampled(points: FloatArray, steps: int) -> FloatArray:
+    """A polyline's points as so many steps, shape (steps + 1, 3); no fewer than it has."""
+    numbers = np.linspace(0.0, len(points) - 1, steps + 1)
+    return np.column_stack([np.interp(numbers, np.arange(len(points)), column) for column in points.T])
