@@ -5,13 +5,17 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from planner import Garment, Plan, Scene, adapt_plan, load_garment, make_plan
 from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
 from tests.builders import fold, garment, rectangle_points
+from tests.laws.law import LONG
 from tests.replay.checker import check
+from tests.replay.joints import require_clear, require_speeds
 from tests.replay.planned import SOLVABLE, planned
 
 CENTIMETRE = ((0.01, 0.0), (0.0, 0.01), (-0.01, 0.0), (0.0, -0.01))
@@ -65,6 +69,18 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
             assert after.statistics.bound_s <= after.cost_s
             adapted.append(after)
     assert adapted, "each garment has a vertex that may be pulled without another plan"
+
+
+@pytest.mark.parametrize("name", SOLVABLE if settings.get_current_profile_name() == LONG else ("jeans", "scarf"))
+def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
+    # A centimetre, millimetre by millimetre: each plan's joints are near to those of the plan before.
+    plan = planned(name).answer
+    vertex = free_vertices(plan.garment)[-1]
+    for number in range(1, 11):
+        plan = adapt_plan(plan, moved(name, vertex, (0.0, 0.001 * number))) or plan
+    assert plan.garment.outline != planned(name).answer.garment.outline
+    require_speeds(plan.timeline())
+    require_clear(plan.timeline(), Table(), every_s=1.7)
 
 
 def test_most_centimetres_ask_for_no_other_plan():
