@@ -18,6 +18,7 @@ from app.document import Document
 from app.document_state import DocumentState, Question
 from app.held_folds import held_folds
 from app.job_pool import Job, JobPool, ShouldStop
+from app.known_plans import KnownPlans
 from app.plan_store import PlanStore
 from planner import adapt_plan, make_plan
 from planner.errors import FoldingError, SceneError
@@ -47,7 +48,7 @@ class Replanner:
         self._asked: DocumentState | None = None
         self._is_behind = False
         self._filming: Plan | None = None
-        self._latest: Plan | None = None
+        self._known = KnownPlans()
         self._remembered: OrderedDict[Question, Plan] = OrderedDict()
         self._unsubscribe = document.subscribe(self._look)
         self._look()
@@ -157,7 +158,7 @@ class Replanner:
         if question is None or is_unwanted():
             return None
         if plan is None:
-            plan = self._quickest(question, known, is_unwanted)
+            plan = _quickest(question, known, is_unwanted)
             if is_unwanted():
                 return None
             if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
@@ -166,30 +167,16 @@ class Replanner:
         return plan
 
     def _adapted(self, version: int, question: Question, is_unwanted: ShouldStop) -> Plan | None:
-        """The latest plan as it is for this question, shown at once; None if it does not do any more."""
-        if self._latest is None or is_unwanted():
-            return None
-        plan = adapt_plan(
-            self._latest,
-            question.garment,
-            question.scene,
-            start_station=question.start_station,
-            comfort_radius_m=question.comfort_radius_m,
-        )
-        if plan is not None and not is_unwanted():
-            self._publish(version, question, plan, is_final=False)
-            self._film(plan)
-        return plan
-
-    def _quickest(self, question: Question, known: Plan | None, is_unwanted: ShouldStop) -> Plan:
-        return make_plan(
-            question.garment,
-            question.scene,
-            start_station=question.start_station,
-            comfort_radius_m=question.comfort_radius_m,
-            should_stop=is_unwanted,
-            known=known,
-        )
+        """The quickest plan known as it is for this question, shown at once; None if none does any more."""
+        with self._lock:
+            known = self._known.by_cost()
+        for plan in known:
+            adapted = None if is_unwanted() else _adapted_to(question, plan)
+            if adapted is not None and not is_unwanted():
+                self._publish(version, question, adapted, is_final=False)
+                self._film(adapted)
+                return adapted
+        return None
 
     def _remember(self, question: Question, plan: Plan) -> None:
         with self._lock:
@@ -200,10 +187,32 @@ class Replanner:
     def _publish(self, version: int, question: Question, plan: Plan, *, is_final: bool) -> None:
         """Show the plan; one made for a preview need not be readable any more when it is not shown any more."""
         before, plan_id = self._document.state.answer, self._plans.add(plan)
-        self._latest = plan if plan.is_solved else self._latest
+        with self._lock:
+            self._known.add(plan)
         self._document.settle(version, question, plan, plan_id, is_final=is_final)
         state = self._document.state
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
         for made in {plan_id} if before is None else {plan_id, before.plan_id}:
             if made not in kept:
                 self._plans.drop(made)
+
+
+def _adapted_to(question: Question, plan: Plan) -> Plan | None:
+    return adapt_plan(
+        plan,
+        question.garment,
+        question.scene,
+        start_station=question.start_station,
+        comfort_radius_m=question.comfort_radius_m,
+    )
+
+
+def _quickest(question: Question, known: Plan | None, should_stop: ShouldStop) -> Plan:
+    return make_plan(
+        question.garment,
+        question.scene,
+        start_station=question.start_station,
+        comfort_radius_m=question.comfort_radius_m,
+        should_stop=should_stop,
+        known=known,
+    )

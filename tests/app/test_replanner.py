@@ -264,9 +264,10 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.rest()
-    stopped = threading.Event()
+    begun, stopped = threading.Event(), threading.Event()
 
     def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        begun.set()
         while not should_stop():
             time.sleep(0.001)
         stopped.set()
@@ -274,7 +275,7 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
 
     monkeypatch.setattr("app.replanner.make_plan", endless)
     desk.document.edit(Edit("Move", moved(20)))
-    desk.until(lambda: desk.is_answered and desk.has_film)
+    assert begun.wait(PATIENCE_S)
     shown = desk.document.state.answer
     assert shown is not None
     desk.document.stop_planning()
