@@ -11,6 +11,7 @@ from bench.environment import environment
 from bench.first_plan import first_plan
 from bench.frames import frames
 from bench.growth import growth
+from bench.hand import hand
 from bench.heuristics import heuristics
 from bench.measurement import warm_up
 from bench.paper import SOURCE, TABLE_1
@@ -32,9 +33,10 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "reach": reach,
     "growth": growth,
     "frames": frames,
+    "hand": hand,
 }
-OF_NO_GARMENT: Final = frozenset({"reach", "growth"})
-"""Left out if garments are named and these are not."""
+APART: Final = frozenset({"reach", "growth", "hand"})
+"""Left out if garments are named and these are not: they are of no garment, or want a browser."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
 OUT: Final = Path(__file__).parent / "out"
@@ -54,7 +56,7 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
     asked = _parser().parse_args(arguments)
     named = [name for name in ARTICLES if name in asked.only]
     articles = named or list(ARTICLES)
-    usual = [name for name in BENCHMARKS if not (named and name in OF_NO_GARMENT)]
+    usual = [name for name in BENCHMARKS if not (named and name in APART)]
     chosen = [name for name in BENCHMARKS if name in asked.only] or usual
     console = Console(highlight=False)
     console.width = max(console.width, WIDTH)

@@ -78,11 +78,15 @@ def re_plan(articles: Sequence[str], repetitions: int) -> Report:
 
 def replanned(article: str, moves: int) -> list[Replanned]:
     """So many moves of an article's corners, the same in every run, in directions the same in every run."""
-    choice = random.Random(f"{SEED} {article}")
     drawing = solve(drawing_of(load_garment(article))).drawing
     _plan(_garment(drawing), drawing)
-    corners = choice.sample(range(len(drawing.outline)), min(moves, len(drawing.outline)))
-    return [_replanned(drawing, corner, choice.uniform(0.0, tau)) for corner in corners]
+    return [_replanned(drawing, *move) for move in chosen(article, len(drawing.outline), moves)]
+
+
+def chosen(article: str, corners: int, moves: int) -> list[tuple[int, float]]:
+    """Which of so many corners are moved, and in which direction (rad): the same in every run."""
+    choice = random.Random(f"{SEED} {article}")
+    return [(corner, choice.uniform(0.0, tau)) for corner in choice.sample(range(corners), min(moves, corners))]
 
 
 def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:

@@ -33,8 +33,12 @@ class Served:
     """A server in a process of its own."""
 
     def __init__(self, data: Path, port: int = 0) -> None:
+        self.data = data
+        self._start(port)
+
+    def _start(self, port: int) -> None:
         command = [sys.executable, "-c", "from app.cli import main; main()"]
-        options = ["serve", "--port", str(port), "--data", str(data)]
+        options = ["serve", "--port", str(port), "--data", str(self.data)]
         self.process = subprocess.Popen(
             [*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
@@ -57,9 +61,14 @@ class Served:
         return int(self.url.rpartition(":")[2])
 
     def stop(self) -> None:
+        """Kill it: it has no time to put anything in order."""
         if self.process.poll() is None:
             self.process.kill()
             self.process.communicate()
+
+    def start_again(self) -> None:
+        """Another process with the same data on the same port."""
+        self._start(self.port)
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,6 @@
 """Random operations on a document over REST: no state is lost and none is stale.
 
-Beside the server runs a model that knows nothing of how it is done: a list of drawings that can be gone back to, and
-one of drawings that can be gone forward to. Two pages listen all the time.
+Beside the server runs a model that knows nothing of how it is done. Two pages listen all the time.
 """
 
 import asyncio
@@ -18,6 +17,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 from app.api.create_app import create_app
 from app.settings import Settings
 from tests.app.conftest import OWN_URL
+from tests.app.document_model import DocumentModel
 from tests.app.samples import towel
 from tests.app.websocket import Listener
 
@@ -33,9 +33,7 @@ class DocumentMachine(RuleBasedStateMachine):
         super().__init__()
         self.loop = asyncio.new_event_loop()
         self.data = Path(tempfile.mkdtemp(prefix="pleat-"))
-        self.past: list[tuple[str, Any]] = []
-        self.future: list[tuple[str, Any]] = []
-        self.gesture: tuple[str, str, Any] | None = None
+        self.model = DocumentModel()
         self.steps = 0
 
     @initialize()
@@ -77,37 +75,24 @@ class DocumentMachine(RuleBasedStateMachine):
     @rule()
     def cancel(self) -> None:
         body = {"base_version": self.state["version"], "phase": "cancel"}
-        before = self.gesture[2] if self.gesture else self.state["drawing"]
-        self.gesture = None
-        self.changed(self.ask("PUT", "/drawing", body), before)
+        self.changed(self.ask("PUT", "/drawing", body), self.model.drop_gesture(self.state["drawing"]))
 
     @rule(in_the_middle=st.booleans())
     def undo(self, in_the_middle: bool = False) -> None:
         self.drag_on(in_the_middle)
-        self.close_gesture()
-        drawing = self.state["drawing"]
-        if self.past:
-            label, target = self.past.pop()
-            self.future.append((label, drawing))
-            drawing = target
-        self.changed(self.ask("POST", "/undo"), drawing)
+        self.changed(self.ask("POST", "/undo"), self.model.undo(self.state["drawing"]))
 
     @rule(in_the_middle=st.booleans())
     def redo(self, in_the_middle: bool = False) -> None:
         self.drag_on(in_the_middle)
-        self.close_gesture()
-        drawing = self.state["drawing"]
-        if self.future:
-            label, target = self.future.pop()
-            self.past.append((label, drawing))
-            drawing = target
-        self.changed(self.ask("POST", "/redo", {"base_version": self.state["version"]}), drawing)
+        body = {"base_version": self.state["version"]}
+        self.changed(self.ask("POST", "/redo", body), self.model.redo(self.state["drawing"]))
 
-    @precondition(lambda self: self.gesture is None)
+    @precondition(lambda self: self.model.gesture is None)
     @rule()
     def undo_and_redo(self) -> None:
         before = self.state
-        can_undo = self.past != []
+        can_undo = self.model.past != []
         self.undo()
         if can_undo:
             self.redo()
@@ -128,7 +113,7 @@ class DocumentMachine(RuleBasedStateMachine):
         self.drag_on(in_the_middle)
         killed = self.app
         self.serve()
-        self.close_gesture()
+        self.model.close_gesture(self.state["drawing"])
         state = self.ask("GET", "").json()
         assert state["version"] == self.state["version"]
         self.state = {**state, "gesture": None}
@@ -155,12 +140,11 @@ class DocumentMachine(RuleBasedStateMachine):
 
     @invariant()
     def nothing_is_lost(self) -> None:
-        assert self.state["history"]["can_undo"] == (self.past[-1][0] if self.past else None)
-        assert self.state["history"]["can_redo"] == (self.future[-1][0] if self.future else None)
-        assert self.state["gesture"] == (self.gesture[1] if self.gesture else None)
+        assert self.state["history"] == self.model.history
+        assert self.state["gesture"] == (self.model.gesture[1] if self.model.gesture else None)
         assert self.ask("GET", "").json() == self.state
 
-    # the model
+    # what comes of it
 
     def look_back(self, page: Listener) -> None:
         """Of all the plans that were shown as that of their version, none was another's."""
@@ -188,24 +172,8 @@ class DocumentMachine(RuleBasedStateMachine):
         answer = self.ask("PUT", "/drawing", {**body, "gesture": key})
         assert answer.status_code == 200, answer.text
         after = answer.json()["drawing"]
-        if self.gesture is not None and self.gesture[0] != key:
-            self.close_gesture()
-        before = self.gesture[2] if self.gesture else self.state["drawing"]
-        if phase == "preview":
-            if after != self.state["drawing"] and self.gesture is None:
-                self.gesture = (key, label, before)
-        else:
-            self.gesture = None
-            if after != before:
-                self.past.append((label, before))
-                self.future = []
+        self.model.edit(phase, label, key, self.state["drawing"], after)
         self.changed(answer, after)
-
-    def close_gesture(self) -> None:
-        if self.gesture is not None and self.gesture[2] != self.state["drawing"]:
-            self.past.append((self.gesture[1], self.gesture[2]))
-            self.future = []
-        self.gesture = None
 
     def changed(self, answer: httpx.Response, drawing: object) -> None:
         """Take the new state; its version has grown exactly when something in it has changed."""

@@ -1,4 +1,4 @@
-"""A browser and a server for tests without a stage: the page then loads at once and leaves the processor free."""
+"""Browsers and servers. Most tests do without a stage: the page then loads at once and leaves the processor free."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -10,11 +10,28 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, Playwright, expect, sync_playwright
 
 from tests.app.conftest import Served
+from tests.app.conftest import served as served
 
 PATIENCE_MS = 20_000
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"]
+STAGE_PATIENCE_MS = 60_000
+QUIET = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+FLAT = [*QUIET, "--disable-gpu"]
+BY_SOFTWARE = [*QUIET, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+IN_STAGE = "document.getElementById('stage').contentWindow.__viserMutable"
+IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
 
 Garment = str | dict[str, Any] | None
+
+REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
+"""One for all: `httpx.get` reads the system's certificates each time it is called, which takes longer than the call."""
 
 
 @pytest.fixture(scope="module")
@@ -26,9 +43,45 @@ def playwright() -> Iterator[Playwright]:
 
 @pytest.fixture(scope="module")
 def chromium(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
+    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAT)
     yield opened
     opened.close()
+
+
+@pytest.fixture(scope="module")
+def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
+    """One that draws in three dimensions too."""
+    opened = playwright.chromium.launch(executable_path=chromium_path, args=BY_SOFTWARE)
+    yield opened
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def stage_window(browser: Browser, served: Served) -> Iterator[tuple[Page, list[str]]]:
+    """The page with its stage, planned, and what goes wrong in it: errors, and requests elsewhere."""
+    faults: list[str] = []
+    page = browser.new_page(viewport={"width": 900, "height": 500})
+    page.set_default_timeout(STAGE_PATIENCE_MS)
+    expect.set_options(timeout=STAGE_PATIENCE_MS)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, served) else None)
+    page.goto(served.url)
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.wait_for_function(IS_THERE, arg="/cloth/front")
+    yield page, faults
+    page.close()
+
+
+@pytest.fixture
+def stage_page(stage_window: tuple[Page, list[str]]) -> Iterator[Page]:
+    """The same page for all tests of a module, since it takes its time to load; what goes wrong in it fails a test."""
+    page, faults = stage_window
+    yield page
+    assert faults == []
+
+
+def is_foreign(url: str, served: Served) -> bool:
+    return not url.startswith((served.url, served.url.replace("http", "ws"), "data:", "blob:"))
 
 
 @pytest.fixture(scope="session")
@@ -47,7 +100,7 @@ class Sheet:
 
     @property
     def state(self) -> dict[str, Any]:
-        state: dict[str, Any] = httpx.get(self.path).json()
+        state: dict[str, Any] = REST.get(self.path).json()
         return state
 
     def at_rest(self) -> dict[str, Any]:
@@ -79,7 +132,7 @@ class Sheet:
         state = self.state
         change(state["drawing"])
         body = {"base_version": state["version"], "label": "Elsewhere", "drawing": state["drawing"]}
-        httpx.put(f"{self.path}/drawing", json=body).raise_for_status()
+        REST.put(f"{self.path}/drawing", json=body).raise_for_status()
 
 
 @pytest.fixture(scope="session")
@@ -88,7 +141,7 @@ def new_sheet(designer: Served) -> Callable[[Garment], Sheet]:
 
     def made(garment: Garment) -> Sheet:
         asked = {} if garment is None else {"garment": garment}
-        answer = httpx.post(f"{designer.url}/api/documents", json=asked).raise_for_status()
+        answer = REST.post(f"{designer.url}/api/documents", json=asked).raise_for_status()
         return Sheet(designer.url, answer.json()["id"])
 
     return made

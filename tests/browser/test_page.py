@@ -2,29 +2,13 @@
 
 import itertools
 import time
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
-from playwright.sync_api import Browser, Page, Playwright, expect
+from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
-
-FLAGS = [
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-PATIENCE_MS = 60_000
-END_S = 1e-6
+from tests.browser.conftest import REST, STAGE_PATIENCE_MS
 
 NODE = """(name) => {
   const stage = document.getElementById("stage").contentWindow;
@@ -52,40 +36,19 @@ RENDERED = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    server = Served(tmp_path_factory.mktemp("data"))
-    yield server
-    server.stop()
-
-
-@pytest.fixture(scope="module")
-def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
-    yield opened
-    opened.close()
-
-
 @pytest.fixture
-def page(browser: Browser, served: Served) -> Iterator[Page]:
-    """The page, planned and with its stage loaded; it fails on any error in the page or request elsewhere."""
-    faults: list[str] = []
-    page = browser.new_page(viewport={"width": 900, "height": 500})
-    page.set_default_timeout(PATIENCE_MS)
-    expect.set_options(timeout=PATIENCE_MS)
-    page.on("pageerror", lambda error: faults.append(str(error)))
-    page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, served) else None)
-    page.goto(served.url)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
-    until_there(page, "/cloth/front")
-    until_there(page, "/robot")
-    yield page
-    page.close()
-    assert faults == []
-
-
-def is_foreign(url: str, served: Served) -> bool:
-    return not url.startswith((served.url, served.url.replace("http", "ws"), "data:", "blob:"))
+def page(stage_page: Page, served: Served) -> Page:
+    """The page with the T-shirt at rest, spread out."""
+    stage_page.set_viewport_size({"width": 900, "height": 500})
+    document = f"{served.url}/api/documents/{served.document}"
+    REST.put(f"{document}/garment", json={"garment": "t-shirt"}).raise_for_status()
+    for command in ({"do": "pause"}, {"do": "seek", "t_s": 0.0}):
+        REST.post(f"{document}/playback", json=command).raise_for_status()
+    expect(stage_page.locator("#time")).to_have_js_property("value", "0")
+    expect(stage_page.get_by_role("status")).to_contain_text("Planned: ")
+    until_there(stage_page, "/cloth/front")
+    until_there(stage_page, "/robot")
+    return stage_page
 
 
 def node(page: Page, name: str) -> dict[str, Any]:
@@ -99,7 +62,7 @@ def until_there(page: Page, name: str) -> None:
 
 def until(condition: Any) -> None:
     """Wait until a condition holds that cannot be asked in the page."""
-    deadline = time.monotonic() + PATIENCE_MS / 1000
+    deadline = time.monotonic() + STAGE_PATIENCE_MS / 1000
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.05)
@@ -220,13 +183,13 @@ def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
 
 def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) -> None:
     path = f"{served.url}/api/documents/{page.url.rpartition('/')[2]}"
-    drawing = httpx.get(path).json()["drawing"]
+    drawing = REST.get(path).json()["drawing"]
     changed = {**drawing, "folds": drawing["folds"][:2]}
-    body = {"base_version": httpx.get(path).json()["version"], "label": "Fewer", "drawing": changed}
-    assert httpx.put(f"{path}/drawing", json=body).status_code == 200
+    body = {"base_version": REST.get(path).json()["version"], "label": "Fewer", "drawing": changed}
+    assert REST.put(f"{path}/drawing", json=body).status_code == 200
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(2)
     expect(page.get_by_role("status")).to_contain_text("Planned: ")
-    assert httpx.post(f"{path}/undo").status_code == 200
+    assert REST.post(f"{path}/undo").status_code == 200
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
     expect(page.get_by_role("status")).to_contain_text("Planned: ")
 
@@ -235,25 +198,16 @@ def test_a_document_that_is_not_there_is_told_of(browser: Browser, served: Serve
     page = browser.new_page()
     try:
         page.goto(f"{served.url}/d/nothing")
-        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=PATIENCE_MS)
+        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=STAGE_PATIENCE_MS)
     finally:
         page.close()
 
 
-def test_the_page_comes_back_by_itself_when_the_server_does(browser: Browser, tmp_path: Path) -> None:
-    first = Served(tmp_path)
-    page = browser.new_page(viewport={"width": 900, "height": 500})
-    try:
-        page.goto(first.url)
-        expect(page.get_by_role("status")).to_contain_text("Planned: ", timeout=PATIENCE_MS)
-        first.stop()
-        expect(page.get_by_role("status")).to_contain_text("Connection lost", timeout=PATIENCE_MS)
-        second = Served(tmp_path, first.port)
-        try:
-            expect(page.get_by_role("status")).to_contain_text("Planned: ", timeout=PATIENCE_MS)
-            page.wait_for_function(f"({NODE})('/cloth/front')?.meshes > 0", timeout=PATIENCE_MS)
-        finally:
-            second.stop()
-    finally:
-        page.close()
-        first.stop()
+def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page, served: Served) -> None:
+    page.evaluate("document.getElementById('stage').contentWindow.isOfBefore = true")
+    served.stop()
+    expect(page.get_by_role("status")).to_contain_text("Connection lost")
+    served.start_again()
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    page.wait_for_function("!document.getElementById('stage').contentWindow.isOfBefore")
+    until_there(page, "/cloth/front")

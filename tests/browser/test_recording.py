@@ -3,13 +3,11 @@
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Playwright
+from playwright.sync_api import Browser
 
 from app.files.recording import recording
 from planner import load_garment, make_plan
-
-FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-PATIENCE_MS = 60_000
+from tests.browser.conftest import STAGE_PATIENCE_MS
 
 MESHES = """() => {
   const robot = window.__viserMutable?.nodeRefFromName["/robot"];
@@ -32,21 +30,18 @@ def saved(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_recording_plays_from_the_disk_and_asks_for_nothing(
-    saved: Path, playwright: Playwright, chromium_path: str | None
-) -> None:
+def test_a_recording_plays_from_the_disk_and_asks_for_nothing(saved: Path, browser: Browser) -> None:
     asked: list[str] = []
     faults: list[str] = []
-    browser = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
     page = browser.new_page(viewport={"width": 400, "height": 300})
     page.on("request", lambda request: asked.append(request.url))
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.goto(saved.as_uri())
     assert page.title() == "Hand towel - Pleat"
-    page.wait_for_function(f"({MESHES})() > 20", timeout=PATIENCE_MS)
+    page.wait_for_function(f"({MESHES})() > 20", timeout=STAGE_PATIENCE_MS)
     first = page.evaluate(HAND)
     moved = f"({HAND})().some((value, axis) => Math.abs(value - {first}[axis]) > 0.05)"
-    page.wait_for_function(moved, timeout=PATIENCE_MS)
-    browser.close()
+    page.wait_for_function(moved, timeout=STAGE_PATIENCE_MS)
+    page.close()
     assert faults == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []

@@ -1,22 +1,17 @@
 """Editing in the stage of the real page, with the mouse: what is seen there is asked of the stage's own scene."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, FrameLocator, Page, Playwright, expect
+from playwright.sync_api import FrameLocator, Page, expect
 
 from planner.geometry.pose import Point2, Pose2
 from tests.app.conftest import Served
-from tests.browser.conftest import Sheet
+from tests.browser.conftest import IN_STAGE, IS_THERE, STAGE_PATIENCE_MS, Sheet
 
-FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic"]
-PATIENCE_MS = 30_000
-
-IN_STAGE = "document.getElementById('stage').contentWindow.__viserMutable"
-IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
 CAMERA = f"() => {IN_STAGE}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
 TO_PICTURE = f"""(place) => {{
   const viser = {IN_STAGE}, world = viser.nodeRefFromName[""];
@@ -30,38 +25,13 @@ TO_PICTURE = f"""(place) => {{
 }}"""
 
 
-@pytest.fixture(scope="module")
-def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    server = Served(tmp_path_factory.mktemp("data"))
-    yield server
-    server.stop()
-
-
-@pytest.fixture(scope="module")
-def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAGS)
-    yield opened
-    opened.close()
-
-
 @pytest.fixture
-def page(browser: Browser, served: Served) -> Iterator[Page]:
-    """The page with its stage, planned; it fails on any error in the page."""
-    faults: list[str] = []
-    page = browser.new_page(viewport={"width": 900, "height": 500})
-    page.set_default_timeout(PATIENCE_MS)
-    expect.set_options(timeout=PATIENCE_MS)
-    page.on("pageerror", lambda error: faults.append(str(error)))
-    page.goto(served.url)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
-    page.wait_for_function(IS_THERE, arg="/cloth/front")
-    yield page
-    page.close()
-    assert faults == []
+def page(stage_page: Page) -> Page:
+    return stage_page
 
 
 def until(condition: Callable[[], Any]) -> None:
-    deadline = time.monotonic() + PATIENCE_MS / 1000
+    deadline = time.monotonic() + STAGE_PATIENCE_MS / 1000
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.05)

@@ -1,0 +1,194 @@
+"""What a hand feels: a corner of a garment is dragged by a centimetre in the page, with the robot at rest beside it.
+
+The page itself keeps the time (`bench.hand_page`): from each movement of the mouse to the corner drawn there, and from
+the release to the status of the plan of what was dropped. Browser and server share the machine. Where the browser draws
+the stage by software, a frame of the page takes as long as that, so it is measured without a stage too. The corners and
+directions are those of `bench.re_plan`; each drag is undone before the next.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import urllib.request
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import cos, sin
+from pathlib import Path
+from statistics import median, quantiles
+from typing import Any
+
+from bench.measurement import BenchmarkError
+from bench.paper import TABLE_2
+from bench.re_plan import MOVES, QUICK_MOVES, STEP_M, chosen
+from bench.report import ABSENT, Report, Row
+
+COLUMNS = (
+    "article",
+    "stage",
+    "drags",
+    "ghost [ms]",
+    "p95",
+    "in frame",
+    "plan [ms]",
+    "p95",
+    "most",
+    "CPU [ms]",
+    "solved",
+    "other",
+)
+ROOT = Path(__file__).parent.parent
+STAGES = {False: "left out", True: "by software"}
+NO_BROWSER = "no browser"
+CLOCK_TICKS_PER_S = 100
+"""Of Linux's accounts of processes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dragged:
+    """One drag.
+
+    Attributes:
+        to_ghost_ms: from each movement to its drawing (ms).
+        same_frame: for each, whether the next frame showed it.
+        to_plan_ms: from the release to the plan's status on the page (ms).
+        server_cpu_ms: CPU time of the server from the press on (ms); None where the system does not tell.
+        status: the plan's.
+    """
+
+    to_ghost_ms: tuple[float, ...]
+    same_frame: tuple[bool, ...]
+    to_plan_ms: float
+    server_cpu_ms: float | None
+    status: str
+
+
+def hand(articles: Sequence[str], repetitions: int) -> Report:
+    """The nine articles and, in the last row, all drags together; a row that says so where there is no browser."""
+    drags = MOVES if repetitions > 1 else QUICK_MOVES
+    asked = [article for article in TABLE_2 if article in articles]
+    title = f"In the page: a corner dragged by {100 * STEP_M:g} cm, from the hand to what is seen"
+    rows = tuple(_rows(asked, drags)) if asked else ()
+    return Report("hand", title, COLUMNS, rows, 1)
+
+
+def _rows(articles: Sequence[str], drags: int) -> Iterator[Row]:
+    try:
+        from playwright.sync_api import Error
+
+        found = {article: [drags_of(article, drags, has_stage=is_there) for is_there in STAGES] for article in articles}
+    except ImportError:
+        yield _absent("Playwright is not installed")
+        return
+    except Error as error:
+        yield _absent(str(error).splitlines()[0])
+        return
+    for article, runs in found.items():
+        yield _row(article, runs)
+    if len(found) > 1:
+        yield _row("all", [[one for dragged in runs for one in dragged] for runs in zip(*found.values(), strict=True)])
+
+
+def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
+    """So many drags of an article's corners, in a server and a browser of their own."""
+    from bench.hand_page import window
+
+    with _served() as (url, process):
+        document = _ask("POST", f"{url}/api/documents", {"garment": article})
+        path, corners = f"{url}/api/documents/{document['id']}", document["drawing"]["outline"]
+        with window(f"{url}/d/{document['id']}", has_stage=has_stage) as page:
+            moves = chosen(article, len(corners), drags)
+            return [_dragged(page, path, process.pid, *move) for move in moves]
+
+
+def _dragged(page: Any, path: str, pid: int, corner: int, towards_rad: float) -> Dragged:  # noqa: ANN401
+    from bench.hand_page import drag, grasp, heard, wait_for_answer
+
+    wait_for_answer(page, _ask("GET", path)["version"])
+    x, y, scale = grasp(page, corner)
+    before_s = _cpu_s(pid)
+    drag(page, (x, y), (STEP_M * cos(towards_rad) * scale, -STEP_M * sin(towards_rad) * scale))
+    while (state := _ask("GET", path))["gesture"] is not None or state["history"]["can_undo"] is None:
+        page.wait_for_timeout(5.0)
+    wait_for_answer(page, state["version"])
+    after_s, kept = _cpu_s(pid), heard(page, state["version"])
+    _ask("POST", f"{path}/undo")
+    cpu_ms = None if before_s is None or after_s is None else 1e3 * (after_s - before_s)
+    return Dragged(kept.to_ghost_ms, kept.same_frame, kept.to_plan_ms, cpu_ms, kept.status)
+
+
+@contextmanager
+def _served() -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
+    """A server in a process of its own, and its address."""
+    with tempfile.TemporaryDirectory() as data:
+        options = ["serve", "--port", "0", "--data", data]
+        command = [sys.executable, "-c", "from app.cli import main; main()", *options]
+        with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
+            try:
+                assert process.stdout is not None
+                address = next((word for word in process.stdout.readline().split() if word.startswith("http://")), None)
+                if address is None:
+                    raise BenchmarkError("the server does not start")
+                yield address, process
+            finally:
+                process.kill()
+
+
+def _ask(method: str, url: str, body: object = None) -> dict[str, Any]:
+    content = None if body is None else json.dumps(body).encode()
+    request = urllib.request.Request(url, content, {"content-type": "application/json"}, method=method)
+    with urllib.request.urlopen(request) as answer:
+        found: dict[str, Any] = json.load(answer)
+    return found
+
+
+def _cpu_s(pid: int) -> float | None:
+    """CPU time that a process has spent (s); None where the system has no such account."""
+    account = Path(f"/proc/{pid}/stat")
+    if not account.exists():
+        return None
+    user, system = account.read_text().rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / CLOCK_TICKS_PER_S
+
+
+def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:
+    summaries = [_summary(dragged) for dragged in runs]
+    lines: list[tuple[str, ...]] = []
+    for stage, found in zip(STAGES.values(), summaries, strict=True):
+        ghost, plan, cpu_ms = found["to_ghost_ms"], found["to_plan_ms"], found["server_cpu_ms"]
+        cells = (
+            f"{ghost['median']:.1f}",
+            f"{ghost['p95']:.1f}",
+            f"{100 * found['same_frame']:.0f} %",
+            *(f"{plan[part]:.0f}" for part in ("median", "p95", "most")),
+            ABSENT if cpu_ms is None else f"{cpu_ms:.0f}",
+            str(found["solved"]),
+            str(found["drags"] - found["solved"]),
+        )
+        lines.append(("" if lines else article, stage, str(found["drags"]), *cells))
+    return Row(tuple(lines), {"article": article, **dict(zip(STAGES.values(), summaries, strict=True))})
+
+
+def _summary(dragged: Sequence[Dragged]) -> dict[str, Any]:
+    ghosts = [time_ms for one in dragged for time_ms in one.to_ghost_ms]
+    same = [is_same for one in dragged for is_same in one.same_frame]
+    cpu = [one.server_cpu_ms for one in dragged if one.server_cpu_ms is not None]
+    return {
+        "drags": len(dragged),
+        "to_ghost_ms": {**_spread(ghosts), "count": len(ghosts)},
+        "same_frame": sum(same) / len(same),
+        "to_plan_ms": _spread([one.to_plan_ms for one in dragged]),
+        "server_cpu_ms": median(cpu) if cpu else None,
+        "solved": sum(one.status == "solved" for one in dragged),
+    }
+
+
+def _absent(why: str) -> Row:
+    line = (NO_BROWSER, *(ABSENT for _ in COLUMNS[1:]))
+    return Row((line,), {"article": None, "missing": why})
+
+
+def _spread(values: Sequence[float]) -> dict[str, float]:
+    p95 = quantiles(values, n=20, method="inclusive")[-1] if len(values) > 1 else values[0]
+    return {"median": median(values), "p95": p95, "most": max(values)}

@@ -1,0 +1,144 @@
+"""A browser's window on a document, which keeps its own time of what the hand does and what is then to be seen.
+
+All times are of the page's clock, `performance.now()`: of a pointer event, when the browser was told of it; of what is
+drawn, when the page has put it into its tree, in the callback of the frame that shows it.
+"""
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from playwright.sync_api import Page, sync_playwright
+
+SYSTEM_CHROMIUM = shutil.which("chromium")
+"""None: Playwright's own."""
+
+FLAGS = ("--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking")
+FLAT = (*FLAGS, "--disable-gpu")
+BY_SOFTWARE = (*FLAGS, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PATIENCE_MS = 60_000
+MOVES = 8
+"""So many times the mouse is moved on its way."""
+
+ROOMY_PX_PER_M = 1500.0
+"""Of the movements over a centimetre each is a pixel or two then."""
+
+KEEP_TIME = """() => {
+  const board = document.getElementById("drafting-board"), pill = document.getElementById("status");
+  const now = () => performance.now();
+  const heard = (window.heard = {});
+  window.begin = () => Object.assign(heard, { moved: [], released: [], frames: [], drawn: [], told: [] });
+  window.begin();
+  const frame = () => requestAnimationFrame(() => { heard.frames.push(now()); frame(); });
+  frame();
+  board.addEventListener("pointermove", (event) => heard.moved.push([event.timeStamp, now()]), true);
+  board.addEventListener("pointerup", (event) => heard.released.push(event.timeStamp), true);
+  const corners = board.querySelector(".layer-handles");
+  new MutationObserver(() => heard.drawn.push(now()))
+    .observe(corners, { subtree: true, attributeFilter: ["cx", "cy"] });
+  new MutationObserver(() => heard.told.push([now(), Number(pill.dataset.version), pill.dataset.status]))
+    .observe(pill, { attributes: true });
+}"""
+HAS_ANSWER = """(version) => {
+  const pill = document.getElementById("status");
+  return pill.ariaBusy === "false" && Number(pill.dataset.version) >= version;
+}"""
+HAS_STAGE = """() =>
+  Boolean(document.getElementById("stage").contentWindow.__viserMutable?.nodeRefFromName["/cloth/front"])"""
+HAS_BOARD = """() => Number(document.getElementById("drafting-board")?.dataset.version) > 0"""
+FIT = """() => {
+  for (const name of ["outline", "select"]) document.querySelector(`[data-tool=${name}]`).click();
+  document.querySelector("[aria-label=Fit]").click();
+}"""
+RESTS = "new Promise((done) => requestAnimationFrame(() => requestIdleCallback(done)))"
+CORNER = """(index) => {
+  const corner = document.querySelectorAll(".corner")[index], box = corner.ownerSVGElement.getBoundingClientRect();
+  const { pxPerM } = corner.ownerSVGElement.dataset;
+  return [box.left + corner.cx.baseVal.value, box.top + corner.cy.baseVal.value, Number(pxPerM)];
+}"""
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What the page has kept of a drag (ms).
+
+    Attributes:
+        to_ghost_ms: for each movement that is seen, from the pointer event to the corner drawn there.
+        same_frame: for each of them, whether that was in the very next frame.
+        to_plan_ms: from the release to the status of the plan of what was dropped.
+        status: that plan's.
+    """
+
+    to_ghost_ms: tuple[float, ...]
+    same_frame: tuple[bool, ...]
+    to_plan_ms: float
+    status: str
+
+    @classmethod
+    def of(cls, kept: dict[str, Any], version: int) -> "Heard":
+        """Of what `KEEP_TIME` has written down; a drag begins only some pixels from where the button was pressed."""
+        told = next(told for told in kept["told"] if told[1] == version)
+        drawn = kept["drawn"]
+        moves = [move for move in kept["moved"] if drawn[0] < move[1] < drawn[-1]]
+        seen = [(*move, next(at for at in drawn if at > move[1])) for move in moves]
+        return cls(
+            tuple(at - moved_at for moved_at, _, at in seen),
+            tuple(sum(since < frame <= at for frame in kept["frames"]) == 1 for _, since, at in seen),
+            told[0] - kept["released"][0],
+            told[2],
+        )
+
+
+@contextmanager
+def window(url: str, *, has_stage: bool) -> Iterator[Page]:
+    """A page that keeps time, its stage at rest or left out; raises Playwright's error where there is no browser."""
+    with sync_playwright() as playwright:
+        flags = BY_SOFTWARE if has_stage else FLAT
+        browser = playwright.chromium.launch(executable_path=SYSTEM_CHROMIUM, args=flags)
+        page = browser.new_page(viewport={"width": 1024, "height": 768})
+        page.set_default_timeout(PATIENCE_MS)
+        if not has_stage:
+            page.route("**/viser/**", lambda route: route.abort())
+        page.goto(url)
+        page.wait_for_function(HAS_STAGE if has_stage else HAS_BOARD)
+        page.evaluate(KEEP_TIME)
+        yield page
+        browser.close()
+
+
+def wait_for_answer(page: Page, version: int) -> None:
+    """Wait until the page says what planning a version, or a later one, came to, and has nothing more to do."""
+    page.wait_for_function(HAS_ANSWER, arg=version)
+    page.evaluate(RESTS)
+
+
+def grasp(page: Page, corner: int) -> tuple[float, float, float]:
+    """Come near to a corner, with nothing selected; where it is (px), and pixels for a metre."""
+    page.evaluate(FIT)
+    page.evaluate(RESTS)
+    x, y, scale = page.evaluate(CORNER, corner)
+    page.mouse.move(x, y)
+    while scale < ROOMY_PX_PER_M:
+        page.mouse.wheel(0.0, -200.0)
+        page.wait_for_function("(s) => Number(document.getElementById('drafting-board').dataset.pxPerM) > s", arg=scale)
+        x, y, scale = page.evaluate(CORNER, corner)
+        page.mouse.move(x, y)
+    return x, y, scale
+
+
+def drag(page: Page, start: tuple[float, float], by: tuple[float, float]) -> None:
+    """Press there, lead the mouse so far (px) without snapping, let go."""
+    page.evaluate("window.begin()")
+    page.keyboard.down("Control")
+    page.mouse.down()
+    for part in range(1, MOVES + 1):
+        page.mouse.move(start[0] + by[0] * part / MOVES, start[1] + by[1] * part / MOVES)
+    page.mouse.up()
+    page.keyboard.up("Control")
+
+
+def heard(page: Page, version: int) -> Heard:
+    """What was kept of the drag that has led to a version."""
+    return Heard.of(page.evaluate("window.heard"), version)

@@ -1,0 +1,27 @@
+"""Fingers on the drafting board."""
+
+from playwright.sync_api import Page
+
+from tests.browser.board_hand import Hand, Point
+
+
+class Finger:
+    """One or two fingers on the glass, by the browser's own protocol."""
+
+    def __init__(self, page: Page) -> None:
+        self.hand = Hand(page)
+        self.session = page.context.new_cdp_session(page)
+
+    def send(self, kind: str, *places: Point) -> None:
+        touches = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(places)]
+        self.session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+    def tap(self, point: Point) -> None:
+        self.send("touchStart", self.hand.px(point))
+        self.send("touchEnd")
+
+    def drag(self, start: Point, end: Point) -> None:
+        self.send("touchStart", self.hand.px(start))
+        for part in (0.2, 0.5, 0.8, 1.0):
+            self.send("touchMove", self.hand.px(tuple(a + part * (b - a) for a, b in zip(start, end, strict=True))))
+        self.send("touchEnd")
