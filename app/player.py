@@ -57,6 +57,8 @@ class Player:
         self._thread.join(_CLOSING_S)
 
     def _run(self) -> None:
+        """Bring the stage up to date again and again; what fails is drawn anew once, then with the next change."""
+        has_failed = False
         while True:
             self._changed.wait(self._period_s())
             if self._is_closed:
@@ -66,6 +68,12 @@ class Player:
                 self._update()
             except Exception:
                 _log.exception("the stage could not be brought up to date")
+                self._shown = self._plan = self._spread = None
+                if not has_failed:
+                    self._changed.set()
+                has_failed = True
+            else:
+                has_failed = False
 
     def _period_s(self) -> float | None:
         """How long to wait when nothing changes (s); None: for ever."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.primitives.base_legs import legs
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.phase import ClothMotion, Hand, Phase
@@ -111,10 +111,14 @@ class FoldMotion:
     def _rolls(self, number: int, sweeps: FloatArray) -> FloatArray:
         """How far a hand has rolled (rad): with the cloth by half a turn if it points along the fold line, else not.
 
-        In between would be nearer to how the cloth turns, but fingers come down flat on the table.
+        In between would be nearer to how the cloth turns, but fingers come down flat on the table. A hand on the
+        extension of the fold line stays where it is.
         """
         path, approach = self.way.trial.path, self._approach(number)
-        begin = 1.0 - float(path.line.left_distances(self.way.trial.points[number : number + 1])[0]) / path.depth_m
+        distance = float(path.line.left_distances(self.way.trial.points[number : number + 1])[0])
+        if distance <= LENGTH_M:
+            return np.zeros(len(sweeps))
+        begin = 1.0 - distance / path.depth_m
         turned = math.pi * np.clip((sweeps - begin) / (2.0 - 2.0 * begin), 0.0, 1.0)
         heading = approach.heading_rad + self._base(self.first_stand).yaw_rad
         along = float(np.dot(path.line.direction, (math.cos(heading), math.sin(heading))))

@@ -62,6 +62,20 @@ def until(condition) -> None:
         time.sleep(0.005)
 
 
+class FailingStage(CountingStage):
+    """A stage that fails now and then, as one does while a visitor leaves it."""
+
+    def __init__(self, failures: int) -> None:
+        super().__init__(has_watchers=True)
+        self.failures = failures
+
+    def show_garment(self, *_: object) -> None:
+        self.failures -= 1
+        if self.failures >= 0:
+            raise RuntimeError("a visitor has just left")
+        self.lying += 1
+
+
 def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
     document, stage = towel_document(), CountingStage(has_watchers)
     player = Player(document, stage)
@@ -170,3 +184,26 @@ def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
         assert stage.scenes == [Scene(), high]
     finally:
         player.close()
+
+
+def test_what_could_not_be_drawn_is_drawn_anew(caplog: pytest.LogCaptureFixture) -> None:
+    document, stage = towel_document(), FailingStage(failures=1)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+    finally:
+        player.close()
+    assert "a visitor has just left" in caplog.text
+
+
+def test_what_fails_again_waits_for_the_next_change(caplog: pytest.LogCaptureFixture) -> None:
+    document, stage = towel_document(), FailingStage(failures=2)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.failures == 0)
+        assert stage.lying == 0
+        document.set_theme(is_dark=True)
+        until(lambda: stage.lying == 1)
+    finally:
+        player.close()
+    assert caplog.text.count("the stage could not be brought up to date") == 2

@@ -57,6 +57,19 @@ def test_its_grips_are_the_near_corners_the_left_arm_at_the_left():
     assert right.pick == pytest.approx((-0.75, -0.2, 0.02))
 
 
+def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other_folds():
+    # The line x = 0.2 ends in a notch at (0.2, 0.24); the corner (0.2, 0.3) of the part that moves is on its extension.
+    outline = ((0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.2, 0.24), (0.2, 0.3), (0.0, 0.2))
+    notched = garment(outline, fold((0.2, 0.0), (0.2, 0.24)), placement=Pose2(-0.75, 0.2, BACK))
+    step = folds_of(work(notched))[0]
+    left, right = step.grips
+    assert left.place == pytest.approx((-0.65, -0.2, 0.02))
+    for place in (right.pick, right.apex, right.place):
+        assert place == pytest.approx((-0.45, 0.0, 0.02))
+    still = [phase.hands[1] for phase in step.phases() if phase.hands[1] is not None]
+    assert {roll for hand in still for roll in hand.rolls_rad} == {0.0}
+
+
 def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it():
     # In reach only from 0.15 m back: 0.15 / 0.25 = 0.6 s more.
     far = WideReach(lambda arm, point, back_off: back_off == 3)
