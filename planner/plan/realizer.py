@@ -8,11 +8,12 @@ at which it was found is the quickest of all: the same that a search would find 
 The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
 either, and to be told so one by one would take long. So a spread of other ways to do the same is tried at once, begun
 and ended elsewhere, and in every state in which the hands would do the same those that are real take the place of all
-that the search had, but for what has turned out to be real before. So "infeasible" is no proof where steps were struck
-out.
+that the search had, but for what has turned out to be real before. What the same arms have failed at ten times,
+wherever it was, and never succeeded in, is tried no more. So "infeasible" is no proof where steps were struck out.
 """
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from planner.geometry.tolerance import TIME_S
@@ -23,6 +24,9 @@ from planner.primitives.state import State
 
 _SPREAD = 16
 """So many other ways to do the same are tried once one has failed."""
+
+_FAILURES_MAX = 10
+"""So often the same is tried by the same arms, here or elsewhere, if it never succeeds."""
 
 
 class OutOfTimeError(Exception):
@@ -49,6 +53,8 @@ class Realizer:
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
+        self._failures: Counter[tuple[object, ...]] = Counter()
+        self._succeeded: set[tuple[object, ...]] = set()
         self.struck: list[tuple[Step, ...]] = []
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
@@ -58,6 +64,8 @@ class Realizer:
             return
         situations: dict[tuple[object, ...], None] = {}
         for step in steps:
+            if self._failures[step.task] >= _FAILURES_MAX and step.task not in self._succeeded:
+                continue
             situation = step.situation
             situations[situation] = None
             if situation not in self._others or _key(step) in self._real_steps:
@@ -112,6 +120,9 @@ class Realizer:
                 self._made[tuple(_key(step) for step in (*before, other))] = made
                 self._least_s[_key(other)] = made.durations_s()[-1]
         self._others[culprit.situation] = tuple(others.values())
+        if others:
+            self._succeeded.add(culprit.task)
+        self._failures[culprit.task] += 1
 
     def _require_time(self) -> None:
         if self._is_over():
@@ -125,6 +136,7 @@ class Realizer:
             is_known &= duration_s <= known + TIME_S
             self._least_s[_key(step)] = max(duration_s, known)
             self._real_steps.add(_key(step))
+            self._succeeded.add(step.task)
         return is_known
 
 

@@ -107,6 +107,11 @@ class MoveStep:
         """A move is always made real by itself."""
         return (self.kind, self.before.key, self.after.key)
 
+    @property
+    def task(self) -> tuple[object, ...]:
+        """A move takes no hands."""
+        return (self.kind,)
+
     def begun_in(self, _state: State) -> "MoveStep":
         """A move begins where it begins."""
         return self
@@ -116,8 +121,10 @@ class MoveStep:
         return ()
 
     def again(self, work: Work, state: State) -> Iterable["MoveStep"]:
-        """A move to the same station."""
-        return work.kept(BaseMove).to(state, self.after.station)
+        """A move to the station of the same name, if there is one."""
+        wanted, _ = self.work.scene.stations[self.after.station]
+        named = (number for number, (name, _) in enumerate(work.scene.stations) if name == wanted)
+        return (step for number in named for step in work.kept(BaseMove).to(state, number))
 
 
 class BaseMove:

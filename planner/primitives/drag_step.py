@@ -119,6 +119,11 @@ class DragStep:
         length = self.after.back_off - self.first_stand
         return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, self.way.hands)
 
+    @property
+    def task(self) -> tuple[object, ...]:
+        """What it has in common with other drags of the same cloth by the same arms."""
+        return (self.kind, self.before.done, frozenset(self.way.arms))
+
     def begun_in(self, state: State) -> "DragStep":
         """The same from another state of the same situation."""
         return replace(self, before=state, after=replace(self.after, done=state.done))

@@ -96,6 +96,11 @@ class FoldStep:
         trial = self.way.trial
         return (self.kind, trial.fold, self.before.hold, self.before.station, self.before.place, trial.hands)
 
+    @property
+    def task(self) -> tuple[object, ...]:
+        """What it has in common with the same fold done by the same arms wherever the article lies."""
+        return (self.kind, self.way.trial.fold, frozenset(self.way.trial.arms))
+
     def begun_in(self, state: State) -> "FoldStep":
         """The same from another state of the same situation."""
         steps = self.driven + abs(self.first_stand - state.back_off)
@@ -117,10 +122,11 @@ class FoldStep:
         if not is_next or is_red_from_drag or geometric_obstacle(work, state, old.fold) is not None:
             return
         first, end = state.back_off if state.held else self.first_stand, self.after.back_off
+        is_on_grid = max(first, end) < work.back_offs
         orientation = dict(zip(old.arms, self.way.approaches, strict=True))
         for trial in by_nearness(old, fold_trials(work, state, old.fold)):
             same = FoldWay(trial, tuple(orientation.get(arm, -1) for arm in trial.arms))
-            if all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
+            if is_on_grid and all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
                 driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0][first, end])
                 if driven < IMPOSSIBLE:
                     yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))

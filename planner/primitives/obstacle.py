@@ -4,6 +4,7 @@ What stops a fold is noted with the state in which it did. What the arms could n
 which costs next to nothing: how far out of reach it was is worked out when somebody asks.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -70,10 +71,12 @@ class Obstacle:
         fold: the fold's index; None when it is about no fold.
         code: which constraint.
         message: a sentence with the numbers; empty where it is worked out when asked for.
-        severity: how far from possible it was (m, or of the friction coefficient), 0 just missed.
-        state: the state in which it did; None where that does not matter.
-        point: where, article frame (m); None where it is no one place.
+        severity: how far from possible it was (m, or of the friction coefficient), 0 just missed; infinite where that
+            is not known.
+        state: the state in which it did, of a drag that in which it begins; None where that does not matter.
+        point: where, article frame (m), of a drag what the hand holds; None where it is no one place.
         snag: of a collision what touches what, where that is known.
+        dragged_to: of a collision in a drag that the fold would need the offset to which that leads (m).
     """
 
     fold: int | None
@@ -83,6 +86,13 @@ class Obstacle:
     state: State | None = None
     point: Point2 | None = None
     snag: Snag | None = None
+    dragged_to: Point2 | None = None
+
+    def is_milder_than(self, other: "Obstacle") -> bool:
+        """Whether it was nearer to possible, by more than rounding."""
+        if math.isinf(other.severity):
+            return not math.isinf(self.severity)
+        return not math.isinf(self.severity) and grid_key(self.severity) < grid_key(other.severity)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -125,7 +135,10 @@ class Attempt:
 
 @dataclass(slots=True)
 class Obstacles:
-    """What stood in the folds' ways: for each fold, code and situation the mildest obstacle, and all attempts."""
+    """What stood in the folds' ways: for each fold, code and situation the mildest obstacle, and all attempts.
+
+    What stood in the way of a drag that a fold would need is kept beside what stood in the fold's own.
+    """
 
     _met: dict[tuple[object, ...], Obstacle] = field(default_factory=dict)
     _tried: dict[tuple[object, ...], list[Attempt]] = field(default_factory=dict)
@@ -133,9 +146,9 @@ class Obstacles:
     def note(self, obstacle: Obstacle) -> None:
         """Keep an obstacle if it is the mildest of its fold, code and situation so far."""
         where = None if obstacle.state is None else situation(obstacle.state)
-        key = (obstacle.fold, obstacle.code, where)
+        key = (obstacle.fold, obstacle.code, where, obstacle.dragged_to is None)
         known = self._met.get(key)
-        if known is None or grid_key(obstacle.severity) < grid_key(known.severity):
+        if known is None or obstacle.is_milder_than(known):
             self._met[key] = obstacle
 
     def note_attempt(self, attempt: Attempt) -> None:

@@ -61,6 +61,11 @@ class Step(Protocol):
         """What it has in common with the same done while the base stands elsewhere; see `begun_in`."""
         ...
 
+    @property
+    def task(self) -> tuple[object, ...]:
+        """What it has in common with the same done by the same arms wherever the article lies."""
+        ...
+
     def begun_in(self, state: State) -> "Step":
         """The same from another state of the same situation."""
         ...
