@@ -8,8 +8,9 @@ at which it was found is the quickest of all: the same that a search would find 
 The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
 either, and to be told so one by one would take long. So a spread of other ways to do the same is tried at once, begun
 and ended elsewhere, and in every state in which the hands would do the same those that are real take the place of all
-that the search had, but for what has turned out to be real before. What the same arms have failed at ten times,
-wherever it was, and never succeeded in, is tried no more. So "infeasible" is no proof where steps were struck out.
+that the search had, but for what has turned out to be real before. What the same arms have failed at several times from
+one station, wherever the cloth lay, and never succeeded in, is tried no more from there. So "infeasible" is no proof
+where steps were struck out.
 """
 
 import math
@@ -25,8 +26,8 @@ from planner.primitives.state import State
 _SPREAD = 16
 """So many other ways to do the same are tried once one has failed."""
 
-_FAILURES_MAX = 10
-"""So often the same is tried by the same arms, here or elsewhere, if it never succeeds."""
+_FAILURES_MAX = 8
+"""So often the same is tried from a station by the same arms, the cloth here or there, if it never succeeds."""
 
 
 class OutOfTimeError(Exception):

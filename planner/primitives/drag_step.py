@@ -121,8 +121,8 @@ class DragStep:
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with other drags of the same cloth by the same arms."""
-        return (self.kind, self.before.done, frozenset(self.way.arms))
+        """What it has in common with other drags of the same cloth from the same station by the same arms."""
+        return (self.kind, self.before.done, self.before.station, frozenset(self.way.arms))
 
     def begun_in(self, state: State) -> "DragStep":
         """The same from another state of the same situation."""

@@ -98,8 +98,8 @@ class FoldStep:
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with the same fold done by the same arms wherever the article lies."""
-        return (self.kind, self.way.trial.fold, frozenset(self.way.trial.arms))
+        """What it has in common with the same fold from the same station by the same arms, wherever the cloth lies."""
+        return (self.kind, self.way.trial.fold, self.before.station, frozenset(self.way.trial.arms))
 
     def begun_in(self, state: State) -> "FoldStep":
         """The same from another state of the same situation."""

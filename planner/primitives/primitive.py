@@ -63,7 +63,7 @@ class Step(Protocol):
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with the same done by the same arms wherever the article lies."""
+        """What it has in common with the same done from the same station by the same arms, wherever the cloth lies."""
         ...
 
     def begun_in(self, state: State) -> "Step":

@@ -12,7 +12,7 @@ import pytest
 from planner import Garment, Plan, Scene, make_plan
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
-from planner.plan import problem
+from planner.plan import problem, realizer
 from planner.plan.machine import Collisions
 from planner.plan.real_run import RunMaker
 from planner.primitives.obstacle import Code
@@ -184,6 +184,30 @@ def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch
     assert plan.status == "infeasible"
     assert (plan.reasons[0].fold, plan.reasons[0].code) == (0, Code.COLLISION)
     assert "cannot get them there" in plan.reasons[0].message
+
+
+def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
+    asked = []
+    planned(napkin(HALF), scene(IDLE_S))
+    for failures_max in (1, 1_000):
+        postures = [0]
+
+        def is_barred(arm: int, base: Pose2, postures: list[int] = postures) -> bool:
+            postures[0] += 1
+            return arm == 0
+
+        barred(monkeypatch, is_barred)
+        monkeypatch.setattr(realizer, "_FAILURES_MAX", failures_max)
+        plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
+        assert plan.status == "infeasible" and plan.reasons[0].code == Code.COLLISION
+        asked += postures
+    assert asked[0] < 0.9 * asked[1], "after one failure they do not try with the cloth elsewhere"
+
+
+def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch):
+    monkeypatch.setattr(realizer, "_FAILURES_MAX", 1)
+    barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
+    assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
 
 
 def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(monkeypatch):
