@@ -131,8 +131,19 @@ class DagPart(BaseModel):
     edges: list[tuple[int, int]]
 
 
+class ApproachAnswer(BaseModel):
+    """How a hand is turned: where its fingers point, in the frame of the base, and how far below the horizontal."""
+
+    heading_rad: float
+    pitch_rad: float
+
+
 class ReasonAnswer(BaseModel):
-    """Why there is no plan."""
+    """Why there is no plan.
+
+    Points and directions are in the table frame (m), `approach` in that of the base. `point` is where it is with the
+    cloth dragged by `offset_m`; `short_by_m` is but a lower bound where `is_at_least` is true.
+    """
 
     fold: int | None
     code: str
@@ -141,10 +152,13 @@ class ReasonAnswer(BaseModel):
     joint: str | None
     point: Point3 | None
     short_by_m: float | None
+    is_at_least: bool
     towards: Point3 | None
     arm: str | None
     station: str | None
     back_off_m: float | None
+    approach: ApproachAnswer | None
+    offset_m: Point | None
     shift_m: float | None
     shift_towards: Point3 | None
     comfort_m: float | None

@@ -6,6 +6,7 @@ from app.document_state import Answer, Checks, DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from planner.errors import FoldingError
+from planner.plan.plan import Statistics
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
@@ -79,9 +80,19 @@ def status_text(state: DocumentState) -> str:
         count = len(plan.primitives)
         return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
     if plan.status == "budget_exceeded":
-        return "No plan: the time for searching ran out"
+        return f"No plan: {_out_of_time(plan.statistics)}"
     first = next((reason.message for reason in plan.reasons if reason.message), None)
     return f"No plan: {first}" if first else "No plan"
+
+
+def _out_of_time(statistics: Statistics) -> str:
+    """How far a search came, and what would let it come further."""
+    states, bound_s = statistics.expanded, statistics.bound_s
+    known = "" if bound_s is None else f", and any plan takes at least {bound_s:.1f} s"
+    return (
+        f"the time for searching ran out: {states:,} state{'' if states == 1 else 's'} looked at{known}. "
+        "A longer limit would help, or fewer folds that may be done in any order"
+    )
 
 
 def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:

@@ -3,8 +3,12 @@
 Asked of the robot's own reach on a grid, all points at once for one approach after the other; where two neighbours
 differ, the place between them at which it changes is found by halving. What is found depends on neither the table's
 edges nor where the base stands, so one region serves for all of them.
+
+Half of the grid is further away than an arm is long, and to find that out for each place in each approach takes long.
+So a bound on how far it is out of reach is asked of one place in each block first: it says something of its neighbours.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -18,6 +22,9 @@ from planner.geometry.region import Region
 from planner.primitives.reach import Reach
 from planner.primitives.work import BACK_OFF_STEP_M
 from planner.robot.pr2 import load_robot
+
+_BLOCK = 4
+"""So many places along each side of a block."""
 
 HALVINGS = 4
 """The border of the region is found to this many halvings of the grid."""
@@ -72,15 +79,27 @@ def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: 
     """
     reach = load_robot(robot).reach(torso_m, comfort_m)
     height_m = table_height_m + REST_HEIGHT_M
-    arms = range(len(reach.arm_names))
-    return tuple(region_where(partial(_takeable, reach, arm, height_m)) for arm in arms)
+    return tuple(takeable_region(reach, arm, height_m) for arm in range(len(reach.arm_names)))
 
 
-def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH) -> Region:
-    """The region of the grid's rectangle in which a question is answered with yes, base frame."""
+def takeable_region(reach: Reach, arm: int, height_m: float) -> Region:
+    """Where an arm can take cloth so high over the floor (m), base frame."""
+    return region_where(partial(takeable, reach, arm, height_m), is_open=_may_be_in_reach(reach, arm, height_m))
+
+
+def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH, is_open: BoolArray | None = None) -> Region:
+    """The region of the grid's rectangle in which a question is answered with yes, base frame.
+
+    Args:
+        can_take: the question.
+        places: where it is asked.
+        is_open: at which of the places it need be, shape `places.counts`: at the others the answer is known to be no.
+    """
     nx, ny = places.counts
     grid = places.places
-    inside = can_take(grid.reshape(-1, 2)).reshape(nx, ny)
+    inside = np.zeros((nx, ny), dtype=np.bool_)
+    asked = np.ones_like(inside) if is_open is None else is_open
+    inside[asked] = can_take(grid[asked])
     along_x = _borders(can_take, grid[:-1], grid[1:], inside[:-1], inside[1:])
     along_y = _borders(can_take, grid[:, :-1], grid[:, 1:], inside[:, :-1], inside[:, 1:])
     whole = inside[:-1, :-1] & inside[1:, :-1] & inside[:-1, 1:] & inside[1:, 1:]
@@ -97,7 +116,19 @@ def in_approach(reach: Reach, arm: int, height_m: float, approach: int, points: 
     return np.asarray(reach.from_anywhere(arm, tools, np.array([approach]), 1, BACK_OFF_STEP_M)[0])
 
 
-def _takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> BoolArray:
+def _may_be_in_reach(reach: Reach, arm: int, height_m: float) -> BoolArray:
+    """At which places of the grid an arm may be in comfort in some approach, so high over the floor (m)."""
+    first = ALL_IN_REACH.places[::_BLOCK, ::_BLOCK]
+    tools = np.concatenate([first, np.full((*first.shape[:2], 1), height_m)], axis=-1).reshape(-1, 1, 3)
+    every = np.arange(len(reach.approaches))
+    short_by_m = reach.at_least_short(arm, tools, every, 1, BACK_OFF_STEP_M).reshape(first.shape[:2])
+    to_last_m = math.sqrt(2.0) * (_BLOCK - 1) * ALL_IN_REACH.step_m
+    blocks = short_by_m <= to_last_m
+    nx, ny = ALL_IN_REACH.counts
+    return np.asarray(blocks.repeat(_BLOCK, axis=0).repeat(_BLOCK, axis=1)[:nx, :ny])
+
+
+def takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> BoolArray:
     """At which points, shape (n, 2), an arm is in comfort in at least one approach."""
     found = np.zeros(len(points), dtype=np.bool_)
     left = np.arange(len(points))

@@ -2,14 +2,14 @@
 
 A reason says that an arm is so much short of a point, seen from a station; the point may be high over the table, and
 the hand is turned as suits its whole way. So this is not the reach over flat cloth but another region: of the plane at
-the point's own height, for the one orientation in which the point is short by what the reason says. Which that is the
-reason does not tell. It is found again by asking each orientation how far the point is out of comfort in it; where none
-answers with the reason's own number nothing is shown, for any region would be about something else.
+the point's own height, for the orientation in which the reason measured what is missing.
+
+The robot may have dragged the cloth by then, and the board shows it as it is drawn. So all is moved back by the drag,
+and lies over the cloth there as it does where the cloth would be.
 
 The region is looked for on a grid round the point, the finer the less is missing; the point is a place of the grid.
 """
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import Any
@@ -25,16 +25,10 @@ from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 from planner.plan.reason import Reason
-from planner.primitives.obstacle import Code
-from planner.primitives.reach import Reach
-from planner.robot.nearest_comfort import FINEST_M
 from planner.robot.pr2 import load_robot
 
 _STEPS, _CORNERS = 40, 96
 _LEAST_M, _MOST_M = 0.12, 0.4
-
-_SAME_M = 2 * FINEST_M
-"""Shortfalls that differ by no more are the same (m): each is settled to half of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +38,14 @@ class Lack:
     Attributes:
         arm: the arm's index.
         seen: the point in the base frame, the base standing where it comes closest (m).
-        towards: the unit direction in which the point would have to be displaced, base frame.
-        short_by_m: and how far (m).
-        base: that base, table frame.
+        approach: how the hand is turned.
+        short_by_m: how far the point would have to be displaced (m).
+        base: that base in the table frame, moved back by what the cloth had been dragged.
     """
 
     arm: int
     seen: Point3
-    towards: Point3
+    approach: Approach
     short_by_m: float
     base: Pose2
 
@@ -66,12 +60,10 @@ class NearReach:
     """The reach round a point, base frame.
 
     Attributes:
-        approach: the orientation of the hand.
         beyond: what of a disc round the point is out of comfort.
         edge: the lines at which that ends.
     """
 
-    approach: Approach
     beyond: Region
     edge: tuple[FloatArray, ...]
 
@@ -82,81 +74,60 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
         return None
-    reach = (ROBOT, moment.scene.torso_m, moment.comfort_m)
-    near = near_reach(*reach, lack)
-    if near is None or reason.point is None:
-        return None
+    near = near_reach(ROBOT, moment.scene.torso_m, moment.comfort_m, lack)
     base = moment.in_article(lack.base)
-    x, y = moment.to_article(np.array(reason.point[:2]))
+    to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
+    x, y = base.to_outer(np.array(lack.seen[:2]))
     return {
         "fold": reason.fold,
         "arm": reason.arm,
         "station": reason.station,
         "back_off_m": reason.back_off_m,
         "comfort_m": moment.comfort_m,
-        "point": [float(x), float(y), reason.point[2]],
-        "heading_rad": near.approach.heading_rad,
-        "pitch_rad": near.approach.pitch_rad,
+        "point": [float(x), float(y), lack.seen[2] - moment.scene.table.height_m],
+        "heading_rad": lack.approach.heading_rad,
+        "pitch_rad": lack.approach.pitch_rad,
         "radius_m": lack.radius_m,
-        "beyond": [
-            region_to_dict(part)
-            for part in near.beyond.moved(Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)).pieces
-        ],
+        "beyond": [region_to_dict(part) for part in near.beyond.moved(to_article).pieces],
         "edge": [base.to_outer(line).tolist() for line in near.edge],
     }
 
 
 @lru_cache(maxsize=16)
-def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> NearReach | None:
-    """The reach round a point in the orientation in which it lacks what is said; None where it lacks that in none.
+def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
+    """The reach round a point, the hand turned as it is.
 
     Args:
         robot: the robot's name.
         torso_m: how far the lift is raised (m).
         comfort_m: how much slack every reach has (m).
-        lack: the point, and what it lacks.
+        lack: the point, and how the hand is turned.
 
     Raises:
         SceneError: the lift does not go there.
     """
     reach = load_robot(robot).reach(torso_m, comfort_m)
-    approach = _approach(reach, lack)
-    if approach is None:
-        return None
     x, y, height_m = lack.seen
-    can_have = partial(in_approach, reach, lack.arm, height_m, approach)
+    can_have = partial(in_approach, reach, lack.arm, height_m, reach.approaches.index(lack.approach))
     had = region_where(can_have, Grid.about((x, y), lack.radius_m, _STEPS))
     disc = _disc((x, y), lack.radius_m)
     beyond = disc.difference(had)
-    return NearReach(reach.approaches[approach], beyond, _edge(beyond, disc))
+    return NearReach(beyond, _edge(beyond, disc))
 
 
 def _lack(moment: Moment, reason: Reason) -> Lack | None:
     """What a reason says is lacking; None if it is not about reach, or about a place that is not there any more."""
-    if reason.code is not Code.OUT_OF_REACH or None in (reason.point, reason.towards, reason.short_by_m):
+    point, approach, offset_m, short_by_m = reason.point, reason.approach, reason.offset_m, reason.short_by_m
+    if point is None or approach is None or offset_m is None or short_by_m is None:
         return None
-    assert reason.point is not None and reason.towards is not None and reason.short_by_m is not None
     arms = [arm.name for arm in load_robot(ROBOT).card.arms]
     stations = dict(moment.scene.stations)
     if reason.arm not in arms or reason.station not in stations:
         return None
     base = stations[reason.station].ahead(-(reason.back_off_m or 0.0))
-    over_floor = np.array(reason.point) + np.array([0.0, 0.0, moment.scene.table.height_m])
-    towards = Pose2(0.0, 0.0, base.yaw_rad).to_inner(np.array(reason.towards))
-    return Lack(arms.index(reason.arm), _point(base.to_inner(over_floor)), _point(towards), reason.short_by_m, base)
-
-
-def _approach(reach: Reach, lack: Lack) -> int | None:
-    """The orientation in which a point lacks what is said, most nearly so; None if it does in none."""
-    point, best, least = np.array([lack.seen]), None, _SAME_M
-    for approach in range(len(reach.approaches)):
-        found = reach.shortfall(lack.arm, point, np.array([approach]), lack.short_by_m + _SAME_M)
-        if found is None or math.dist(found.towards, lack.towards) > LENGTH_M:
-            continue
-        differs = abs(found.short_by_m - lack.short_by_m)
-        if differs <= least and not found.is_at_least:
-            best, least = approach, differs
-    return best
+    over_floor = np.array(point) + np.array([0.0, 0.0, moment.scene.table.height_m])
+    dx, dy = offset_m
+    return Lack(arms.index(reason.arm), _point(base.to_inner(over_floor)), approach, short_by_m, base.moved(-dx, -dy))
 
 
 def _disc(middle: Point2, radius_m: float) -> Region:

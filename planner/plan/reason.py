@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from planner.geometry.pose import Point3
+from planner.geometry.pose import Approach, Point2, Point3
 from planner.primitives.obstacle import Code
 
 
@@ -21,10 +21,14 @@ class Reason:
         point: where: of what is out of reach or collides the tool point, else a point of the cloth; table frame (m).
         short_by_m: by how much: how far the point, the line or the cloth would have to be displaced, how much wider a
             grip radius or the gap between two grips would have to be, how deep two parts are in each other (m).
+        is_at_least: whether `short_by_m` is but a number that it is at least: nothing nearer that was tried helps.
         towards: for what is out of reach the unit direction in which the point would have to be displaced, table frame.
         arm: for what is out of reach the arm that came closest; for a collision the arm that collides.
         station: for what is out of reach the station from which it came closest.
         back_off_m: and how far the base had backed off from there (m).
+        approach: for what is out of reach how that hand is turned there, base frame; `short_by_m` is measured in it.
+        offset_m: how far the cloth had been dragged from where it starts, (x, y) in the table frame (m): less this,
+            `point` is where it would be with the cloth where it starts. None where it does not matter how it lies.
         shift_m: for what is out of reach the least shift of all that the hands do that brings all of it into reach (m);
             None where none was found.
         shift_towards: the unit direction of that shift, table frame.
@@ -40,10 +44,13 @@ class Reason:
     joint: str | None = None
     point: Point3 | None = None
     short_by_m: float | None = None
+    is_at_least: bool = False
     towards: Point3 | None = None
     arm: str | None = None
     station: str | None = None
     back_off_m: float | None = None
+    approach: Approach | None = None
+    offset_m: Point2 | None = None
     shift_m: float | None = None
     shift_towards: Point3 | None = None
     comfort_m: float | None = None
@@ -53,6 +60,12 @@ class Reason:
     def to_dict(self) -> dict[str, Any]:
         """The reason as JSON."""
         found = {name: getattr(self, name) for name in self.__slots__}
-        for name in ("point", "towards", "shift_towards"):
+        for name in ("point", "towards", "offset_m", "shift_towards"):
             found[name] = None if found[name] is None else list(found[name])
-        return {**found, "code": self.code.value}
+        return {**found, "code": self.code.value, "approach": _turn(self.approach)}
+
+
+def _turn(approach: Approach | None) -> dict[str, float] | None:
+    if approach is None:
+        return None
+    return {"heading_rad": approach.heading_rad, "pitch_rad": approach.pitch_rad}

@@ -5,7 +5,8 @@ what a drag has left held. In each way one thing or several stand against it. A 
 stands against some way: mend it and the fold can be done. Of each kind the mildest is named. If in every way several
 things stand against the fold, those of the way that comes nearest are named together.
 
-A collision is met only where nothing else was wrong, so then it is the cause.
+A collision is met only where nothing else was wrong, so then it is the cause: one in the fold itself, or else one in
+a drag that it would need.
 
 Hands that do not suffice hide the rest: without grips there is no path to ask about. So that is a cause only where no
 way is known that fails by one thing alone: what cannot be held with free hands may be within reach when a drag has left
@@ -52,9 +53,9 @@ class Causes:
     def reasons(self) -> tuple[Reason, ...]:
         """The causes, the smallest repair first."""
         met = [o for o in self.work.obstacles.of(self.fold) if o.state is None or o.state.done in self.dones]
-        collision = next((o for o in met if o.code is Code.COLLISION), None)
-        if collision is not None:
-            return (of_obstacle(self.work, collision),)
+        collided = sorted((o for o in met if o.code is Code.COLLISION), key=lambda o: o.dragged_to is not None)
+        if collided:
+            return (of_obstacle(self.work, collided[0]),)
         found = list(self._alone(met)) or list(self._hands(met)) or list(self._together(met))
         return tuple(sorted(found, key=lambda reason: lacking(reason, self.work)))
 

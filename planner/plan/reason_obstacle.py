@@ -8,12 +8,12 @@ from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.plan.reason import Reason
+from planner.plan.reason_collision import collision_reason
 from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
 from planner.plan.reason_words import carried
 from planner.primitives.fold_trial import lifted_points
 from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
-from planner.primitives.obstacle import Code, Obstacle, Snag
-from planner.primitives.state import State
+from planner.primitives.obstacle import Code, Obstacle
 from planner.primitives.work import Work
 
 _LISTED_MAX = 4
@@ -22,6 +22,8 @@ _LISTED_MAX = 4
 
 def of_obstacle(work: Work, obstacle: Obstacle) -> Reason:
     """What an obstacle says, its numbers worked out."""
+    if obstacle.code is Code.COLLISION and obstacle.state is not None:
+        return collision_reason(work, obstacle, obstacle.state)
     if obstacle.fold is not None and obstacle.state is not None:
         if obstacle.code is Code.TOO_MANY_GRIPS:
             return _too_many_grips(work, obstacle.fold, obstacle.state.done)
@@ -30,8 +32,6 @@ def of_obstacle(work: Work, obstacle: Obstacle) -> Reason:
         if obstacle.code is Code.RED_NEEDS_HOLD:
             held = lifted_points(work, obstacle.state.done, obstacle.fold, obstacle.state.held)
             return _red_needs_hold(work, obstacle.fold, obstacle.state.done, tuple(held))
-        if obstacle.code is Code.COLLISION:
-            return _collision(work, obstacle.fold, obstacle.state, obstacle.snag)
     return _at_rest(work, obstacle)
 
 
@@ -59,32 +59,8 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
         message,
         point=point,
         short_by_m=None if is_slip else obstacle.severity,
+        offset_m=None if state is None else state.offset,
         needed_friction=work.scene.friction + obstacle.severity if is_slip else None,
-    )
-
-
-def _collision(work: Work, fold: int, state: State, snag: Snag | None) -> Reason:
-    label, station = work.sequence.folds[fold].label, work.scene.stations[state.station][0]
-    if snag is None:
-        message = (
-            f"{label}: from {station} the hands could be where they must, but the arms cannot get them there and along "
-            "their way without touching the table, the robot or each other"
-        )
-        return Reason(fold, Code.COLLISION, message + carried(state), station=station)
-    x, y, z = snag.point
-    message = (
-        f"{label}: from {station} all is in reach, but with the {snag.arm} gripper at ({x:.2f}, {y:.2f}) m, {z:.2f} m "
-        f"over the table, {snag.contact} at least, however the arm is bent{carried(state)}"
-    )
-    return Reason(
-        fold,
-        Code.COLLISION,
-        message,
-        cause=snag.cause,
-        point=snag.point,
-        short_by_m=snag.depth_m,
-        arm=snag.arm,
-        station=station,
     )
 
 

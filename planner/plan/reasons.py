@@ -5,12 +5,12 @@ last. Where every fold can be done, but not all of them one after the other, tho
 most were done.
 """
 
-import math
 from collections.abc import Collection, Iterator
 
 from planner.cloth.g_state import Unrest
 from planner.plan.reason import Reason
 from planner.plan.reason_causes import Causes
+from planner.plan.reason_collision import collisions
 from planner.plan.reason_obstacle import of_obstacle
 from planner.plan.reason_places import Places
 from planner.primitives.obstacle import Code, Obstacle, Situation, Snag
@@ -43,10 +43,8 @@ def reason_at_start(work: Work, unrest: Unrest) -> Reason:
 
 def note_collision(work: Work, step: Step, snag: Snag | None) -> None:
     """Remember that the arms cannot perform a step although its places are in reach, and what is in their way."""
-    fold = step.details.get("fold")
-    if fold is not None:
-        depth_m = math.inf if snag is None else snag.depth_m
-        work.obstacles.note(Obstacle(fold, Code.COLLISION, "", depth_m, step.before, snag=snag))
+    for obstacle in collisions(work, step, snag):
+        work.obstacles.note(obstacle)
 
 
 class _Reasons:
@@ -59,7 +57,12 @@ class _Reasons:
     def all(self) -> tuple[Reason, ...]:
         blocked = self._blocked()
         causes = [reason for fold in blocked for reason in self._causes(fold)]
-        return (*causes, *self._waiting(blocked))
+        return (*causes, *self._of_no_fold(), *self._waiting(blocked))
+
+    def _of_no_fold(self) -> Iterator[Reason]:
+        """A drag that the arms could not follow and that only another would have made useful, the mildest of them."""
+        met = sorted(self._work.obstacles.of(None), key=lambda obstacle: obstacle.severity)
+        yield from (of_obstacle(self._work, obstacle) for obstacle in met[:1])
 
     def _blocked(self) -> list[int]:
         """The folds that could come next but cannot be done."""

@@ -2,14 +2,39 @@
  * What the page knows: the document, its plan and playback as the server told them last, and what the reader looks at.
  * Parts listen to its events and call its verbs; none of them talks to another.
  *
- * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "hover-time", "preview",
- * "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
+ * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "pending", "hover-time",
+ * "preview", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
  */
 
 import { EditQueue } from "./edit_queue.js";
 import { Live } from "./live.js";
 
 /** @typedef {[number, number]} Point article frame, metres */
+/**
+ * A plan as it is on show: the REST's, and what it belongs to.
+ * @typedef {object} PlanOnShow
+ * @property {number} version of the document, whose plan it is
+ * @property {boolean} is_stale whether the document has gone on since
+ * @property {boolean} is_final whether no quicker one is looked for any more
+ * @property {string} id
+ * @property {"solved"|"infeasible"|"budget_exceeded"} status
+ * @property {number|null} cost_s
+ * @property {any[]} primitives
+ * @property {any} dag
+ * @property {any[]} final_layers
+ * @property {any} final_placement
+ * @property {any[]} reasons
+ * @property {any} statistics
+ */
+/**
+ * @typedef {object} PlanMessage
+ * @property {number} version the document's
+ * @property {"planning"|"solved"|"infeasible"|"budget_exceeded"|"illegal"|"failed"} status
+ * @property {string} text
+ * @property {PlanOnShow|null} plan while it is being planned the one before
+ * @property {{version: number, status: string, cost_s: number|null}|null} before
+ * @property {{version: number, folds: any[]}|null} checks
+ */
 /**
  * @typedef {{kind: "vertex"|"edge"|"fold"|"garment", ids: string[]}} Selection
  * An edge is named by the vertex that it starts at.
@@ -22,7 +47,7 @@ export class Store extends EventTarget {
     this.id = id;
     /** @type {any} the server's `document` message */
     this.state = null;
-    /** @type {any} the server's `plan` message */
+    /** @type {PlanMessage|null} */
     this.plan = null;
     /** @type {any} the server's `playback` message */
     this.playback = null;
@@ -33,6 +58,8 @@ export class Store extends EventTarget {
     this.step = 0;
     /** @type {Set<string>} */
     this.overlays = new Set();
+    /** @type {string[]} the overlays of them that are being worked out and were not known before */
+    this.pending = [];
     /** @type {number|null} seconds */
     this.hoverTime = null;
     /** @type {any} a suggestion's change that is pointed at */
@@ -118,6 +145,13 @@ export class Store extends EventTarget {
     if (on) this.overlays.add(name);
     else this.overlays.delete(name);
     this.tell("overlays");
+  }
+
+  /** @param {string[]} names */
+  setPending(names) {
+    if (names.join() === this.pending.join()) return;
+    this.pending = names;
+    this.tell("pending");
   }
 
   /** @param {number|null} t_s */

@@ -137,6 +137,38 @@ def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> No
     assert told == ["\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: too far."]
 
 
+def test_when_time_ran_out_the_pill_is_brief_and_the_dock_says_how_far_the_search_came(
+    page: Page, designer: Served
+) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { explanation, headline } = await import("/static/js/dock/reasons.js");
+          const text = "No plan: the time for searching ran out: 7 states looked at. More time would help";
+          const message = { status: "budget_exceeded", text, plan: { reasons: [] } };
+          const state = { drawing: { folds: [] }, problems: [] };
+          return [headline(message, state), explanation(message, state)];
+        }"""
+    )
+    brief = "The time for searching ran out"
+    assert told == [f"{brief}.", f"{brief}: 7 states looked at. More time would help."]
+
+
+def test_what_is_short_at_least_is_said_to_be(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { sentence } = await import("/static/js/dock/reasons.js");
+          const reason = { fold: 0, code: "out_of_reach", cause: "too_far", arm: "left", short_by_m: 0.8 };
+          return [true, false].map((is_at_least) => sentence({ ...reason, is_at_least }, [{ name: "half" }]));
+        }"""
+    )
+    assert told == [
+        "Half: the left hand is at least 80 cm short (too far).",
+        "Half: the left hand is 80 cm short (too far).",
+    ]
+
+
 def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet(towel(placement={**FAR, "x_m": -0.1}))
     sheet.edit(keep_front_alone)

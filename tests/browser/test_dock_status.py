@@ -1,9 +1,11 @@
 """The status pill, and how waiting for a plan shows."""
 
+import json
+import re
 from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import BrowserContext, Page, WebSocketRoute, expect
 
 from tests.app.conftest import Served
 from tests.browser.conftest import Garment, Sheet
@@ -27,6 +29,71 @@ WAITING = """async (millis) => {
 def test_planning_shows_only_when_it_takes_long(page: Page, designer: Served, millis: int, wait: str) -> None:
     page.goto(f"{designer.url}/static/icon.svg")
     assert page.evaluate(WAITING, millis) == [wait, ""]
+
+
+REFINING = """async (ids) => {
+  const { Refining } = await import("/static/js/dock/refining.js");
+  const store = Object.assign(new EventTarget(), { isLive: true, state: { version: 2 } });
+  const refining = new Refining(store);
+  const tell = (id, isFinal) => {
+    store.plan = { status: "solved", plan: { id, version: 2, is_final: isFinal } };
+    store.dispatchEvent(new Event("plan"));
+  };
+  for (const id of ids) {
+    tell(id, false);
+    await new Promise((resolve) => setTimeout(resolve, 500));
+  }
+  const waited = refining.isLong;
+  tell(ids.at(-1), true);
+  return [waited, refining.isLong];
+}"""
+
+
+@pytest.mark.parametrize(("ids", "is_told"), [("a", False), ("aaa", True), ("abc", False)])
+def test_that_a_quicker_plan_is_looked_for_is_told_once_a_plan_has_stayed_for_a_second(
+    page: Page, designer: Served, ids: str, is_told: bool
+) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    assert page.evaluate(REFINING, list(ids)) == [is_told, False]
+
+
+def test_while_a_quicker_plan_is_looked_for_the_one_on_show_can_be_kept(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.route_web_socket("**/live", still_looking)
+    page.goto(new_sheet(napkin()).page_url)
+    status, numbers = page.get_by_role("status"), page.get_by_role("region", name="Numbers")
+    expect(numbers).to_contain_text("Looking for a quicker plan")
+    expect(status).to_have_text(re.compile(r"^Planned: \d primitives, [\d.]+ s$"))
+    keep = page.get_by_role("button", name="Stop")
+    expect(keep).to_have_attribute("title", "Keep this plan")
+    before = status.inner_text()
+    keep.click()
+    expect(numbers).not_to_contain_text("Looking for a quicker plan")
+    expect(keep).to_be_hidden()
+    assert status.inner_text() == before
+
+
+def still_looking(page: WebSocketRoute) -> None:
+    """A server that looks for a quicker plan until it is told to stop."""
+    server = page.connect_to_server()
+    last: list[str] = []
+
+    def tell(text: str) -> None:
+        message = json.loads(text)
+        if message["kind"] == "plan" and message["plan"] is not None:
+            last[:] = [text]
+            message["plan"]["is_final"] = False
+        page.send(json.dumps(message))
+
+    def hear(text: str) -> None:
+        if json.loads(text) == {"do": "stop"}:
+            page.send(last[0])
+        else:
+            server.send(text)
+
+    server.on_message(tell)
+    page.on_message(hear)
 
 
 def test_a_lost_connection_is_told_and_the_player_rests(

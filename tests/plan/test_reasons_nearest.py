@@ -75,6 +75,35 @@ def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere
         assert not work.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, work.back_offs, 0.05).any()
 
 
+@pytest.mark.parametrize("name", ["scarf", "low"])
+def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name):
+    (reason, *_) = refused(*PROBLEMS[name]).reasons
+    work = _met(name)
+    arm, approaches = work.reach.arm_names.index(reason.arm), list(work.reach.approaches)
+    turned = np.array([approaches.index(reason.approach)])
+    base = dict(work.scene.stations)[reason.station].ahead(-reason.back_off_m)
+    over_floor = np.array([0.0, 0.0, work.scene.table.height_m])
+    lengths = np.arange(0.0, reason.short_by_m + 0.0025, 0.001)
+    way = np.array(reason.point) + lengths[:, None] * np.array(reason.towards)
+    is_there = work.reach.from_anywhere(arm, base.to_inner(way + over_floor), turned, 1, 0.0)[0]
+    assert is_there[-1] and not is_there[lengths < reason.short_by_m - 0.002].any()
+
+
+def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts():
+    # One hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on.
+    # It rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
+    scarf = load_garment("scarf-halved")
+    reason = refused(scarf).reasons[0]
+    assert math.hypot(*reason.offset_m) > 0.05
+    x_m, y_m, height_m = reason.point
+    dragged_x_m, dragged_y_m = reason.offset_m
+    across, along = scarf.placement.to_inner(np.array([x_m - dragged_x_m, y_m - dragged_y_m]))
+    assert across == pytest.approx(0.254 / 2)
+    assert height_m == pytest.approx(0.02 + min(along, 1.524 - along))
+    told_x, told_y = (round(length, 2) + 0.0 for length in reason.offset_m)
+    assert f"(the cloth dragged by ({told_x:.2f}, {told_y:.2f}) m" in reason.message
+
+
 def test_a_reason_is_the_same_every_time():
     first, second = (refused(*PROBLEMS["scarf"]).to_dict()["reasons"] for _ in range(2))
     assert first == second

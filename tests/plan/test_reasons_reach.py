@@ -23,7 +23,10 @@ def test_a_grip_too_far_ahead_is_short_by_what_it_is_beyond_the_straight_arm():
     assert reason.short_by_m == pytest.approx(0.05, abs=0.0015)
     assert reason.point == pytest.approx((FURTHEST_X + 0.02, 0.188, 0.02))
     assert (reason.towards, reason.arm) == (pytest.approx((-1.0, 0.0, 0.0)), "left")
-    assert (reason.station, reason.back_off_m) == ("front", 0.0)
+    assert (reason.station, reason.back_off_m, reason.offset_m) == ("front", 0.0, (0.0, 0.0))
+    # It is pinched from beyond, which of the hand's orientations only straight down allows.
+    assert reason.approach.pitch_rad == pytest.approx(math.pi / 2)
+    assert not reason.is_at_least and "at least" not in reason.message
     assert "the left grip at (-0.16, 0.19) m, 0.02 m over the table where it is picked up" in reason.message
     assert "0.05 m out of reach (too far); closest: front, backed off 0.00 m" in reason.message
     assert "nearer to the robot: move the cloth or the station" in reason.message
@@ -83,6 +86,7 @@ def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
     scene = replace(fixed(approach_cone_rad=0.0), table=Table(height_m=LEVEL_M, depth_m=2.4))
     (reason,) = refused(cloth, scene).reasons
     assert (reason.code, reason.cause) == (Code.OUT_OF_REACH, "too_near")
+    assert reason.approach.heading_rad == pytest.approx(0.0)
     # However the shoulder pans, the wrist is at most so far from the lift axis; the elbow, bent by 2.3213 rad at most,
     # lets it come no nearer than `nearest`.
     nearest = math.sqrt(0.4**2 + 0.321**2 + 2 * 0.4 * 0.321 * math.cos(2.3213))
@@ -125,7 +129,7 @@ def test_what_is_far_away_is_short_by_at_least_its_distance():
     assert (reason.code, reason.cause) == (Code.OUT_OF_REACH, "too_far")
     assert reason.short_by_m >= 2.0 - (0.1 + 0.4 + 0.321 + 0.18)
     assert reason.shift_m is None
-    assert "at least" in reason.message and "so that it is nearer" in reason.message
+    assert reason.is_at_least and "at least" in reason.message and "so that it is nearer" in reason.message
 
 
 def test_where_no_shift_would_do_the_reason_says_so():

@@ -130,3 +130,12 @@ def test_every_reason_is_json_with_plain_numbers():
         numbers = [reason[name] for name in ("short_by_m", "back_off_m", "shift_m") if reason[name] is not None]
         assert all(type(number) is float and np.isfinite(number) for number in numbers)
         assert all(reason[name] is None or len(reason[name]) == 3 for name in ("point", "towards", "shift_towards"))
+        assert type(reason["is_at_least"]) is bool
+        is_of_reach = reason["code"] == "out_of_reach"
+        assert (reason["offset_m"] is not None) == (reason["approach"] is not None) == is_of_reach
+        if is_of_reach:
+            assert [type(length) for length in reason["offset_m"]] == [float, float]
+            assert {name: type(angle) for name, angle in reason["approach"].items()} == {
+                "heading_rad": float,
+                "pitch_rad": float,
+            }

@@ -9,7 +9,7 @@ const CROSS_PX = 6;
 export function drawChecks(board) {
   const checks = board.store.plan?.checks;
   const index = board.foldLookedAt;
-  if (board.isPlacing || index === null || checks?.version !== board.state.version) return [];
+  if (board.isPlacing || index === null || !checks || checks.version !== board.state.version) return [];
   const found = checks.folds[index];
   if (!found) return [];
   return [

@@ -1,12 +1,13 @@
 /**
  * The picture of why there is no plan: a cross where the hand should be, an arrow as long as what is missing, and beyond
  * the edge of that hand's reach the board is hatched. The reach is that at the height where the hand should be, turned as
- * it would have to be there: the server finds it, and tells of nothing where it does not know.
+ * it would have to be there: the server finds it. The robot may have dragged the cloth by then, and the board shows it
+ * where it starts: all is drawn as far back as it was dragged.
  */
 
 import { dimension } from "./draw_dimension.js";
 import { crossAt } from "./draw_findings.js";
-import { plus, times, toInner } from "./geometry.js";
+import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
@@ -15,10 +16,9 @@ const CROSS_PX = 8;
 const ON_TABLE_M = 0.05;
 /** A direction with less of it along the table than this is not shown on the board. */
 const LEVEL = 0.5;
-/** How far words are below the hatching and beside the cross, and how wide a letter is at most on average (px). */
+/** How far words are below the hatching, and half as far as below the cross; how wide a letter is at most (px). */
 const BELOW_PX = 14;
-const BESIDE_PX = 16;
-const LETTER_PX = 7;
+const LETTER_PX = 7.5;
 
 /** The first reason that has a place, as long as it is one for what is drawn. @param {import("../store.js").Store} store */
 export function reasonWithPlace({ plan: message }) {
@@ -31,12 +31,12 @@ export function reasonWithPlace({ plan: message }) {
 export function drawReason(board) {
   const reason = board.draft ? null : reasonWithPlace(board.store);
   if (!reason) return [];
-  const placement = board.drawing.placement;
-  const from = board.view.toPx(toInner(placement, reason.point.slice(0, 2)));
+  const toPx = (point) => board.view.toPx(toInner(board.drawing.placement, minus(point, reason.offset_m ?? [0, 0])));
+  const from = toPx(reason.point);
   const items = [
     ...beyondReach(board, reason),
     crossAt("reason", from, CROSS_PX),
-    ...shortfall(board.view, placement, reason, from),
+    ...shortfall(board.view, reason, from, toPx),
   ];
   if (reason.arm)
     items.push({
@@ -71,26 +71,31 @@ function beyondReach({ overlays, state, view }, { cause }) {
       tag: "text",
       class: "beyond-text",
       x: inside(x, text, view),
-      y: Math.max(Math.min(y + found.radius_m * view.scale, view.height - 4 * BELOW_PX), y) + BELOW_PX,
+      y: Math.max(Math.min(y + found.radius_m * view.scale, view.height - 4 * BELOW_PX), y + 2 * BELOW_PX) + BELOW_PX,
       text,
     },
   ];
 }
 
-/** How much is missing: along the table as an arrow, upwards or downwards in words alone. */
-function shortfall(view, placement, { point, towards, short_by_m: short }, from) {
+/** How much is missing: along the table as an arrow, upwards or downwards in words alone; they stay on the board. */
+function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtLeast }, from, toPx) {
   if (!towards || !short) return [];
+  const by = `${isAtLeast ? "at least " : ""}${length(short)}`;
   const high = point[2] >= ON_TABLE_M ? `, ${length(point[2])} up` : "";
   if (Math.hypot(towards[0], towards[1]) < LEVEL) {
-    const text = `${length(short)} too ${towards[2] < 0 ? "high" : "low"}${high}`;
-    const item = { key: "missing", tag: "text", class: "reason-text", text };
-    const isRoomy = from[0] + BESIDE_PX + text.length * LETTER_PX < view.width;
-    if (isRoomy) return [{ ...item, x: from[0] + BESIDE_PX, y: from[1] + 4 }];
-    return [{ ...item, "text-anchor": "middle", x: inside(from[0], text, view), y: from[1] + 2 * BELOW_PX }];
+    const text = `${by} too ${towards[2] < 0 ? "high" : "low"}${high}`;
+    return [{ key: "missing", tag: "text", class: "reason-text", ...below(from, text, view) }];
   }
-  const [x, y] = plus(point, times(towards, short));
-  return dimension("missing", from, view.toPx(toInner(placement, [x, y])), `${length(short)} short${high}`);
+  const tip = toPx(plus(point, times(towards, short)));
+  const [arrow, words] = dimension("missing", from, tip, `${by} short${high}`);
+  return [arrow, isOn(tip, view) ? words : { ...words, ...below(from, words.text, view) }];
 }
+
+/** Words below a place. */
+const below = ([x, y], text, view) => {
+  return { text, "text-anchor": "middle", x: inside(x, text, view), y: y + 2 * BELOW_PX };
+};
+const isOn = ([x, y], { width, height }) => x >= 0 && x <= width && y >= 0 && y <= height;
 
 /** The middle of words, so that all of them are on the board. */
 function inside(x, text, { width }) {

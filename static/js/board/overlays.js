@@ -18,6 +18,9 @@ export class Overlays {
     this.places = null;
     this.asked = "";
     this.askedPlaces = "";
+    /** @type {string[]} what `found` was asked for */
+    this.known = [];
+    this.isMapping = false;
     this.stopPlaces = new AbortController();
     const { store } = board;
     for (const name of ["overlays", "plan", "playback", "hover-time", "document"])
@@ -37,9 +40,10 @@ export class Overlays {
   /** Ask soon, unless all is known already. */
   look() {
     this.lookForPlaces();
-    if (!this.wanted.length) this.found = null;
-    if (!this.wanted.length || this.timer !== undefined || this.query === this.asked) return;
-    this.timer = setTimeout(() => this.ask(), this.found ? EVERY_MS : 0);
+    if (!this.wanted.length) this.forget();
+    const isKnown = !this.wanted.length || this.query === this.asked;
+    if (!isKnown && this.timer === undefined) this.timer = setTimeout(() => this.ask(), this.found ? EVERY_MS : 0);
+    this.tellPending();
   }
 
   /** What is asked for now; the same again has the same answer. */
@@ -55,13 +59,26 @@ export class Overlays {
   }
 
   async ask() {
-    const query = this.query;
+    const [query, names] = [this.query, this.wanted];
     this.asked = query;
-    const answer = await fetch(`${this.board.store.path}/overlays?${query.split("#")[0]}`).catch(() => null);
+    const found = await told(`${this.board.store.path}/overlays?${query.split("#")[0]}`);
     this.timer = undefined;
-    this.found = answer?.ok ? await answer.json() : null;
+    this.found = found;
+    this.known = found ? names : [];
     this.board.render();
     this.look();
+  }
+
+  forget() {
+    this.found = null;
+    this.known = [];
+  }
+
+  /** Say what is switched on and not there yet. */
+  tellPending() {
+    const isAsking = this.timer !== undefined;
+    const parts = isAsking ? this.shown.filter((name) => !this.known.includes(name)) : [];
+    this.board.store.setPending(this.isMapping ? [...parts, "places"] : parts);
   }
 
   async lookForPlaces() {
@@ -71,13 +88,17 @@ export class Overlays {
     if (key === this.askedPlaces) return;
     this.askedPlaces = key;
     this.places = null;
+    this.isMapping = false;
     this.stopPlaces.abort();
     if (!isOn || store.state.gesture) return;
     this.stopPlaces = new AbortController();
     const { signal } = this.stopPlaces;
-    const answer = await fetch(`${store.path}/overlays/places?step_m=0.1`, { signal }).catch(() => null);
+    this.isMapping = true;
+    const places = await told(`${store.path}/overlays/places?step_m=0.1`, { signal });
     if (key !== this.askedPlaces) return;
-    this.places = answer?.ok ? await answer.json() : null;
+    this.places = places;
+    this.isMapping = false;
+    this.tellPending();
     this.board.render();
   }
 
@@ -89,3 +110,9 @@ export class Overlays {
     return drawOver(this.board, this.shown.length ? this.found : null);
   }
 }
+
+/** What the server answers; null where it does not, or is not waited for. @param {string} url @param {RequestInit} how */
+const told = (url, how = {}) =>
+  fetch(url, how)
+    .then((answer) => (answer.ok ? answer.json() : null))
+    .catch(() => null);

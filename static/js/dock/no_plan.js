@@ -1,7 +1,7 @@
 /** What stands where the plan would be: one sentence, what would help as buttons, and all the reasons on demand. */
 
 import { button, element } from "../dom.js";
-import { details, headline } from "./reasons.js";
+import { details, explanation } from "./reasons.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { ranked, SuggestionSearch } from "./suggestion_search.js";
 
@@ -36,7 +36,7 @@ export class NoPlan {
    * @param {any} state of kind `document`
    */
   show(message, state) {
-    this.sentence.textContent = headline(message, state);
+    this.sentence.textContent = explanation(message, state);
     const all = details(message, state);
     this.all.replaceChildren(...all.map((text) => element("li", "", text)));
     this.why.hidden = all.length === 0;
@@ -46,7 +46,7 @@ export class NoPlan {
   follow() {
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
-    const rests = isAnswered && SEARCHABLE.has(message.status);
+    const rests = isAnswered && SEARCHABLE.has(message?.status ?? "");
     const wanted = rests ? state.version : null;
     if (wanted === this.searched) return;
     this.searched = wanted;

@@ -7,6 +7,7 @@ import { numbers } from "./numbers.js";
 import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
+import { Refining } from "./refining.js";
 
 export class Outcome {
   /**
@@ -26,10 +27,12 @@ export class Outcome {
     this.place = new BestPlace(store);
     this.none = new NoPlan(store);
     this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
-    this.stop.title = "Stop planning; the next change is planned again";
-    const planning = new Planning(store);
-    planning.addEventListener("change", () => this.offerStop(planning.wait));
-    this.offerStop(planning.wait);
+    this.refined = element("p", "refined hint");
+    this.refined.setAttribute("aria-live", "polite");
+    this.planning = new Planning(store);
+    this.refining = new Refining(store);
+    for (const waiting of [this.planning, this.refining]) waiting.addEventListener("change", () => this.offerStop());
+    this.offerStop();
     const head = element("header", "dock-head", this.title, this.none.why, this.place.button, this.stop);
     const plan = element("div", "plan-scroll", this.place.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
@@ -38,9 +41,12 @@ export class Outcome {
     this.show();
   }
 
-  /** @param {string} wait */
-  offerStop(wait) {
-    this.stop.hidden = wait !== "long";
+  offerStop() {
+    const isPlanning = this.planning.wait === "long";
+    const isRefining = this.refining.isLong;
+    this.stop.hidden = !isPlanning && !isRefining;
+    this.stop.title = isPlanning ? "Stop planning; the next change is planned again" : "Keep this plan";
+    this.refined.textContent = isRefining ? "Looking for a quicker plan\u2026" : "";
   }
 
   show() {
@@ -51,7 +57,7 @@ export class Outcome {
     this.none.follow();
     if (message && message.status === "planning" && !plan) this.wait();
     else if (isNone) this.showNone(message, state);
-    else if (plan) this.showPlan(plan, message.before);
+    else if (plan) this.showPlan(plan, message?.before);
   }
 
   /** There is neither a plan nor a reason why not; a reason of before stays until then. */
@@ -79,7 +85,8 @@ export class Outcome {
     this.empty.textContent = "Nothing to do: there are no folds yet.";
     this.place.button.hidden = plan.primitives.length === 0;
     this.numbers.hidden = plan.primitives.length === 0;
-    this.numbers.replaceChildren(...numbers(plan, before));
+    const [cost, ...rest] = numbers(plan, before);
+    this.numbers.replaceChildren(cost, this.refined, ...rest);
   }
 
   /** @param {boolean} isNone */

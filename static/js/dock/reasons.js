@@ -42,8 +42,20 @@ export function headline(message, state) {
   if (message.status === "budget_exceeded") return "The time for searching ran out.";
   const first = (message.plan?.reasons ?? []).find((reason) => reason.message);
   if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
-  return `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
+  return told(message);
 }
+
+/**
+ * The same with all that helps where there is more room: how far a search came that did not come to an end.
+ * @param {any} message of kind `plan`
+ * @param {any} state of kind `document`
+ */
+export function explanation(message, state) {
+  return message.status === "budget_exceeded" ? told(message) : headline(message, state);
+}
+
+/** What the server says, as a sentence. */
+const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
 
 /**
  * Everything that is known about why, in the planner's words.
@@ -54,8 +66,8 @@ export function details(message, state) {
   const { folds } = state.drawing;
   if (state.problems.some((problem) => problem.code === "outline_unfinished")) return [];
   if (message.status === "illegal") return state.problems.map((problem) => problemSentence(problem, state.drawing));
-  const told = (message.plan?.reasons ?? []).map((reason) => reason.message).filter(Boolean);
-  return told.map((text) => `${capital(spoken(text, folds))}.`);
+  const all = (message.plan?.reasons ?? []).map((reason) => reason.message).filter(Boolean);
+  return all.map((text) => `${capital(spoken(text, folds))}.`);
 }
 
 function problemSentence(problem, drawing) {
@@ -77,12 +89,12 @@ const enough = (radius) => length(Math.ceil(1000 * radius) / 1000);
 const firstClause = (text) => text.split(";")[0];
 
 function outOfReach(reason) {
-  const { arm, station, short_by_m: short, comfort_m: comfort } = reason;
+  const { arm, station, short_by_m: short, is_at_least: isAtLeast, comfort_m: comfort } = reason;
   if (reason.cause === "comfort_only") {
     return `within reach${from(station)} only with ${length(comfort ?? 0)} of comfort (${limit(reason) || "too far"})`;
   }
   const why = [cause(reason), limit(reason)].filter(Boolean).join(", ");
-  const by = short ? `${length(short)} short` : "out of reach";
+  const by = short ? `${isAtLeast ? "at least " : ""}${length(short)} short` : "out of reach";
   return `the ${arm ?? "nearest"} hand is ${by}${why ? ` (${why})` : ""}${from(station)}`;
 }
 

@@ -12,6 +12,9 @@ const SWITCHES = [
   ["places", "Cost map", "What the plan costs wherever the garment could lie"],
 ];
 
+/** What takes less time than this needs no word (ms). */
+const NOTICED_MS = 200;
+
 /**
  * @param {import("../store.js").Store} store
  * @returns {HTMLElement}
@@ -28,8 +31,19 @@ export function seeWhy(store) {
       made.setAttribute("aria-pressed", String(store.overlays.has(made.dataset.overlay ?? "")));
     }
   });
+  const wait = element("span", "see-why-wait hint");
+  wait.setAttribute("aria-live", "polite");
+  let timer = 0;
+  store.addEventListener("pending", () => {
+    for (const made of switches) {
+      made.setAttribute("aria-busy", String(store.pending.includes(made.dataset.overlay ?? "")));
+    }
+    clearTimeout(timer);
+    if (!store.pending.length) wait.textContent = "";
+    else timer = setTimeout(() => wait.replaceChildren("Working it out\u2026"), NOTICED_MS);
+  });
   const name = element("span", "see-why-name", "See why");
-  const root = element("div", "see-why", name, element("span", "chips", ...switches));
+  const root = element("div", "see-why", name, element("span", "chips", ...switches), wait);
   root.setAttribute("role", "group");
   root.setAttribute("aria-label", "See why");
   return root;

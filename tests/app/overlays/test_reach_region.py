@@ -1,9 +1,10 @@
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
-from app.overlays.reach_region import reach_regions, region_where
+from app.overlays.reach_region import reach_regions, region_where, takeable, takeable_region
 from planner import load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
@@ -51,6 +52,16 @@ def test_holes_and_separate_parts_are_kept():
 
 def test_where_nothing_can_be_reached_the_region_is_empty():
     assert region_where(lambda points: np.zeros(len(points), dtype=bool)).area == 0.0
+
+
+@pytest.mark.parametrize(("torso_m", "height_m"), [(0.29, 0.79), (0.0, 0.5)])
+def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: float):
+    reach = load_robot("pr2").reach(torso_m, 0.02)
+    for arm in range(2):
+        asked = partial(takeable, reach, arm, height_m)
+        quick, plain = takeable_region(reach, arm, height_m), region_where(asked)
+        assert plain.area > 0.3
+        assert quick.difference(plain).area + plain.difference(quick).area == 0.0
 
 
 def test_both_arms_reach_mirror_images(bare: tuple[Region, ...]):

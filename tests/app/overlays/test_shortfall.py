@@ -5,10 +5,11 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
+import shapely
 
 from app.overlays.shortfall import Lack, NearReach, near_reach
 from planner import load_garment
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.robot.pr2 import load_robot
 
 pytestmark = pytest.mark.anyio
@@ -24,21 +25,27 @@ FAR_AHEAD, FAR_ASIDE, TOO_HIGH = ((0.95, 0.15, 0.81), 6), ((0.5, 0.95, 0.81), 52
 def lack(point: tuple[float, float, float], approach: int) -> Lack:
     found = load_robot("pr2").reach(TORSO_M, COMFORT_M).shortfall(0, np.array([point]), np.array([approach]))
     assert found is not None and not found.is_at_least
-    return Lack(0, point, found.towards, found.short_by_m, HERE)
+    return Lack(0, point, load_robot("pr2").reach(TORSO_M, COMFORT_M).approaches[approach], found.short_by_m, HERE)
+
+
+def towards(lacking: Lack) -> FloatArray:
+    """The direction in which a point would have to be displaced, base frame."""
+    reach = load_robot("pr2").reach(TORSO_M, COMFORT_M)
+    approach = np.array([reach.approaches.index(lacking.approach)])
+    found = reach.shortfall(lacking.arm, np.array([lacking.seen]), approach)
+    assert found is not None
+    return np.array(found.towards)
 
 
 def near(lacking: Lack) -> NearReach:
-    found = near_reach("pr2", TORSO_M, COMFORT_M, lacking)
-    assert found is not None
-    return found
+    return near_reach("pr2", TORSO_M, COMFORT_M, lacking)
 
 
 @pytest.mark.parametrize(("point", "approach"), [FAR_AHEAD, FAR_ASIDE])
 def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tuple[float, float, float], approach: int):
     lacking = lack(point, approach)
     found = near(lacking)
-    assert found.approach == load_robot("pr2").reach(TORSO_M, COMFORT_M).approaches[approach]
-    start, along = np.array(point[:2]), np.array(lacking.towards[:2])
+    start, along = np.array(point[:2]), towards(lacking)[:2]
     assert np.hypot(*along) == pytest.approx(1.0)
     # The shortfall is known to 1 mm; the grid round the point is at most 1 cm wide, halved four times.
     on_way = [found.beyond.contains(tuple(start + share * lacking.short_by_m * along)) for share in (0.0, 0.5, 0.9)]
@@ -52,19 +59,13 @@ def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tupl
 def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it():
     point, approach = TOO_HIGH
     lacking = lack(point, approach)
-    assert lacking.towards[2] == -1.0
+    assert towards(lacking)[2] == -1.0
     found = near(lacking)
     assert found.beyond.contains(point[:2])
     assert found.edge == ()
     # A polygon of 96 corners on the circle.
     whole = 48 * lacking.radius_m**2 * math.sin(math.tau / 96)
     assert found.beyond.area == pytest.approx(whole, rel=1e-4)
-
-
-def test_a_number_that_no_orientation_lacks_is_given_no_picture():
-    lacking = lack(*FAR_AHEAD)
-    other = Lack(0, lacking.seen, lacking.towards, lacking.short_by_m + 0.3, HERE)
-    assert near_reach("pr2", TORSO_M, COMFORT_M, other) is None
 
 
 def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can():
@@ -82,7 +83,7 @@ def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it
         # Comfort: the place and four on the circle round it.
         ring = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)]) * COMFORT_M + (x, y)
         tools = np.column_stack([ring, np.full(5, point[2])])
-        rotations = np.repeat(found.approach.rotation[None], 5, axis=0)
+        rotations = np.repeat(lacking.approach.rotation[None], 5, axis=0)
         assert bool(robot.can_reach(0, tools, rotations, TORSO_M).all()) is not is_beyond
         answers.add(is_beyond)
     assert answers == {True, False}
@@ -113,6 +114,23 @@ async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(clien
     assert told["point"] == pytest.approx([x - placement.x_m, y - placement.y_m, z])
     edge = np.vstack([np.array(line) for line in told["edge"]])
     assert np.hypot(*(edge - told["point"][:2]).T).min() == pytest.approx(reason["short_by_m"], abs=0.005)
+
+
+async def test_after_a_drag_the_reach_is_shown_as_far_back_as_the_cloth_lies_on_the_board(
+    client: httpx.AsyncClient,
+) -> None:
+    reason, told = await refused(client, "scarf-halved")
+    assert math.hypot(*reason["offset_m"]) > 0.05
+    # A hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on: it
+    # rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
+    across, along, height = told["point"]
+    assert across == pytest.approx(0.254 / 2)
+    assert height == pytest.approx(reason["point"][2]) == pytest.approx(0.02 + min(along, 1.524 - along))
+    assert (told["heading_rad"], told["pitch_rad"]) == tuple(reason["approach"].values())
+    beyond = shapely.union_all([shapely.Polygon(region["outer"], region["holes"]) for region in told["beyond"]])
+    assert beyond.contains(shapely.Point(across, along))
+    edges = [math.hypot(x - across, y - along) for x, y in beyond.convex_hull.exterior.coords]
+    assert max(edges) <= told["radius_m"] + 1e-6
 
 
 async def test_a_document_that_is_planned_has_no_reach_to_show(client: httpx.AsyncClient) -> None:

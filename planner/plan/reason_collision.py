@@ -1,0 +1,113 @@
+"""What the arms cannot help touching: in a fold, or in a drag that some fold would need.
+
+Where the arms fail to drag the cloth, no fold has been tried: yet it is a fold that cannot be done. So a drag is told
+with each fold that would be within reach right after it, and with none where it would only lead to another drag.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from planner.geometry.pose import Point2
+from planner.plan.reason import Reason
+from planner.plan.reason_reach import from_every_station
+from planner.plan.reason_words import carried
+from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_way import can_follow
+from planner.primitives.obstacle import Code, Obstacle, Snag
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+from planner.primitives.work import Work
+
+_START = (0.0, 0.0)
+
+
+def collisions(work: Work, step: Step, snag: Snag | None) -> Iterator[Obstacle]:
+    """A step that the arms cannot perform although its places are in reach, as what stands in the way of folds.
+
+    Args:
+        work: the problem.
+        step: a fold or a drag.
+        snag: what is in the arms' way, where that is known.
+    """
+    depth_m, own = math.inf if snag is None else snag.depth_m, step.details.get("fold")
+    if own is not None:
+        yield Obstacle(own, Code.COLLISION, "", depth_m, step.before, snag=snag)
+        return
+    held = _held_by(work, step, snag)
+    for fold in _next_folds(work, step.after) or (None,):
+        yield Obstacle(fold, Code.COLLISION, "", depth_m, step.before, held, snag, dragged_to=step.after.offset)
+
+
+def collision_reason(work: Work, obstacle: Obstacle, state: State) -> Reason:
+    """A collision as a reason; `state` is that in which the fold or the drag begins."""
+    snag, station = obstacle.snag, work.scene.stations[state.station][0]
+    label = "" if obstacle.fold is None else f"{work.sequence.folds[obstacle.fold].label}: "
+    begin = f"{label}{_drag(obstacle, state)}from {station} "
+    if snag is None:
+        message = (
+            f"{begin}the hands could be where they must, but the arms cannot get them there and along "
+            f"their way without touching the table, the robot or each other{carried(state)}"
+        )
+        return Reason(obstacle.fold, Code.COLLISION, message, station=station, offset_m=state.offset)
+    x, y, z = snag.point
+    message = (
+        f"{begin}all is in reach, but with the {snag.arm} gripper at ({x:.2f}, {y:.2f}) m, {z:.2f} m "
+        f"over the table, {snag.contact} at least, however the arm is bent{carried(state)}"
+    )
+    return Reason(
+        obstacle.fold,
+        Code.COLLISION,
+        message,
+        cause=snag.cause,
+        point=snag.point,
+        short_by_m=snag.depth_m,
+        is_at_least=True,
+        arm=snag.arm,
+        station=station,
+        offset_m=_offset_then(work, obstacle, state),
+    )
+
+
+def _drag(obstacle: Obstacle, state: State) -> str:
+    """The drag in which the arms collide, in words."""
+    if obstacle.dragged_to is None:
+        return ""
+    dx, dy = (to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True))
+    whom = "" if obstacle.fold is None else " for it"
+    return f"to drag the cloth{whom} by ({dx:.2f}, {dy:.2f}) m, "
+
+
+def _offset_then(work: Work, obstacle: Obstacle, state: State) -> Point2:
+    """How far the cloth has been dragged when the arms collide: so far as the hand there has taken what it holds."""
+    if obstacle.snag is None or obstacle.dragged_to is None or obstacle.point is None:
+        return state.offset
+    x, y = np.array(obstacle.snag.point[:2]) - work.placed(_START).to_outer(np.array(obstacle.point))
+    return (float(x), float(y))
+
+
+def _held_by(work: Work, step: Step, snag: Snag | None) -> Point2 | None:
+    """What the hand holds that collides, article frame (m)."""
+    for grip in step.grips:
+        if snag is not None and grip.arm == snag.arm:
+            x, y = work.placed(step.before.offset).to_inner(np.array(grip.pick[:2]))
+            return (float(x), float(y))
+    return None
+
+
+def _next_folds(work: Work, state: State) -> tuple[int, ...]:
+    """The folds that arms could do next that nothing is in the way of."""
+    folds = work.sequence.folds
+    return tuple(f for f in work.sequence.dag.available(state.done) if not folds[f].is_red and _is_next(work, state, f))
+
+
+def _is_next(work: Work, state: State, fold: int) -> bool:
+    if geometric_obstacle(work, state, fold) is not None:
+        return False
+    stands = 1 << state.back_off if state.held else None
+    return any(
+        can_follow(work, at.station, trial, stands)
+        for at in from_every_station(work, state)
+        for trial in fold_trials(work, at, fold)
+    )

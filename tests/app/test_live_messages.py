@@ -1,0 +1,54 @@
+"""What pages are told in words and numbers, and the described shapes of it."""
+
+from dataclasses import replace
+
+from app.api.answers import ReasonAnswer
+from app.api.live_messages import plan_message, status_text
+from app.document import Document
+from app.document_state import DocumentState
+from app.drawing.draft import draft_of
+from app.drawing.garment_drawing import drawing_of
+from planner import Plan, load_garment, make_plan
+
+T_SHIRT = load_garment("t-shirt")
+
+
+def answered(plan: Plan, *, is_final: bool = True) -> DocumentState:
+    """A T-shirt with an answer."""
+    document = Document(draft_of(drawing_of(T_SHIRT)))
+    question = document.state.question
+    assert question is not None
+    document.settle(1, question, plan, "id", is_final=is_final)
+    return document.state
+
+
+def test_when_time_ran_out_it_is_said_how_far_the_search_came_and_what_would_help() -> None:
+    plan = make_plan(T_SHIRT, max_expanded=1)
+    state = answered(plan)
+    # Each of five blue folds takes three arm motions of 3 s.
+    assert status_text(state) == (
+        "No plan: the time for searching ran out: 1 state looked at, and any plan takes at least 45.0 s. "
+        "A longer limit would help, or fewer folds that may be done in any order"
+    )
+    message = plan_message(state)
+    assert (message["status"], message["plan"]["reasons"]) == ("budget_exceeded", [])
+
+
+def test_many_states_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -> None:
+    plan = make_plan(T_SHIRT, max_expanded=1)
+    later = replace(plan, statistics=replace(plan.statistics, expanded=12345, bound_s=None))
+    assert ": 12,345 states looked at. A longer limit" in status_text(answered(later))
+
+
+def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() -> None:
+    plan = make_plan(T_SHIRT)
+    states = [answered(plan, is_final=is_final) for is_final in (False, True)]
+    assert [plan_message(state)["plan"]["is_final"] for state in states] == [False, True]
+    told = f"Planned: {len(plan.primitives)} primitives, {plan.cost_s:.1f} s"
+    assert [status_text(state) for state in states] == [told, told]
+
+
+def test_a_reason_has_the_fields_that_are_described_and_no_others() -> None:
+    (reason, *_) = make_plan(load_garment("tie-halved"), time_limit_s=60.0).to_dict()["reasons"]
+    assert set(reason) == set(ReasonAnswer.model_fields)
+    assert ReasonAnswer.model_validate(reason).model_dump(mode="json") == reason
