@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from itertools import islice, zip_longest
 
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
@@ -104,9 +105,17 @@ class PlanSearch:
             self._reached.clear()
 
     def _reasons(self) -> tuple[Reason, ...]:
-        for run in self._realizer.struck[-_COLLISIONS_MAX:]:
+        for run in self._some_struck():
             note_collision(self._work, run[-1], self._problem.maker.snag(run))
         return reasons(self._work, {situation(state) for state in self._reached}, self._blocking)
+
+    def _some_struck(self) -> list[tuple[Step, ...]]:
+        """A few runs that could not be made real, of each task the first ones: the quickest ways."""
+        by_task: dict[tuple[object, ...], list[tuple[Step, ...]]] = {}
+        for run in self._realizer.struck:
+            by_task.setdefault(run[-1].task, []).append(run)
+        in_turns = (run for turn in zip_longest(*by_task.values()) for run in turn if run is not None)
+        return list(islice(in_turns, _COLLISIONS_MAX))
 
     def _successors(self, state: State) -> Successors[State, Step]:
         if state not in self._steps:
