@@ -8,11 +8,12 @@ from bench.pin_arm import TORSO_M
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import BoolArray
+from planner.robot.approaches import APPROACHES
 from planner.robot.arm import read_arm
 from planner.robot.description import read_model
 from planner.robot.kernel import reachable_batch
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.reach import Pr2Reach
 from planner.robot.sided_arm import SidedArm
 
 BATCHES = (1, 10, 100, 1000)

@@ -30,9 +30,9 @@ from bench.reach_truth import DenseReach
 from bench.report import Report
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
+from planner.robot.approaches import APPROACHES
 from planner.robot.arm import read_arm
 from planner.robot.description import read_model
-from planner.robot.reach import APPROACHES
 
 MEASURED = {
     "garment",

@@ -14,8 +14,8 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.robot.aim import Aim, aim_at
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import Aim, aim_at
 
 
 @njit(cache=True, nogil=True)

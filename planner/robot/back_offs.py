@@ -15,6 +15,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.aim import is_within_height
 from planner.robot.comfort import (
     FORGETFUL,
     GOOD,
@@ -30,7 +31,7 @@ from planner.robot.comfort import (
     question,
     row_slot,
 )
-from planner.robot.kernel import MOST_ARCS, is_within_height
+from planner.robot.pan_arcs import MOST_ARCS
 from planner.robot.posture_room import Room
 
 

@@ -20,17 +20,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
+from planner.robot.aim import Aim, aim_at, beside, is_within_height, is_within_length
 from planner.robot.arm import ArmShape
-from planner.robot.kernel import (
-    Aim,
-    aim_at,
-    beside,
-    is_reachable_near,
-    is_within_height,
-    is_within_length,
-    ring_slack,
-    shape_of,
-)
+from planner.robot.joint_slack import ring_slack
+from planner.robot.kernel import is_reachable_near, shape_of
 from planner.robot.posture_room import Room, has_room_about, may_be_hindered
 
 COORDINATE_BITS = 18

@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
-from planner.robot.driving import ANY, EVERY, UNBEATEN, Task, least_driving
+from planner.robot.driving import least_driving
+from planner.robot.driving_incumbents import ANY, EVERY, UNBEATEN
+from planner.robot.driving_task import Task
 
 _WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
 

@@ -16,8 +16,10 @@ from numba import njit
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
+from planner.robot.aim import Aim, aim_at
 from planner.robot.arm import ArmShape, Sector
-from planner.robot.kernel import MOST_ARCS, Aim, aim_at, pan_arcs, pan_on, witness
+from planner.robot.kernel import witness
+from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 SAMPLES = 16
 """Samples for each branch of the elbow along an arc."""

@@ -17,9 +17,12 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.aim import aim_at
 from planner.robot.arm import ArmShape
 from planner.robot.inverse_kinematics import nearby_joints, place_wrist, turn_hand
-from planner.robot.kernel import MOST_ARCS, aim_at, pan_arcs, pan_on, slacks, witness
+from planner.robot.joint_slack import slacks
+from planner.robot.kernel import witness
+from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 SAMPLES = 24
 """Samples at each pose for each branch of the elbow, over all arcs."""

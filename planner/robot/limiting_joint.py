@@ -12,8 +12,11 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.robot.aim import Aim, aim_at, is_within_length
 from planner.robot.arm import ArmShape, sector
-from planner.robot.kernel import FINEST, MOST_ARCS, Aim, aim_at, is_within_length, pan_arcs, pan_on, slack_within
+from planner.robot.joint_slack import slack_within
+from planner.robot.kernel import FINEST
+from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 JOINT_NAMES = ("shoulder pan", "shoulder lift", "upper arm roll", "elbow", "wrist")
 """Plain words for the joints that have limits."""

@@ -18,10 +18,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.robot.aim import Aim, aim_at
 from planner.robot.arm import ArmShape
 from planner.robot.arm_gap import comfort_gap
 from planner.robot.comfort import is_comfortable
-from planner.robot.kernel import MOST_ARCS, Aim, aim_at
+from planner.robot.pan_arcs import MOST_ARCS
 from planner.robot.posture_room import Room, has_room_about
 
 SHELL_M, WIDENING = 0.002, 0.03

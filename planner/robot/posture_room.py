@@ -17,12 +17,14 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.robot.aim import Aim
 from planner.robot.arm import ArmShape
 from planner.robot.collision.part_poses import EACH, PLACE, Index, pose_arm, set_middles
 from planner.robot.collision.robot_parts import RobotParts, compiled_parts
 from planner.robot.collision.separation import Parts, first_close_pair
 from planner.robot.inverse_kinematics import place_wrist, turn_hand
-from planner.robot.kernel import Aim, pan_arcs, pan_on, slacks
+from planner.robot.joint_slack import slacks
+from planner.robot.pan_arcs import pan_arcs, pan_on
 from planner.robot.place_memory import Memory, empty_memory, learn, place_key, slot_of
 
 SAMPLES = 12

@@ -13,24 +13,19 @@ from numpy.typing import NDArray
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from app.ui.cloth_view import outlines
-from app.ui.colours import DARK, LIGHT, Palette
-from app.ui.dashes import dash_dot, solid, split_at
-from app.ui.lighting import ink, paint, seen
+from app.ui.colours import DARK, LIGHT
+from app.ui.lighting import ink, paint
 from app.ui.lying_cloth import lying_cloth
 from app.ui.private_viser import LOOPBACK, SECRET_HEADER
 from app.ui.progress import stints
-from app.ui.relief import Relief
 from app.ui.robot_model import load_robot_model
-from app.ui.rotation import from_matrix, product, turn
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
 from planner.plan.cloth_surface import LAYER_GAP_M
-from planner.plan.frame import ClothSurface
 from planner.robot.pr2 import load_robot
+from tests.app.pose_matrix import matrix
 
 CARD = load_robot("pr2").card
 SUBPROTOCOL = "viser-v1.1.1"
@@ -46,18 +41,6 @@ def stage() -> Iterator[Stage]:
 @pytest.fixture(scope="module")
 def plan() -> Plan:
     return make_plan(load_garment("t-shirt"))
-
-
-def matrix(position: object, wxyz: object) -> NDArray[np.float64]:
-    w, x, y, z = np.asarray(wxyz, dtype=float)
-    placed = np.eye(4)
-    placed[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    placed[:3, 3] = np.asarray(position, dtype=float)
-    return placed
 
 
 def shown_pose(stage: Stage, node: str) -> NDArray[np.float64]:
@@ -179,59 +162,6 @@ def test_a_theme_colours_the_whole_stage(stage: Stage, plan: Plan) -> None:
         assert tuple(line.colors) == tuple(ink(palette.fold_blue))
 
 
-@pytest.mark.parametrize("palette", [LIGHT, DARK])
-def test_what_lies_level_looks_like_the_colour_asked_for(palette: Palette) -> None:
-    for wanted in (palette.cloth_front, palette.cloth_back, palette.table, palette.robot_light, palette.robot_grey):
-        assert np.abs(np.subtract(seen(paint(wanted)), wanted)).max() <= 2
-
-
-def sheet(*layers: tuple[float, float, float]) -> ClothSurface:
-    """Squares of cloth on the table, each with its near and far x and its height, from y = 0 to y = 1."""
-    corners = []
-    for low, high, z in layers:
-        a, b, c, d = (low, 0.0, z), (high, 0.0, z), (high, 1.0, z), (low, 1.0, z)
-        corners.extend([a, b, c, a, c, d])
-    triangles = np.arange(len(corners)).reshape(-1, 3)
-    return ClothSurface(np.array(corners), triangles, np.repeat(np.arange(len(layers)), 2))
-
-
-TOP = TableTop((-1.0, -1.0), (1.0, 1.0))
-
-
-def test_cloth_is_as_high_as_its_topmost_layer_there() -> None:
-    relief = Relief.of(sheet((0.0, 0.8, 0.0015), (0.5, 0.9, 0.003)), TOP)
-    points = np.array([[0.2, 0.5], [0.6, 0.5], [0.85, 0.5], [0.95, 0.5]])
-    np.testing.assert_array_equal(relief.heights_at(points), [0.0015, 0.003, 0.003, -np.inf])
-
-
-def test_cloth_in_the_air_does_not_lie() -> None:
-    standing = ClothSurface(
-        np.array([[0.0, 0.0, 0.0015], [0.0, 1.0, 0.0015], [0.0, 0.0, 0.5]]),
-        np.array([[0, 1, 2]]),
-        np.zeros(1, dtype=np.int64),
-    )
-    assert Relief.of(standing, TOP).heights_at(np.array([[0.0, 0.5]]))[0] == -np.inf
-
-
-def test_hanging_cloth_is_rolled_back_into_the_plane() -> None:
-    garment = load_garment("big-towel")
-    top = TableTop.of(Scene().table)
-    relief = Relief.of(lying_cloth(garment, Scene().table), top)
-    a, b, c = (relief.triangles[:, i] for i in range(3))
-    sides = b - a, c - a
-    area = float((sides[0][:, 0] * sides[1][:, 1] - sides[0][:, 1] * sides[1][:, 0]).sum() / 2)
-    assert area == pytest.approx(garment.pattern.area, rel=1e-3)
-
-
-def test_a_line_is_cut_where_it_crosses_and_nowhere_else() -> None:
-    segments = np.array([[[0.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [0.2, 0.0]]])
-    cut = split_at(segments, 0, 0.5)
-    assert len(cut) == 3
-    lengths = np.linalg.norm(cut[:, 1] - cut[:, 0], axis=1)
-    assert lengths.sum() == pytest.approx(np.sqrt(2.0) + 0.2)
-    assert np.all((cut[..., 0].max(axis=1) <= 0.5) | (cut[..., 0].min(axis=1) >= 0.5))
-
-
 def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
     last = stints(plan.garment.placement, [p.to_dict() for p in plan.primitives])[-1]
     end = plan.final_placement
@@ -283,41 +213,3 @@ def test_two_stages_stand_side_by_side(stage: Stage) -> None:
         assert other.secret != stage.secret
     finally:
         other.close()
-
-
-def test_a_quaternion_from_a_matrix_is_the_same_rotation() -> None:
-    random = np.random.default_rng(1)
-    for _ in range(50):
-        axes = [vector / np.linalg.norm(vector) for vector in random.normal(size=(2, 3))]
-        angles = random.uniform(-3.0, 3.0, size=2)
-        wxyz = product(turn(axes[0], angles[0]), turn(axes[1], angles[1]))
-        whole = matrix((0, 0, 0), turn(axes[0], angles[0])) @ matrix((0, 0, 0), turn(axes[1], angles[1]))
-        np.testing.assert_allclose(matrix((0, 0, 0), wxyz), whole, atol=1e-12)
-        np.testing.assert_allclose(matrix((0, 0, 0), from_matrix(whole)), whole, atol=1e-12)
-
-
-def test_a_squares_outline_leaves_out_the_diagonal() -> None:
-    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
-    square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64))
-    segments = outlines(square)
-    assert len(segments) == 4
-    np.testing.assert_allclose(np.linalg.norm(segments[:, 0] - segments[:, 1], axis=1), 1.0)
-
-
-def test_a_garment_beyond_the_edge_hangs() -> None:
-    garment = load_garment("big-towel")
-    hanging = lying_cloth(garment, Scene().table)
-    flat = garment.pattern.area
-    a, b, c = (hanging.vertices[hanging.triangles[:, i]] for i in range(3))
-    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
-    assert area == pytest.approx(flat, rel=1e-3)
-    assert np.abs(hanging.vertices[:, 0]).max() <= 0.8 + 0.01
-
-
-def test_a_solid_line_has_no_gaps_and_a_dashed_one_has() -> None:
-    start, end = np.array([0.0, 0.0]), np.array([0.3, 0.4])
-    whole, dashed = solid(start, end), dash_dot(start, end)
-    length = np.linalg.norm(whole[:, 1] - whole[:, 0], axis=1).sum()
-    assert length == pytest.approx(0.5)
-    assert np.linalg.norm(dashed[:, 1] - dashed[:, 0], axis=1).sum() < 0.45
-    np.testing.assert_allclose(whole[-1, 1], end)

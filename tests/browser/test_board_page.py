@@ -1,4 +1,4 @@
-"""The page round the board: splitter, phone, lost server, photo, what is looked at."""
+"""The page round the board: splitter, phone, lost server, photo."""
 
 import struct
 import zlib
@@ -100,25 +100,6 @@ def test_a_photo_lies_under_the_board_and_is_scaled_by_two_points(page: Page, to
     expect(photo).to_have_count(0)
 
 
-def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page, towel: Desk) -> None:
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
-    expect(page.locator(".must-hold")).to_have_count(0)
-    first = towel.drawing["folds"][0]
-    (ax, ay), (bx, by) = first["start"]["point"], first["end"]["point"]
-    Hand(page).click((0.8 * ax + 0.2 * bx, 0.8 * ay + 0.2 * by))
-    # Half a rectangle is lifted by its two far corners (figure 1 of the paper): one grip each.
-    expect(page.locator(".must-hold")).to_have_count(2)
-    expect(page.locator("circle.grip")).to_have_count(2)
-
-
-def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Desk) -> None:
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
-    page.get_by_role("button", name="Reach", exact=True).click()
-    expect(page.locator(".reach")).to_have_count(2)
-    page.get_by_role("button", name="Reach", exact=True).click()
-    expect(page.locator(".reach")).to_have_count(0)
-
-
 @pytest.fixture
 def phone(chromium: Browser) -> Iterator[Page]:
     context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
@@ -184,41 +165,3 @@ def test_every_name_that_others_look_for_is_there_once(page: Page, desk: Desk) -
     for name in ("Folds", "Plan"):
         expect(page.get_by_role("list", name=name)).to_have_count(1)
     expect(page.get_by_role("application", name="Drafting board")).to_have_count(1)
-
-
-def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, desk: Desk) -> None:
-    desk.lay(desk.garment("scarf-halved"))
-    status = page.get_by_role("status")
-    expect(status).to_contain_text("No plan: ")
-    expect(page.locator(".reason-arm")).to_have_text("R")
-    # The middle of a halved scarf is lifted to half its length: the hand cannot get up there.
-    expect(page.locator(".reason-text")).to_contain_text("too high")
-    short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
-    expect(status).to_contain_text(f"the right hand is {short} short")
-    expect(page.locator(".table-line")).to_have_count(1)
-    # Straight below there is reach, at that height there is none: all that is near is hatched, and no edge is drawn.
-    expect(page.locator(".beyond")).to_have_count(1)
-    expect(page.locator(".beyond-edge")).to_have_count(0)
-
-
-def test_where_a_hand_falls_short_along_the_table_its_reach_ends_at_the_arrow(page: Page, desk: Desk) -> None:
-    desk.lay(desk.garment("t-shirt"))
-    only_front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "back_off_max_m": 0.0}
-    desk.edit(lambda drawing: drawing["scene"].update(only_front))
-    expect(page.get_by_role("status")).to_contain_text("short (too far)")
-    expect(page.locator(".beyond-edge")).to_have_count(1)
-    cross = page.locator(".problem-cross").bounding_box()
-    edge = page.locator(".beyond-edge")
-    assert cross is not None
-    x, y = cross["x"] + cross["width"] / 2, cross["y"] + cross["height"] / 2
-    away = edge.evaluate(
-        """(edge, [x, y]) => {
-          const box = edge.ownerSVGElement.getBoundingClientRect();
-          const step = edge.getTotalLength() / 400;
-          const places = Array.from({ length: 401 }, (_, n) => edge.getPointAtLength(step * n));
-          return Math.min(...places.map((place) => Math.hypot(place.x + box.x - x, place.y + box.y - y)));
-        }""",
-        [x, y],
-    )
-    short_m = float(str(page.locator(".reason-text").text_content()).partition(" cm")[0]) / 100
-    assert away / float(str(Hand(page).board.get_attribute("data-px-per-m"))) == pytest.approx(short_m, abs=0.006)

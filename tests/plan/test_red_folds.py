@@ -1,24 +1,14 @@
-"""Red folds from end to end: what is held, in which order, how long it takes, what moves in the film.
-
-The towel is 0.4 x 0.6 m. At yaw -90 degrees its upper edge lies away from `front`: article (x, y) is at table
-(y - 0.75, 0.2 - x). Its near part, y < 0.25, comes over first: its free edge, y = 0 before, lands at y = 0.5.
-"""
+"""Red folds in the search: what is held, in which order, how long it takes. Towels are in `tests.plan.red_towels`."""
 
 import math
-from collections.abc import Callable
-from functools import cache
 
-import numpy as np
 import pytest
 
-from planner import Plan, make_plan
+from planner import make_plan
 from planner.cloth.garment import DrawnFold, Garment
 from planner.errors import FoldError
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.pose import FloatArray, Pose2
-from planner.plan.cloth_surface import LAYER_GAP_M
-from planner.plan.frame import ClothSurface
-from planner.plan.plan import PlannedPrimitive
+from planner.geometry.pose import Pose2
 from planner.primitives.base_move import BaseMove
 from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
@@ -27,24 +17,9 @@ from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import Work
 from tests.builders import fold, garment, is_same_region, is_same_stack, rectangle, rectangle_points, work
-from tests.replay.checker import check
+from tests.plan.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, WIDTH_M, towel
 
-WIDTH_M = 0.4
 START = State(0, (0.0, 0.0), 0, 0)
-OPEN_M, CLOSED_M = 0.06, 0.004
-RELEASE_S = 0.3
-
-OVER = fold((WIDTH_M, 0.25), (0.0, 0.25), name="over")
-# Of the flap, 0.25 < y < 0.5, the outer part goes back: y > 0.4 lands at 0.3 < y < 0.4. Of that y < 0.35 goes out
-# again.
-BACK = fold((0.0, 0.4), (WIDTH_M, 0.4), "red", name="back")
-OUT = fold((WIDTH_M, 0.35), (0.0, 0.35), "red", name="out")
-# Or only its right outer corner goes back: the triangle beyond (0.25, 0.5) and (0.4, 0.4).
-CORNER = fold((0.25, 0.5), (WIDTH_M, 0.4), "red", name="corner")
-
-
-def towel(*folds: DrawnFold) -> Garment:
-    return garment(rectangle_points(WIDTH_M, 0.6), *folds, placement=Pose2(-0.75, WIDTH_M / 2, -math.pi / 2))
 
 
 def banner(bar_m: float, radius_m: float = 0.127) -> Garment:
@@ -66,14 +41,6 @@ def banner(bar_m: float, radius_m: float = 0.127) -> Garment:
     over = fold((0.35, 0.3), (0.15, 0.3), name="over")
     turned_in = fold((0.15, 0.6 - bar_m), (0.15, 0.6), "red", name="end in", radius_m=radius_m)
     return garment(outline, over, turned_in, placement=Pose2(-0.75, 0.25, -math.pi / 2))
-
-
-# A cloth 0.6 x 0.24 m. Its left part, x < 0.16, comes over and its edge goes back again; on its own, x > 0.48 comes
-# over.
-LEFT = fold((0.16, 0.0), (0.16, 0.24), name="left")
-EDGE = fold((0.24, 0.24), (0.24, 0.0), "red", name="edge")
-RIGHT = fold((0.48, 0.24), (0.48, 0.0), name="right")
-TWO_SIDES = garment(rectangle_points(0.6, 0.24), LEFT, EDGE, RIGHT, placement=Pose2(-0.6, 0.3, -math.pi / 2))
 
 
 def step_of(problem: Work, state: State, index: int = 0) -> FoldStep:
@@ -253,106 +220,3 @@ def test_the_grips_of_a_drag_serve_the_blue_fold_and_then_its_red_one():
     back = step_of(problem, over.after)
     assert (over.duration_s, back.duration_s) == (6.0, 6.0)
     assert over.after.held and not over.after.is_dragged
-
-
-@cache
-def planned_chain() -> Plan:
-    """The towel's chain of two red folds, planned for a PR2."""
-    return make_plan(towel(OVER, BACK, OUT), time_limit_s=60.0)
-
-
-@cache
-def planned_corner() -> Plan:
-    return make_plan(towel(OVER, CORNER), time_limit_s=60.0)
-
-
-@cache
-def planned_sides() -> Plan:
-    return make_plan(TWO_SIDES, time_limit_s=60.0)
-
-
-@pytest.mark.parametrize("planned", [planned_chain, planned_corner, planned_sides])
-def test_plans_with_chains_replay(planned: Callable[[], Plan]):
-    plan = planned()
-    check(plan.garment.to_dict(), plan.scene.to_dict(), plan.to_dict())
-
-
-def openings(plan: Plan, t_s: float) -> dict[str, float]:
-    return plan.timeline().at(t_s).grippers_m
-
-
-def performed(plan: Plan, index: int) -> PlannedPrimitive:
-    """The primitive that performs a fold."""
-    return next(p for p in plan.primitives if isinstance(p.step, FoldStep) and p.step.way.trial.fold == index)
-
-
-def span(plan: Plan, index: int) -> tuple[float, float]:
-    """When a fold begins and ends (s)."""
-    primitive = performed(plan, index)
-    return (primitive.start_s, primitive.start_s + primitive.duration_s)
-
-
-def test_the_hands_stay_closed_from_the_blue_folds_grasp_to_the_end_of_the_chain():
-    plan = planned_chain()
-    assert set(openings(plan, 0.0).values()) == {OPEN_M}
-    end = span(plan, 2)[1]
-    grasped = next(t for t in np.arange(0.0, end, 0.05) if max(openings(plan, t).values()) <= CLOSED_M)
-    assert grasped < span(plan, 0)[1] - 6.0 + 0.05, "the blue fold's two motions along its path come after the grasp"
-    for t_s in np.arange(grasped, end - RELEASE_S, 0.05):
-        assert set(openings(plan, float(t_s)).values()) == {CLOSED_M}
-
-
-def test_the_hand_that_is_not_needed_opens_as_the_red_fold_begins_and_the_other_does_not():
-    plan = planned_corner()
-    start, end = span(plan, 1)
-    for t_s in np.arange(start + RELEASE_S, end - RELEASE_S, 0.05):
-        found = openings(plan, float(t_s))
-        assert found["left"] == pytest.approx(OPEN_M) and found["right"] == pytest.approx(CLOSED_M)
-
-
-@pytest.mark.parametrize(("planned", "last"), [(planned_chain, 2), (planned_corner, 1), (planned_sides, 1)])
-def test_the_hands_are_open_once_the_chain_is_done(planned: Callable[[], Plan], last: int):
-    plan = planned()
-    assert openings(plan, span(plan, last)[1]) == {"left": pytest.approx(OPEN_M), "right": pytest.approx(OPEN_M)}
-
-
-def corners(surface: ClothSurface, below: int) -> FloatArray:
-    """The distinct corners of the layers below one, sorted, shape (n, 3), m."""
-    shown = surface.vertices[surface.triangles[surface.layers < below]].reshape(-1, 3)
-    return np.unique(np.round(shown, 6), axis=0)
-
-
-@pytest.mark.parametrize(("number", "staying", "depth_m"), [(1, 2, 0.1), (2, 3, 0.05)])
-def test_while_a_red_fold_is_made_only_the_last_flap_moves(number: int, staying: int, depth_m: float):
-    # Layers: 0 the towel, 1 the first flap's rest, 2 (and for the last fold 3) what moves. It stands up over
-    # its line as high as it is deep, drawn up to the tools, which are 0.02 m above the cloth that they hold.
-    plan = planned_chain()
-    start, end = span(plan, number)
-    at_rest = corners(plan.timeline().at(end - 1e-6).cloth, staying)
-    # A fold may begin with the wrists turning in their grips: then nothing of it moves yet.
-    for t_s in np.linspace(start + 0.2 * (end - start), end - 1e-6, 40):
-        surface = plan.timeline().at(float(t_s)).cloth
-        np.testing.assert_allclose(corners(surface, staying), at_rest, atol=2e-6)
-        assert surface.vertices[:, 2].max() <= depth_m + 0.02 + 1e-6
-    heights = [plan.timeline().at(float(t)).cloth.vertices[:, 2].max() for t in np.linspace(start, end, 300)]
-    assert max(heights) == pytest.approx(depth_m + 0.02, abs=2e-3)
-
-
-def test_below_a_red_fold_the_cloth_lies_as_it_lay_before():
-    plan = planned_chain()
-    lay = plan.timeline().at(span(plan, 0)[1] - 1e-6).cloth
-    lies = plan.timeline().at(span(plan, 1)[1] - 1e-6).cloth
-    np.testing.assert_allclose(corners(lies, 1), corners(lay, 1), atol=2e-6)
-    # The flap lay from its crease, y = 0.25, to y = 0.5; what is left of it ends at the new crease, y = 0.4.
-    origin = plan.work.placed(performed(plan, 0).step.after.offset).x_m
-    for surface, far in ((lay, 0.5), (lies, 0.4)):
-        flap = surface.vertices[surface.triangles[surface.layers == 1]].reshape(-1, 3)
-        assert (flap[:, 0].min(), flap[:, 0].max()) == pytest.approx((origin + 0.25, origin + far), abs=1e-5)
-
-
-def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds():
-    plan = planned_chain()
-    end = plan.timeline().at(plan.cost_s).cloth
-    for layer in range(4):
-        heights = end.vertices[end.triangles[end.layers == layer]][..., 2]
-        assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_GAP_M), abs=1e-6)

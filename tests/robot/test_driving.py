@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
+from planner.robot.approaches import APPROACHES
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.reach import Pr2Reach
 
 ROBOT = load_robot("pr2")
 TORSO_M = 0.29

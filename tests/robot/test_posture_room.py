@@ -6,9 +6,9 @@ import numpy as np
 
 from planner.geometry.pose import Approach, BoolArray
 from planner.geometry.table import Table
+from planner.robot.approaches import APPROACHES
 from planner.robot.place_memory import empty_memory, learn, place_key, slot_of
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES
 from tests.robot.collision_samples import FAR, HOME
 
 ROBOT = load_robot("pr2")

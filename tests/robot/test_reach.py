@@ -5,10 +5,11 @@ import pytest
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Approach
-from planner.robot import comfort, reach
+from planner.robot import comfort, comfort_reach
+from planner.robot.approaches import APPROACHES
 from planner.robot.arm import read_arm
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.reach import Pr2Reach
 from planner.robot.sided_arm import SidedArm
 from tests.robot.model import MODEL, limits, pin_tool_pose, random_joints
 
@@ -141,7 +142,7 @@ def test_the_right_arm_profits_from_what_the_left_one_was_asked():
 def test_a_full_memory_changes_no_answer(monkeypatch):
     usual = bodiless(0.03)
     tiny = comfort.empty_memory(size_bits=2)
-    monkeypatch.setattr(reach, "empty_memory", lambda: tiny)
+    monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
     forgetful = bodiless(0.03)
     for points in _paths(np.random.default_rng(18)):
         np.testing.assert_array_equal(

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from planner.geometry.shortfall import Shortfall
+from planner.robot.aim import Aim
+from planner.robot.approaches import APPROACHES
 from planner.robot.arm import read_arm
-from planner.robot.kernel import Aim, slacks
+from planner.robot.joint_slack import slacks
 from planner.robot.limiting_joint import JOINT_NAMES, joint_slacks
 from planner.robot.pr2 import load_robot
-from planner.robot.reach import APPROACHES, Pr2Reach
+from planner.robot.reach import Pr2Reach
 from planner.robot.shortfall import DIRECTIONS, FURTHEST_M
 from planner.robot.sided_arm import SidedArm
 from tests.robot.model import MODEL

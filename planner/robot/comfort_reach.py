@@ -1,0 +1,224 @@
+"""Where the hands of a PR2 are in comfort, asked for either arm: the compiled questions, with what they share.
+
+Both arms are one arm and its mirror image: places and approaches are mirrored on the way in, and the memory of answers
+(see `planner.robot.comfort`) is the left arm's. What is asked is counted and timed here.
+"""
+
+from time import thread_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.tolerance import LENGTH_M
+from planner.robot.approaches import APPROACHES, mirror_images
+from planner.robot.arm import numbers_of
+from planner.robot.back_offs import anywhere, back_off_masks
+from planner.robot.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
+from planner.robot.driving_task import UNSEEN, Task
+from planner.robot.following import Following
+from planner.robot.posture_room import Room, no_walls
+from planner.robot.sided_arm import SidedArm
+
+_MOST_BACK_OFFS = 32
+
+_SMALL_BITS = 4
+"""The size of a memory from which nothing much is wanted any more, as a power of two."""
+
+
+class ComfortReach:
+    """The comfortable reach of a PR2 with its torso at one height, to one comfort radius.
+
+    It remembers its answers and counts its queries, so each plan should have one of its own; it is
+    not to be shared between threads. Places are asked on the grid of `LENGTH_M`, base frame.
+    """
+
+    def __init__(
+        self,
+        arm_names: tuple[str, ...],
+        arms: tuple[SidedArm, ...],
+        torso_m: float,
+        comfort_m: float,
+        room: Room | None = None,
+    ) -> None:
+        """Start with nothing remembered: names and arms from left to right, torso and comfort in m.
+
+        `room` is what the left arm has of it; None: the body is in nobody's way.
+        """
+        self._arm_names = arm_names
+        self._arms = arms
+        self._torso_m = torso_m
+        self._comfort_m = comfort_m
+        self._memory = empty_memory()
+        self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
+        self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
+        self._numbers = numbers_of(arms[0].shape)
+        self._shoulder = arms[0].shoulder(torso_m)
+        images = mirror_images()
+        self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
+        self._shortfall_queries = 0
+        self._query_time_s = 0.0
+
+    def forget(self) -> None:
+        """Drop what it remembers, some 2 MB; its answers stay the same, and what it counted."""
+        queries = self.queries - self._shortfall_queries
+        self._memory = empty_memory(_SMALL_BITS)
+        self._memory.counts[QUERIES] = queries
+
+    @property
+    def arm_names(self) -> tuple[str, ...]:
+        """The arms from left to right."""
+        return self._arm_names
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions from which the grippers may pinch cloth, base frame."""
+        return APPROACHES
+
+    @property
+    def shoulders(self) -> tuple[Point3, ...]:
+        """Where each arm is hung up, base frame (m)."""
+        found = [arm.mirrored_places(arm.shoulder(self._torso_m)[None])[0] for arm in self._arms]
+        return tuple((float(x), float(y), float(z)) for x, y, z in found)
+
+    @property
+    def torso_m(self) -> float:
+        """How far the torso is raised (m)."""
+        return self._torso_m
+
+    @property
+    def comfort_m(self) -> float:
+        """The comfort radius (m)."""
+        return self._comfort_m
+
+    @property
+    def queries(self) -> int:
+        """Queries computed by the exact kernel so far, comfort points counted.
+
+        What is remembered, or further away than the arm is long, is answered without one.
+        """
+        return int(self._memory.counts[QUERIES]) + self._shortfall_queries
+
+    @property
+    def query_time_s(self) -> float:
+        """Time spent answering (s), memory included."""
+        return self._query_time_s
+
+    def back_offs(
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+        start: int | None = None,
+    ) -> NDArray[np.uint32]:
+        """Bit masks, shape (k, n): from which back-offs each point is within comfortable reach.
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are, at most 32; raises `ValueError` beyond.
+            step_m: from one back-off to the next (m).
+            enough: so many approaches that can follow the points are enough; None: all are wanted.
+            start: where the base stands when the hand is at the first point already; None: anywhere.
+
+        Returns:
+            Bit j is set where the base may stand, having backed off by j * step_m, when the hand has
+            followed the points up to there; a row is 0 if it cannot follow them all.
+        """
+        if count > _MOST_BACK_OFFS:
+            raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
+        started = thread_time()
+        masks = back_off_masks(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
+            count,
+            round(step_m / LENGTH_M),
+            self._comfort_m,
+            len(approaches) if enough is None else enough,
+            (1 << count) - 1 if start is None else 1 << start,
+            self._room,
+        )
+        self._query_time_s += thread_time() - started
+        return masks
+
+    def following(
+        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
+    ) -> Following:
+        """Hands that are to follow paths, each in one approach.
+
+        Args:
+            arms: for each hand its index into `arm_names`; one or two.
+            paths: for each hand its tool points in the base frame at back-off 0 (m), shape (hands, n, 3).
+            approaches: for each hand indices into `approaches`, best first.
+            step_m: from one back-off to the next (m).
+        """
+        labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
+        places = np.empty(paths.shape, dtype=np.int64)
+        for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
+            labels[hand, : len(allowed)] = self._labels[arm][allowed]
+            places[hand] = np.round(self._arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
+        places -= np.round(self._shoulder / LENGTH_M).astype(np.int64)
+        slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
+        step = round(step_m / LENGTH_M)
+        cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
+        task = Task(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._axes,
+            labels,
+            places,
+            cells,
+            slots,
+            self._comfort_m,
+            step,
+            self._room,
+        )
+        return Following(task, self._add_time)
+
+    def _add_time(self, time_s: float) -> None:
+        self._query_time_s += time_s
+
+    def from_anywhere(
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+    ) -> BoolArray:
+        """Which points, each on its own, are within comfortable reach from at least one back-off, shape (k, n).
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: how many back-offs there are.
+            step_m: from one back-off to the next (m).
+            enough: so many approaches that have every point within reach are enough; None: all are wanted.
+        """
+        started = thread_time()
+        answers = anywhere(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
+            count,
+            round(step_m / LENGTH_M),
+            self._comfort_m,
+            len(approaches) if enough is None else enough,
+            self._room,
+        )
+        self._query_time_s += thread_time() - started
+        return answers

@@ -1,0 +1,143 @@
+"""What the board shows over the drawing: what must be held, where hands reach, where and how far they fall short."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, Route, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import Desk, window
+from tests.browser.board_hand import Hand
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser) -> Iterator[Page]:
+    with window(chromium) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def desk(page: Page, designer: Served) -> Desk:
+    return Desk(page, designer)
+
+
+@pytest.fixture
+def towel(desk: Desk) -> Desk:
+    desk.lay(desk.garment("hand-towel"))
+    return desk
+
+
+@pytest.fixture
+def moved_desk(desk: Desk) -> Iterator[Desk]:
+    """The same, to be put into another scene; it comes back."""
+    scene = desk.drawing["scene"]
+    yield desk
+    desk.edit(lambda drawing: drawing.update(scene=scene))
+
+
+def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page, towel: Desk) -> None:
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect(page.locator(".must-hold")).to_have_count(0)
+    first = towel.drawing["folds"][0]
+    (ax, ay), (bx, by) = first["start"]["point"], first["end"]["point"]
+    Hand(page).click((0.8 * ax + 0.2 * bx, 0.8 * ay + 0.2 * by))
+    # Half a rectangle is lifted by its two far corners (figure 1 of the paper): one grip each.
+    expect(page.locator(".must-hold")).to_have_count(2)
+    expect(page.locator("circle.grip")).to_have_count(2)
+
+
+def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Desk) -> None:
+    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    reach, wait = page.get_by_role("button", name="Reach", exact=True), page.get_by_text("Working it out")
+    asked: list[Route] = []
+    page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))
+    reach.click()
+    expect(wait).to_be_visible()
+    expect(reach).to_have_attribute("aria-busy", "true")
+    asked[0].continue_()
+    expect(page.locator(".reach")).to_have_count(2)
+    expect(wait).to_have_count(0)
+    expect(reach).to_have_attribute("aria-busy", "false")
+    reach.click()
+    expect(page.locator(".reach")).to_have_count(0)
+    page.unroute("**/overlays?*")
+
+
+def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk: Desk) -> None:
+    strip = {"name": "strip", "outline": [[0.0, 0.0], [0.1, 0.0], [0.1, 0.54], [0.0, 0.54]]}
+    far_end = {"name": "far end", "kind": "blue", "start": [0.0, 0.28], "end": [0.1, 0.28]}
+    before_left_arm = {"x_m": -0.78, "y_m": 0.238, "yaw_rad": -1.5707963267948966}
+    moved_desk.lay({**strip, "folds": [far_end], "placement": before_left_arm})
+    # At a table 1 m high an end that must be lifted by 0.26 m is lifted too high.
+    front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "table": {"height_m": 1.0}}
+    moved_desk.edit(lambda drawing: drawing["scene"].update(front))
+    status = page.get_by_role("status")
+    expect(status).to_contain_text("No plan: ")
+    expect(page.locator(".reason-arm")).to_have_text("L")
+    expect(page.locator(".reason-text")).to_contain_text("too high")
+    short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
+    expect(status).to_contain_text(f"the left hand is {short} short")
+    expect(page.locator(".table-line")).to_have_count(1)
+    # Straight below there is reach, at that height there is none: all that is near is hatched, and no edge is drawn.
+    expect(page.locator(".beyond")).to_have_count(1)
+    expect(page.locator(".beyond-edge")).to_have_count(0)
+    # At the top of its way the hand is over the fold line, in the middle of which it holds the strip.
+    assert middle(page, ".problem-cross") == pytest.approx(Hand(page).px((0.05, 0.28)), abs=1)
+
+
+def test_the_cross_is_on_the_cloth_as_it_lies_though_the_robot_would_have_dragged_it(page: Page, desk: Desk) -> None:
+    desk.lay(desk.garment("scarf-halved"))
+    expect(page.get_by_role("status")).to_contain_text("No plan: ")
+    expect(page.locator(".beyond")).to_have_count(1)
+    # One hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on:
+    # it rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
+    hand, (x, y) = Hand(page), middle(page, ".problem-cross")
+    (start_x, start_y), (_, end_y) = hand.px((0.254 / 2, 0.0)), hand.px((0.254 / 2, 1.524))
+    assert x == pytest.approx(start_x, abs=1)
+    along = 1.524 * (start_y - y) / (start_y - end_y)
+    up = re.search(r", ([\d.]+) cm up$", str(page.locator(".reason-text").text_content()))
+    height = 0.02 if up is None else float(up[1]) / 100
+    assert min(along, 1.524 - along) == pytest.approx(height - 0.02, abs=0.01 if up else 0.04)
+
+
+def test_what_is_short_at_least_is_marked_so_and_the_words_stay_on_the_board(page: Page, moved_desk: Desk) -> None:
+    moved_desk.lay(moved_desk.garment("hand-towel"))
+    # All of the table is 1.6 m ahead of the base or more, and arms are 1 m long: no shift that is tried helps.
+    far = {"stations": {"front": {"x_m": -2.4, "y_m": 0.0, "yaw_rad": 0.0}}, "back_off_max_m": 0.0}
+    moved_desk.edit(lambda drawing: drawing["scene"].update(far))
+    expect(page.get_by_role("status")).to_contain_text("is at least ")
+    words = page.locator(".reason-text")
+    expect(words).to_contain_text(re.compile(r"^at least [\d.]+ cm short$"))
+    board, box = page.locator("#drafting-board").bounding_box(), words.bounding_box()
+    assert board is not None
+    assert box is not None
+    assert board["x"] <= box["x"] and box["x"] + box["width"] <= board["x"] + board["width"]
+    assert board["y"] <= box["y"] and box["y"] + box["height"] <= board["y"] + board["height"]
+
+
+def middle(page: Page, selector: str) -> tuple[float, float]:
+    """The middle of what is drawn on the board (px)."""
+    box = page.locator(selector).bounding_box()
+    assert box is not None
+    return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+
+
+def test_where_a_hand_falls_short_along_the_table_its_reach_ends_at_the_arrow(page: Page, moved_desk: Desk) -> None:
+    moved_desk.lay(moved_desk.garment("t-shirt"))
+    only_front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "back_off_max_m": 0.0}
+    moved_desk.edit(lambda drawing: drawing["scene"].update(only_front))
+    expect(page.get_by_role("status")).to_contain_text("short (too far)")
+    expect(page.locator(".beyond-edge")).to_have_count(1)
+    edge = page.locator(".beyond-edge")
+    away = edge.evaluate(
+        """(edge, [x, y]) => {
+          const box = edge.ownerSVGElement.getBoundingClientRect();
+          const step = edge.getTotalLength() / 400;
+          const places = Array.from({ length: 401 }, (_, n) => edge.getPointAtLength(step * n));
+          return Math.min(...places.map((place) => Math.hypot(place.x + box.x - x, place.y + box.y - y)));
+        }""",
+        middle(page, ".problem-cross"),
+    )
+    short_m = float(str(page.locator(".reason-text").text_content()).partition(" cm")[0]) / 100
+    assert away / float(str(Hand(page).board.get_attribute("data-px-per-m"))) == pytest.approx(short_m, abs=0.006)
