@@ -20,7 +20,7 @@ def draw() -> Drawing:
     sheet = Drawing(900, 220, "A big towel dragged beyond the table's edge and folded from there, from the side")
     plan = make_plan(load_garment("big-towel"), time_limit_s=60.0)
     drag, fold = (primitive.step for primitive in plan.primitives[:2])
-    _panel(sheet, plan, 0, plan.start, ())
+    _panel(sheet, plan, 0, plan.problem.start, ())
     _caption(sheet, 0, "At the start")
     _panel(sheet, plan, 1, drag.after, drag.grips[:1])
     _caption(sheet, 1, f"Dragged by {drag.summary.split(',')[0]} and held out")

@@ -170,6 +170,7 @@ def test_a_number_typed_while_drawing_is_the_length(page: Page, cloth: Desk) -> 
     page.keyboard.press("Enter")
     page.keyboard.press("Enter")
     expect(page.locator(".corner")).to_have_count(3)
+    expect_step(page, "Draw outline")
     first, second, third = (corner(cloth, index) for index in range(3))
     assert second[0] - first[0] == pytest.approx(18 * 0.0254, abs=1e-6)
     assert ((third[0] - second[0]) ** 2 + (third[1] - second[1]) ** 2) ** 0.5 == pytest.approx(0.3, abs=1e-9)
