@@ -98,11 +98,14 @@ class Replanner:
         self._asked, self._job, self._is_behind = None, None, False
 
     def _work(self, state: DocumentState, began_s: float, should_stop: ShouldStop) -> None:
+        first: list[Plan] = []
+
         def is_unwanted() -> bool:
             self._document.give_way(_GIVE_WAY_S)
             now = self._document.state
             shown = now.answer if now.answer is not None and now.answer.version == state.version else None
-            is_done = now.failure is not None or (shown is not None and shown.is_final)
+            is_kept = shown is not None and shown.is_final and any(plan is shown.plan for plan in first)
+            is_done = now.failure is not None or is_kept
             if now.version == state.version and is_done:
                 return True
             patience_s = PATIENCE_S if shown is None else 0.0
@@ -110,7 +113,7 @@ class Replanner:
 
         plan: Plan | None = None
         try:
-            plan = self._planned(state, is_unwanted)
+            plan = self._planned(state, first, is_unwanted)
         except SceneError as error:
             self._document.fail(state.version, str(error.within("scene")))
         except FoldingError as error:
@@ -149,11 +152,16 @@ class Replanner:
         if state.checks is None or state.checks.version != state.version:
             self._document.put_checks(state.drawing, tuple(held_folds(state.solution, self._arms)))
 
-    def _planned(self, state: DocumentState, is_unwanted: ShouldStop) -> Plan | None:
-        """The answer, once it is published; None when there is nothing to plan, or nobody wants it any more."""
+    def _planned(self, state: DocumentState, first: list[Plan], is_unwanted: ShouldStop) -> Plan | None:
+        """The answer, once it is published; None when there is nothing to plan, or nobody wants it any more.
+
+        What is shown before that is noted as the first.
+        """
         question = state.question
         plan = None if question is None else self._remembered.get(question)
-        known = self._adapted(state.version, question, is_unwanted) if question is not None and plan is None else None
+        known = None
+        if question is not None and plan is None:
+            known = self._adapted(state.version, question, first, is_unwanted)
         self._check(state)
         if question is None or is_unwanted():
             return None
@@ -166,13 +174,14 @@ class Replanner:
         self._publish(state.version, question, plan, is_final=True)
         return plan
 
-    def _adapted(self, version: int, question: Question, is_unwanted: ShouldStop) -> Plan | None:
+    def _adapted(self, version: int, question: Question, first: list[Plan], is_unwanted: ShouldStop) -> Plan | None:
         """The quickest plan known as it is for this question, shown at once; None if none does any more."""
         with self._lock:
             known = self._known.by_cost()
         for plan in known:
             adapted = None if is_unwanted() else _adapted_to(question, plan)
             if adapted is not None and not is_unwanted():
+                first.append(adapted)
                 self._publish(version, question, adapted, is_final=False)
                 self._film(adapted)
                 return adapted

@@ -132,6 +132,18 @@ def test_undo_finds_its_plan_again_at_once(desk: Desk) -> None:
     assert desk.document.state.answer.plan is first
 
 
+def test_a_drawing_that_was_spoilt_and_is_mended_has_its_plan_and_film_again(desk: Desk) -> None:
+    desk.rest()
+    assert desk.document.state.answer is not None
+    first = desk.document.state.answer.plan
+    one, other, *rest = TOWEL.outline
+    state = desk.document.edit(Edit("Spoil", replace(TOWEL, outline=(other, one, *rest))))
+    assert state.solution.problems and state.film is None
+    desk.document.edit(Edit("Mend", TOWEL))
+    desk.rest()
+    assert desk.document.state.answer.plan is first
+
+
 def test_plans_of_previews_are_not_kept_and_those_of_commits_are(desk: Desk) -> None:
     desk.rest()
     ids = []
