@@ -18,7 +18,7 @@ from app.drawing.solve import solve
 from app.job_pool import JobPool
 from app.plan_store import PlanStore, UnknownPlanError
 from app.replanner import Replanner
-from planner import make_plan
+from planner import Plan, make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import crease, outlined, pulled
 from tests.app.samples import towel
@@ -324,9 +324,9 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
     given_up, go = threading.Event(), threading.Event()
     planned = Replanner._planned
 
-    def gives_up(self: Replanner, state: DocumentState, is_unwanted: Callable[[], bool]) -> object:
+    def gives_up(self: Replanner, state: DocumentState, first: list[Plan], is_unwanted: Callable[[], bool]) -> object:
         if given_up.is_set():
-            return planned(self, state, is_unwanted)
+            return planned(self, state, first, is_unwanted)
         while not is_unwanted():
             time.sleep(0.001)
         given_up.set()
