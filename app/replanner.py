@@ -49,6 +49,7 @@ class Replanner:
         self._is_behind = False
         self._filming: Plan | None = None
         self._known = KnownPlans()
+        self._of_previews: set[str] = set()
         self._remembered: OrderedDict[Question, Plan] = OrderedDict()
         self._unsubscribe = document.subscribe(self._look)
         self._look()
@@ -194,16 +195,19 @@ class Replanner:
                 self._remembered.popitem(last=False)
 
     def _publish(self, version: int, question: Question, plan: Plan, *, is_final: bool) -> None:
-        """Show the plan; one made for a preview need not be readable any more when it is not shown any more."""
+        """Show the plan; one never shown, or made for a preview and shown no more, need not be readable by its id."""
         before, plan_id = self._document.state.answer, self._plans.add(plan)
         with self._lock:
             self._known.add(plan)
         self._document.settle(version, question, plan, plan_id, is_final=is_final)
         state = self._document.state
+        if state.draft.gesture is not None:
+            self._of_previews.add(plan_id)
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
-        for made in {plan_id} if before is None else {plan_id, before.plan_id}:
-            if made not in kept:
-                self._plans.drop(made)
+        gone = {plan_id} if before is None or before.plan_id not in self._of_previews else {plan_id, before.plan_id}
+        for made in gone - kept:
+            self._plans.drop(made)
+            self._of_previews.discard(made)
 
 
 def _adapted_to(question: Question, plan: Plan) -> Plan | None:

@@ -64,6 +64,27 @@ def desk() -> Iterator[Desk]:
     made.pool.close()
 
 
+class Endless:
+    """A search that ends when it is stopped; by default only the first is such.
+
+    Attributes:
+        begun: it has begun.
+        stopped: it was told to stop.
+    """
+
+    def __init__(self, *, is_once: bool = True) -> None:
+        self.begun, self.stopped = threading.Event(), threading.Event()
+        self._is_once = is_once
+
+    def __call__(self, *arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        if not (self._is_once and self.begun.is_set()):
+            self.begun.set()
+            while not should_stop():
+                time.sleep(0.001)
+            self.stopped.set()
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+
 def nothing(*_: object, **__: object) -> None:
     """No plan can be adapted."""
 
@@ -203,21 +224,12 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
 
 def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
-    begun, stopped = threading.Event(), threading.Event()
-
-    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
-        if not begun.is_set():
-            begun.set()
-            while not should_stop():
-                time.sleep(0.001)
-            stopped.set()
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
-
+    endless = Endless()
     monkeypatch.setattr("app.replanner.make_plan", endless)
     desk.document.edit(Edit("Move", moved(1)))
-    assert begun.wait(PATIENCE_S)
+    assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Move", moved(2)))
-    assert stopped.wait(PATIENCE_S)
+    assert endless.stopped.wait(PATIENCE_S)
     desk.rest()
 
 
@@ -225,22 +237,14 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.rest()
-    begun, stopped = threading.Event(), threading.Event()
-
-    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
-        begun.set()
-        while not should_stop():
-            time.sleep(0.001)
-        stopped.set()
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
-
+    endless = Endless(is_once=False)
     with monkeypatch.context() as patch:
         patch.setattr("app.replanner.make_plan", endless)
         patch.setattr("app.replanner.adapt_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
-        assert begun.wait(PATIENCE_S)
+        assert endless.begun.wait(PATIENCE_S)
         desk.document.stop_planning()
-        assert stopped.wait(PATIENCE_S)
+        assert endless.stopped.wait(PATIENCE_S)
     assert status_text(desk.document.state) == "No plan: planning was stopped; the next change is planned again"
     assert not desk.document.state.is_planning
     desk.document.edit(Edit("Move", moved(2)))
@@ -276,40 +280,36 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.rest()
-    begun, stopped = threading.Event(), threading.Event()
-
-    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
-        begun.set()
-        while not should_stop():
-            time.sleep(0.001)
-        stopped.set()
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
-
+    endless = Endless(is_once=False)
     monkeypatch.setattr("app.replanner.make_plan", endless)
     desk.document.edit(Edit("Move", moved(20)))
-    assert begun.wait(PATIENCE_S)
+    assert endless.begun.wait(PATIENCE_S)
     shown = desk.document.state.answer
     assert shown is not None
     desk.document.stop_planning()
-    assert stopped.wait(PATIENCE_S)
+    assert endless.stopped.wait(PATIENCE_S)
     desk.rest()
     assert desk.document.state.failure is None and desk.document.state.answer.plan is shown.plan
 
 
+def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place(desk: Desk) -> None:
+    desk.rest()
+    shown = set()
+    unsubscribe = desk.document.subscribe(lambda: shown.add(desk.document.state.answer.plan_id))
+    for millimetres in (5, 15):
+        desk.document.edit(Edit("Move", moved(millimetres)))
+        desk.rest()
+    unsubscribe()
+    assert len(shown) >= 4, "of each edit the plan before as it is now, and what the search ended with"
+    assert all(desk.plans.plan(plan_id).is_solved for plan_id in shown)
+
+
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
-    begun = threading.Event()
-
-    def endless(*arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
-        if not begun.is_set():
-            begun.set()
-            while not should_stop():
-                time.sleep(0.001)
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
-
+    endless = Endless()
     monkeypatch.setattr("app.replanner.make_plan", endless)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
-    assert begun.wait(PATIENCE_S)
+    assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
     desk.rest()
     assert desk.document.state.answer is not None
