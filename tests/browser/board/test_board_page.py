@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import Desk, window
+from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Garment, Sheet
 
@@ -20,23 +19,6 @@ def chunk(kind: bytes, content: bytes) -> bytes:
 # A grey picture of 2 x 1 pixels.
 HEADER = chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 1, 8, 0, 0, 0, 0))
 PNG = b"\x89PNG\r\n\x1a\n" + HEADER + chunk(b"IDAT", zlib.compress(b"\x00\x40\x80")) + chunk(b"IEND", b"")
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Browser) -> Iterator[Page]:
-    with window(chromium) as page:
-        yield page
-
-
-@pytest.fixture(scope="module")
-def desk(page: Page, designer: Served) -> Desk:
-    return Desk(page, designer)
-
-
-@pytest.fixture
-def towel(desk: Desk) -> Desk:
-    desk.lay(desk.garment("hand-towel"))
-    return desk
 
 
 def width(page: Page) -> float:

@@ -1,40 +1,13 @@
 """Folds on the board: dragged, flipped, mirrored, made by dropping cloth where it shall come to lie."""
 
-from collections.abc import Iterator
-
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import Desk, expect_step, window
+from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Sheet
 
 PX_M = 0.003
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Browser) -> Iterator[Page]:
-    with window(chromium) as page:
-        yield page
-
-
-@pytest.fixture(scope="module")
-def desk(page: Page, designer: Served) -> Desk:
-    return Desk(page, designer)
-
-
-@pytest.fixture
-def shirt(page: Page, desk: Desk) -> Desk:
-    desk.lay(desk.garment("t-shirt"))
-    return desk
-
-
-@pytest.fixture
-def cloth(page: Page, desk: Desk) -> Desk:
-    """The T-shirt's outline without its folds: nothing to be planned."""
-    desk.lay({**desk.garment("t-shirt"), "folds": []})
-    return desk
 
 
 def fold(sheet: Sheet, index: int) -> dict[str, list[float]]:

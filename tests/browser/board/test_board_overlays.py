@@ -4,28 +4,10 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, Page, Route, expect
+from playwright.sync_api import Page, Route, expect
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import Desk, window
+from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Browser) -> Iterator[Page]:
-    with window(chromium) as page:
-        yield page
-
-
-@pytest.fixture(scope="module")
-def desk(page: Page, designer: Served) -> Desk:
-    return Desk(page, designer)
-
-
-@pytest.fixture
-def towel(desk: Desk) -> Desk:
-    desk.lay(desk.garment("hand-towel"))
-    return desk
 
 
 @pytest.fixture

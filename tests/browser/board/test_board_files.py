@@ -2,15 +2,13 @@
 
 import io
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import ezdxf
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import Desk, expect_step, window
+from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Sheet
 
@@ -18,17 +16,6 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" vi
   <path d="M0 0H400V300H0Z" fill="none" stroke="black"/>
   <line x1="100" y1="300" x2="100" y2="0" stroke="blue"/>
 </svg>"""
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Browser) -> Iterator[Page]:
-    with window(chromium) as page:
-        yield page
-
-
-@pytest.fixture(scope="module")
-def desk(page: Page, designer: Served) -> Desk:
-    return Desk(page, designer)
 
 
 @pytest.fixture

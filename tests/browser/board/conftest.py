@@ -1,0 +1,39 @@
+"""One window for all tests of a module, since it takes its time to load, and articles laid out in it."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import Desk, window
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser) -> Iterator[Page]:
+    with window(chromium) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def desk(page: Page, designer: Served) -> Desk:
+    return Desk(page, designer)
+
+
+@pytest.fixture
+def shirt(page: Page, desk: Desk) -> Desk:
+    desk.lay(desk.garment("t-shirt"))
+    return desk
+
+
+@pytest.fixture
+def cloth(page: Page, desk: Desk) -> Desk:
+    """The T-shirt's outline without its folds: nothing to be planned."""
+    desk.lay({**desk.garment("t-shirt"), "folds": []})
+    return desk
+
+
+@pytest.fixture
+def towel(desk: Desk) -> Desk:
+    desk.lay(desk.garment("hand-towel"))
+    return desk
