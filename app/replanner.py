@@ -1,7 +1,7 @@
 """Plans a document anew whenever its drawing changes. The latest wins.
 
-Mostly the plan that was shown last still does, with the drawing's new measures. That is found out much sooner than what
-is the quickest, so it is shown first, and replaced if the search comes to another.
+Mostly the plan that was shown last still does, with the new measures, or else some plan is found greedily. That
+takes much less time than to find the quickest, so it is shown first, and replaced if the search comes to another.
 
 A search for an older drawing is stopped, with one exception. While somebody drags, the next drawing may come before
 anything is found, and stopping each for the next would never show a plan. So during a gesture a search is given a
@@ -12,7 +12,9 @@ import logging
 import threading
 import time
 from collections import OrderedDict
+from collections.abc import Callable
 from functools import partial
+from typing import TypeAlias
 
 from app.document import Document
 from app.document_state import DocumentState, Question
@@ -20,7 +22,7 @@ from app.held_folds import held_folds
 from app.job_pool import Job, JobPool, ShouldStop
 from app.known_plans import KnownPlans
 from app.plan_store import PlanStore
-from planner import adapt_plan, make_plan
+from planner import make_plan, quick_plan
 from planner.errors import FoldingError, SceneError
 from planner.plan.plan import Plan
 
@@ -29,6 +31,8 @@ PATIENCE_S = 0.5
 
 _REMEMBERED = 8
 _GIVE_WAY_S = 0.1
+
+Show: TypeAlias = Callable[[Plan], None]
 
 _log = logging.getLogger(__name__)
 
@@ -162,12 +166,13 @@ class Replanner:
         plan = None if question is None else self._remembered.get(question)
         known = None
         if question is not None and plan is None:
-            known = self._adapted(state.version, question, first, is_unwanted)
+            show = partial(self._show_meanwhile, state.version, question, first, is_unwanted)
+            known = self._found_soon(question, show, is_unwanted)
         self._check(state)
         if question is None or is_unwanted():
             return None
         if plan is None:
-            plan = _quickest(question, known, is_unwanted)
+            plan = _quickest(question, known, show, is_unwanted)
             if is_unwanted():
                 return None
             if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
@@ -175,18 +180,23 @@ class Replanner:
         self._publish(state.version, question, plan, is_final=True)
         return plan
 
-    def _adapted(self, version: int, question: Question, first: list[Plan], is_unwanted: ShouldStop) -> Plan | None:
-        """The quickest plan known as it is for this question, shown at once; None if none does any more."""
+    def _found_soon(self, question: Question, show: Show, is_unwanted: ShouldStop) -> Plan | None:
+        """A plan for this question made of those that are known, shown at once; None if none was found soon."""
         with self._lock:
             known = self._known.by_cost()
-        for plan in known:
-            adapted = None if is_unwanted() else _adapted_to(question, plan)
-            if adapted is not None and not is_unwanted():
-                first.append(adapted)
-                self._publish(version, question, adapted, is_final=False)
-                self._film(adapted)
-                return adapted
-        return None
+        plan = None if is_unwanted() or not known else _quick(question, known, is_unwanted)
+        if plan is not None:
+            show(plan)
+        return plan
+
+    def _show_meanwhile(
+        self, version: int, question: Question, first: list[Plan], is_unwanted: ShouldStop, plan: Plan
+    ) -> None:
+        """Show a plan while a quicker one is looked for."""
+        if not is_unwanted():
+            first.append(plan)
+            self._publish(version, question, plan, is_final=False)
+            self._film(plan)
 
     def _remember(self, question: Question, plan: Plan) -> None:
         with self._lock:
@@ -210,17 +220,18 @@ class Replanner:
             self._of_previews.discard(made)
 
 
-def _adapted_to(question: Question, plan: Plan) -> Plan | None:
-    return adapt_plan(
-        plan,
+def _quick(question: Question, known: list[Plan], should_stop: ShouldStop) -> Plan | None:
+    return quick_plan(
         question.garment,
         question.scene,
+        like=known,
         start_station=question.start_station,
         comfort_radius_m=question.comfort_radius_m,
+        should_stop=should_stop,
     )
 
 
-def _quickest(question: Question, known: Plan | None, should_stop: ShouldStop) -> Plan:
+def _quickest(question: Question, known: Plan | None, show: Show, should_stop: ShouldStop) -> Plan:
     return make_plan(
         question.garment,
         question.scene,
@@ -228,4 +239,5 @@ def _quickest(question: Question, known: Plan | None, should_stop: ShouldStop) -
         comfort_radius_m=question.comfort_radius_m,
         should_stop=should_stop,
         known=known,
+        on_found=show,
     )

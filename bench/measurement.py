@@ -37,7 +37,7 @@ class Outcome:
     """What is the same at every repetition: the plan, and the counts of its search.
 
     Attributes:
-        status: "solved", "infeasible" or "budget_exceeded".
+        status: "solved", "infeasible" or, where it is not known whether it is the quickest, "budget_exceeded".
         folds: number of folds.
         primitives: primitives in the plan; None unless solved.
         cost_s: the plan's duration (s); None unless solved.
@@ -139,10 +139,10 @@ def _run(garment: Garment, case: Case) -> _Run:
     plan_time_s = perf_counter() - started
     found = plan.statistics
     outcome = Outcome(
-        plan.status,
+        plan.status if plan.is_proven else "budget_exceeded",
         len(garment.folds),
-        len(plan.primitives) if plan.is_solved else None,
-        plan.cost_s,
+        len(plan.primitives) if plan.is_proven and plan.is_solved else None,
+        plan.cost_s if plan.is_proven else None,
         found.expanded,
         found.explored,
         found.ik_queries,

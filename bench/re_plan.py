@@ -39,7 +39,7 @@ COLUMNS = (
     "p95",
     "final, CPU [ms]",
     "p95",
-    "adapted",
+    "soon",
     "solved",
 )
 ARMS = 2
@@ -63,7 +63,7 @@ class Replanned:
         first_cpu_s: CPU time of all threads from the move to the first plan, solving the drawing included (s).
         first_wall_s: time that went by (s).
         final_cpu_s: CPU time to where nothing quicker is looked for (s).
-        is_adapted: whether the first plan was the one before, adapted.
+        is_soon: whether the first plan was made of those before, not searched for.
     """
 
     corner: int
@@ -71,7 +71,7 @@ class Replanned:
     first_cpu_s: float
     first_wall_s: float
     final_cpu_s: float
-    is_adapted: bool
+    is_soon: bool
 
 
 def re_plan(articles: Sequence[str], repetitions: int) -> Report:
@@ -131,11 +131,11 @@ def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: f
         first_wall_s, first_cpu_s = perf_counter() - wall, process_time() - cpu
         final = _until(document, _is_settled)
         final_cpu_s = process_time() - cpu
-    is_adapted = first.answer is not None and not first.answer.is_final
+    is_soon = first.answer is not None and not first.answer.is_final
     status = ILLEGAL if final.solution.problems or final.answer is None else final.answer.plan.status
     document.edit(Edit("Back", drawing))
     _until(document, _is_settled)
-    return Replanned(corner, status, first_cpu_s, first_wall_s, final_cpu_s, is_adapted)
+    return Replanned(corner, status, first_cpu_s, first_wall_s, final_cpu_s, is_soon)
 
 
 def _is_settled(state: DocumentState) -> bool:
@@ -165,16 +165,16 @@ def _row(name: str, runs: Sequence[Replanned]) -> Row:
     parts = ("first_cpu_s", "first_wall_s", "final_cpu_s")
     first, wall, final = (_spread([1e3 * getattr(run, part) for run in planned]) for part in parts)
     statuses = Counter(run.status for run in runs)
-    solved, adapted = statuses["solved"], sum(run.is_adapted for run in planned)
+    solved, soon = statuses["solved"], sum(run.is_soon for run in planned)
     times_ms = [spread[part] for spread in (first, wall, final) for part in ("median", "p95")]
-    line = (name, str(len(runs)), *(f"{time_ms:.0f}" for time_ms in times_ms), str(adapted), str(solved))
+    line = (name, str(len(runs)), *(f"{time_ms:.0f}" for time_ms in times_ms), str(soon), str(solved))
     data = {
         "article": name,
         "moves": len(runs),
         "first_cpu_ms": first,
         "first_wall_ms": wall,
         "final_cpu_ms": final,
-        "adapted": adapted,
+        "soon": soon,
         "statuses": dict(statuses),
     }
     return Row((line,), data)

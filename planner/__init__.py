@@ -9,7 +9,7 @@ from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.folds.fold_sequence import FoldSequence, fold_dag
 from planner.plan.garment_check import check_garment
-from planner.plan.make_plan import adapt_plan, make_plan
+from planner.plan.make_plan import make_plan, quick_plan
 from planner.plan.plan import Plan
 from planner.plan.suggestions import suggestions
 from planner.primitives.scene import Scene
@@ -19,11 +19,11 @@ __all__ = [
     "Garment",
     "Plan",
     "Scene",
-    "adapt_plan",
     "check_garment",
     "fold_dag",
     "load_garment",
     "make_plan",
+    "quick_plan",
     "shipped_garment_names",
     "suggestions",
 ]

@@ -100,6 +100,7 @@ def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:
         "version": answer.version,
         "is_stale": answer.version != state.version,
         "is_final": answer.is_final,
+        "at_least_s": None if answer.plan.is_proven else answer.plan.statistics.bound_s,
         "id": answer.plan_id,
         **answer.body,
     }

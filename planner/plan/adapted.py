@@ -5,49 +5,45 @@ quickest then mostly can still be done, and mostly is still the quickest; to fin
 instead of a search. So it can be shown at once, and the search may take its time.
 """
 
-import time
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import chain, islice
 
 from planner.plan.act import Act
-from planner.plan.heuristic import arm_time
-from planner.plan.plan import Plan, Statistics
+from planner.plan.plan import Plan
 from planner.plan.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.primitives.work import Work
 
-_TRIES = 12
-"""So many ways to do again what a run of primitives did are tried."""
+_LOOKS_MAX = 12
+"""So many ways to do again what a run of primitives did are looked at."""
+
+_PATIENCE = 2
+"""So many times as many as elsewhere are tried: one that does saves a search."""
 
 
-def adapted(plan: Plan, problem: Problem) -> Plan | None:
-    """What a solved plan does, done in another problem; None where that cannot be."""
-    started = time.perf_counter()
-    work, state = problem.work, problem.start
+def adapted(plan: Plan, problem: Problem) -> tuple[Act, ...]:
+    """What a solved plan does, done in another problem as far as that can be; it may be all of it."""
+    state = problem.start
     acts: list[Act] = []
-    for act in plan.acts if work.unrest(0, state.offset) is None else ():
-        found = _act(act, problem, state)
+    for act in plan.acts:
+        found = None if problem.is_goal(state) else _act(act, problem, state)
         if found is None:
-            return None
+            break
         acts.append(found)
         state = found.steps[-1].after
-    if not acts or state.done != (1 << len(work.sequence.folds)) - 1:
-        return None
-    took_s, bound_s = time.perf_counter() - started, arm_time(work)(problem.start)
-    statistics = Statistics(0, 0, work.reach.queries, work.reach.query_time_s, took_s, 0.0, bound_s)
-    work.forget()
-    return Plan.of(problem, plan.status, tuple(acts), (), statistics)
+    return tuple(acts)
 
 
 def _act(act: Act, problem: Problem, state: State) -> Act | None:
-    for steps in islice(_again(act.steps, problem.work, state), _TRIES):
-        if act.run is None:
-            return Act(act.first, steps, None)
-        run = problem.maker.made(steps, like=act.run)
-        if run is not None:
-            return Act(act.first, run.steps, run)
-    return None
+    ways = islice(_again(act.steps, problem.work, state), _LOOKS_MAX)
+    likest = next(ways, None)
+    if likest is None or act.run is None:
+        return None if likest is None else Act(act.first, likest, None)
+    maker = problem.maker
+    run = maker.made_like(maker.candidate(likest), act.run)
+    run = run or maker.first_real(chain((likest,), ways), act.run, _PATIENCE)
+    return None if run is None else Act(act.first, run.steps, run)
 
 
 def _again(steps: Sequence[Step], work: Work, state: State) -> Iterator[tuple[Step, ...]]:

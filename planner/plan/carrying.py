@@ -3,6 +3,7 @@
 Arms are led one after the other, the second round the first; if that fails, in the other order.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import permutations, product
@@ -63,13 +64,19 @@ class Carrier:
         """The joints of a run; None if the arms cannot be led through it. Remembered."""
         return self._searched(_Asked.of(moments))
 
+    def can_hold(self, moments: Moments) -> bool:
+        """Whether the arms can be where they are at a few moments of a run; mostly if not, it cannot be carried."""
+        looks = _LOOKED_AT if moments.is_held.any(axis=1).sum() > 1 else 2
+        return self.can_hold_at(moments, np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist())
+
+    def can_hold_at(self, moments: Moments, which: Iterable[int]) -> bool:
+        """Whether the arms can be where they are at some moments, each looked at by itself."""
+        arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
+        return all(self._can_hold(arms, moments, moment) for moment in which)
+
     def _search(self, asked: "_Asked") -> Carried | None:
         moments = asked.moments
-        is_used = moments.is_held.any(axis=1)
-        arms = [int(arm) for arm in np.flatnonzero(is_used)]
-        places = np.linspace(0, len(moments) - 1, 2 if len(arms) < 2 else _LOOKED_AT)
-        if not all(self._can_hold(arms, moments, int(moment)) for moment in places):
-            return None
+        arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
         is_steep = all(moments.rotations[arm, 0, 2, 0] < -_STEEP for arm in arms)
         for roll in (OVER, BESIDE) if is_steep else (BESIDE,):
             for shares in (FAR, NEAR):

@@ -12,16 +12,16 @@ The algorithm of the paper (section 5), from top to bottom:
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.adapted import adapted
 from planner.plan.heuristic import HEURISTICS, arm_time
 from planner.plan.plan import Plan
 from planner.plan.plan_search import PlanSearch
 from planner.plan.problem import Problem, require_between
+from planner.plan.quick_plan import quickly_planned
 from planner.plan.warm_up import warm_up
 from planner.primitives.scene import Scene
 
@@ -42,6 +42,7 @@ def make_plan(
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     known: Plan | None = None,
+    on_found: Callable[[Plan], None] | None = None,
 ) -> Plan:
     """Plan how a robot folds a garment in the least time.
 
@@ -56,10 +57,14 @@ def make_plan(
         time_limit_s: the budget of the search (s, 0.01..60).
         max_expanded: its budget in states (1..1,000,000).
         should_stop: asked while searching; true ends the search as out of budget.
-        known: a solved plan for the same, as `adapt_plan` gives; the answer is that unless a quicker one is found.
+        known: a solved plan for the same, as `quick_plan` gives; the answer is that unless a quicker one is found.
+
+        on_found: told, in a search that takes long, of a plan that was found greedily; the search for the quickest goes
+            on then.
 
     Returns:
-        The plan; that none exists, or none was found within the budget, is an answer too.
+        The plan; that none exists, or none was found within the budget, is an answer too. Where time runs out it may be
+        one found greedily: `is_proven` says whether nothing is quicker.
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
@@ -72,40 +77,45 @@ def make_plan(
     compile_kernels()
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
     bound = HEURISTICS[heuristic](problem.work)
-    return PlanSearch(problem, bound, time_limit_s, max_expanded, should_stop or (lambda: False), known).plan()
+    is_over = should_stop or (lambda: False)
+    return PlanSearch(problem, bound, time_limit_s, max_expanded, is_over, known, on_found).plan()
 
 
-def adapt_plan(
-    plan: Plan,
+def quick_plan(
     garment: Garment,
     scene: Scene | None = None,
     *,
+    like: Sequence[Plan],
     placement: Pose2 | None = None,
     start_station: str = "front",
     robot: str = "pr2",
     comfort_radius_m: float = 0.03,
+    should_stop: Callable[[], bool] | None = None,
 ) -> Plan | None:
-    """Do with a garment what a plan does with another that differs a little; much quicker than to search.
+    """Find some plan soon, for a garment that differs a little from others that have plans.
 
     Args:
-        plan: a solved plan.
         garment: the garment, its folds in the user's order.
         scene: table, stations and costs; None for the default scene.
+        like: solved plans for garments like it. The first that can still be done is done, the same primitives one
+            after the other; where none can, what of one can, and the rest is found by a search that is greedy.
         placement: the article frame in the table frame at the start; None for the garment's own.
         start_station: where the robot stands at the start.
         robot: the robot's name.
         comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m, 0..0.1).
+        should_stop: asked again and again; true ends it without a plan.
 
     Returns:
         A plan that the robot can perform, joint paths included; a quicker one may exist (`statistics.bound_s` is what
-        the folds alone take). None where the same primitives do not do.
+        the folds alone take). None where none was found soon, which says nothing about whether there is one.
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
         RequestError: an option is out of range.
     """
     compile_kernels()
-    return adapted(plan, Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m))
+    problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
+    return quickly_planned(problem, like, should_stop or (lambda: False))
 
 
 def compile_kernels() -> None:

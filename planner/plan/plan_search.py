@@ -2,28 +2,31 @@
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import partial
 from itertools import islice, zip_longest
 
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.alone import Alone
+from planner.plan.edges import Edges
 from planner.plan.heuristic import Heuristic
 from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
+from planner.plan.quick_plan import quickly_planned
 from planner.plan.realizer import OutOfTimeError, Realizer
 from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.primitives.obstacle import situation
-from planner.primitives.primitive import Later, Step, in_time
-from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.search.a_star import Edge, Outcome, Promise, SearchResult, Successors, a_star
+from planner.search.a_star import Outcome, SearchResult, a_star
 
 LOOK_ALONE_AFTER = 30
 """Most plans are found within so many expansions; after them each fold not done yet is looked at alone."""
+
+GREEDY_AFTER_S = 1.0
+"""A search that has found nothing for so long looks for some plan to fall back on."""
 
 _COLLISIONS_MAX = 12
 """Of so many motions that the arms could not follow it is looked at what was in their way."""
@@ -40,6 +43,7 @@ class PlanSearch:
         max_expanded: int,
         should_stop: Callable[[], bool],
         known: Plan | None = None,
+        on_found: Callable[[Plan], None] | None = None,
     ) -> None:
         """A search that has not begun; its time runs.
 
@@ -50,6 +54,7 @@ class PlanSearch:
             max_expanded: the budget in states.
             should_stop: asked while searching; true ends the search as out of budget.
             known: a plan for the problem; only a quicker one is looked for.
+            on_found: told of a plan that was found meanwhile, while the search for the quickest goes on.
         """
         self._problem = problem
         self._work = problem.work
@@ -57,16 +62,15 @@ class PlanSearch:
         self._max_expanded = max_expanded
         self._started = time.perf_counter()
         self._deadline = self._started + time_limit_s
+        self._greedy_at = self._started + GREEDY_AFTER_S
         self._should_stop = should_stop
         self._known = known
-        self._primitives = [kind(problem.work) for kind in PRIMITIVES]
+        self._on_found = on_found
         self._achieved = 0
         self._reached: set[State] = set()
-        self._expanded = 0
         self._blocking: list[int] = []
         self._realizer = Realizer(problem.maker, self._is_out_of_budget)
-        self._steps: dict[State, tuple[Step | Later[Step], ...]] = {}
-        self._worked_out: dict[Later[Step], tuple[Step | Later[Step], ...]] = {}
+        self._edges = Edges(problem.work, self._possible)
         self._explored = 0
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
@@ -85,13 +89,15 @@ class PlanSearch:
 
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """The quickest path that is real, and what it is then."""
-        cost_s = math.inf if self._known is None else self._known.cost_s or 0.0
-        question = (start, self._successors, self._is_goal, self._heuristic, self._max_expanded, self._is_over)
+        is_goal, is_over = self._problem.is_goal, self._is_over
+        question = (start, self._edges.leaving, is_goal, self._heuristic, self._max_expanded, is_over)
         while True:
-            result = a_star(*question, limit=cost_s - TIME_S)
+            result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
             if result.outcome is not Outcome.SOLVED:
                 return result, ()
+            if result.cost >= self._limit_s:
+                return replace(result, outcome=Outcome.INFEASIBLE), ()
             begun = time.perf_counter()
             try:
                 found = self._realizer.acts([edge.action for edge in result.path])
@@ -103,6 +109,11 @@ class PlanSearch:
                 return result, found
             self._achieved = 0
             self._reached.clear()
+
+    @property
+    def _limit_s(self) -> float:
+        """What takes as long is no quicker than what is known (s)."""
+        return math.inf if self._known is None else (self._known.cost_s or 0.0) - TIME_S
 
     def _reasons(self) -> tuple[Reason, ...]:
         for run in self._some_struck():
@@ -117,35 +128,28 @@ class PlanSearch:
         in_turns = (run for turn in zip_longest(*by_task.values()) for run in turn if run is not None)
         return list(islice(in_turns, _COLLISIONS_MAX))
 
-    def _successors(self, state: State) -> Successors[State, Step]:
-        if state not in self._steps:
-            self._expanded += 1
-            self._steps[state] = tuple(one for kind in self._primitives for one in in_time(kind.successors(state)))
-        return self._edges(state, self._steps[state])
-
-    def _edges(self, state: State, found: Iterable[Step | Later[Step]]) -> Successors[State, Step]:
-        """The edges of steps that may be real, and promises of those that have time."""
-        for later in (one for one in found if isinstance(one, Later)):
-            yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
-        for step, cost_s in self._realizer.possible(state, (one for one in found if not isinstance(one, Later))):
+    def _possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
+        for step, cost_s in self._realizer.possible(state, steps):
             self._achieved |= step.after.done
             self._reached.add(step.after)
-            yield Edge(step, cost_s, step.after)
-
-    def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
-        if later not in self._worked_out:
-            self._worked_out[later] = tuple(later.steps())
-        return self._edges(state, self._worked_out[later])
-
-    def _is_goal(self, state: State) -> bool:
-        return state.done == (1 << len(self._work.sequence.folds)) - 1
+            yield step, cost_s
 
     def _is_over(self) -> bool:
-        if self._expanded >= LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
+        if self._edges.expanded >= LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
+        if time.perf_counter() > self._greedy_at and self._known is None and not self._blocking:
+            self._greedy_at = math.inf
+            self._fall_back()
         return bool(self._blocking) or self._is_out_of_budget()
+
+    def _fall_back(self) -> None:
+        """Look for some plan; from then on that is known."""
+        self._known = quickly_planned(self._problem.anew(), (), self._is_out_of_budget)
+        if self._known is not None and self._on_found is not None:
+            self._on_found(self._known)
 
     def _is_out_of_budget(self) -> bool:
         return time.perf_counter() > self._deadline or self._should_stop()
@@ -159,7 +163,7 @@ class PlanSearch:
         reach = self._work.reach
         elapsed = time.perf_counter() - self._started - self._joint_time_s
         statistics = Statistics(
-            self._expanded,
+            self._edges.expanded,
             self._explored,
             reach.queries,
             reach.query_time_s,

@@ -36,6 +36,17 @@ class Problem:
     maker: RunMaker
     start: State
 
+    def is_goal(self, state: State) -> bool:
+        """Whether all folds are done."""
+        return state.done == (1 << len(self.work.sequence.folds)) - 1
+
+    def anew(self) -> "Problem":
+        """The same with nothing worked out yet, for somebody else's use: a problem is not shared between threads."""
+        work, scene = self.work, self.work.scene
+        reach = self.robot.reach(scene.torso_m, work.reach.comfort_m)
+        fresh = Work(work.sequence, scene, reach, work.placement, work.circle_m)
+        return Problem(fresh, self.robot, RunMaker(fresh, self.robot), self.start)
+
     @staticmethod
     def of(
         garment: Garment,

@@ -1,6 +1,6 @@
 """A run of primitives made real: joint paths, and the time they take."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
@@ -26,8 +26,14 @@ from planner.primitives.work import Work
 MARGIN_M = 0.001
 """How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
 
+_CHOICES_MAX = 40
+"""So many choices of orientations are looked at for a run."""
+
+_TRIED_MAX = {1: 8, 2: 2}
+"""With so many arms so many of those are tried that may do; to lead two takes several times as long as to lead one."""
+
 _VARIANTS_MAX = 6
-"""So many choices of orientations are tried for a run."""
+"""So many choices of each step are combined with those of the others in its run."""
 
 HALF = 0.5
 """The share of a reach's time in which hands must be able to come from home, and to go home after the run before."""
@@ -72,6 +78,26 @@ class RealRun:
         return tuple(step.duration_s + excess for step, excess in zip(self.steps, exact, strict=True))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """Steps of which it is not known yet whether the arms can follow them.
+
+    Attributes:
+        steps: the primitives, none but the last of which lets go.
+        carrying: the phases in which cloth is held, each with its primitive's number.
+        moments: the same, moment by moment.
+    """
+
+    steps: tuple[Step, ...]
+    carrying: tuple[tuple[int, Phase], ...]
+    moments: Moments
+
+    @property
+    def arms(self) -> int:
+        """How many arms hold cloth at some time."""
+        return int(self.moments.is_held.any(axis=1).sum())
+
+
 def pose_of(base: FloatArray) -> Pose2:
     """A base's pose from x (m), y (m) and yaw (rad)."""
     x, y, yaw = (float(c) for c in base)
@@ -104,31 +130,69 @@ class RunMaker:
 
     def real(self, steps: Sequence[Step]) -> RealRun | None:
         """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow."""
-        made = (self.made(chosen) for chosen in islice(_choices(steps), _VARIANTS_MAX))
-        return next((run for run in made if run is not None), None)
+        return self.first_real(islice(_choices(steps), _CHOICES_MAX))
 
-    def made(self, steps: tuple[Step, ...], like: RealRun | None = None) -> RealRun | None:
-        """The run of steps exactly as they are, its joints like those of another where they may; None without a way."""
+    def first_real(
+        self, choices: Iterable[tuple[Step, ...]], like: RealRun | None = None, patience: int = 1
+    ) -> RealRun | None:
+        """The first that is real of some choices of steps; it is given up when a few, with patience more, are not."""
+        for number, candidate in enumerate(self.candidates(choices), start=1):
+            run = self.made(candidate, like)
+            if run is not None or number >= patience * _TRIED_MAX[candidate.arms]:
+                return run
+        return None
+
+    def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
+        """The choices of steps that may be real.
+
+        That is looked at, much quicker than to lead the arms: whether they can be where they are at a few moments,
+        where they begin and end first.
+        """
+        for steps in choices:
+            if self._can_hold(self._moments([phase for step in steps for phase in step.extremes()])):
+                candidate = self.candidate(steps)
+                if self._carrier.can_hold(candidate.moments):
+                    yield candidate
+
+    def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
+        """Steps as they are to be performed, moment by moment, whether they may be real or not."""
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
-        carrying = [(n, phase) for n, phase in phases if is_carrying(phase)]
-        moments = moments_of([phase for _, phase in carrying], self._work.scene.table.height_m)
-        carried = None if like is None else self._carrier.adapted(moments, like.carried)
-        carried = carried or self._carrier.carried(moments)
-        if carried is None:
+        carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
+        return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]))
+
+    def made(self, candidate: "Candidate", like: RealRun | None = None) -> RealRun | None:
+        """A candidate made real, its joints like those of another run where they may; None without a way."""
+        found = None if like is None else self.made_like(candidate, like)
+        carried = None if found is not None else self._carrier.carried(candidate.moments)
+        return self._run(candidate, carried) if found is None else found
+
+    def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
+        """A candidate made real, its joints near to those of another run; None where that cannot be."""
+        return self._run(candidate, self._carrier.adapted(candidate.moments, like.carried))
+
+    def _run(self, candidate: "Candidate", carried: Carried | None) -> RealRun | None:
+        late = None if carried is None else self._late(carried)
+        if carried is None or late is None:
             return None
-        late = self._late(carried)
-        if late is None:
-            return None
+        carrying, moments = candidate.carrying, candidate.moments
         least = needed_s(carried.joints, self._speeds)
         first, last = carried.first, carried.last
         times = np.append(0.0, np.cumsum(_paced(carrying, moments, least[first:last])))
         cues = tuple(_cues(carrying, moments, times))
-        return RealRun(steps, carried, cues, times, least[:first], least[last:], late)
+        return RealRun(candidate.steps, carried, cues, times, least[:first], least[last:], late)
+
+    def _can_hold(self, moments: Moments) -> bool:
+        """Whether the arms can be where they are at the first moment and at the last of each phase."""
+        ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
+        return self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
+
+    def _moments(self, phases: Sequence[Phase]) -> Moments:
+        return moments_of(phases, self._work.scene.table.height_m)
 
     def snag(self, steps: Sequence[Step]) -> Snag | None:
         """What is in the arms' way in a run that cannot be made real; None where they are only cut off."""
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
-        return self._snags.of(moments_of(phases, self._work.scene.table.height_m))
+        return self._snags.of(self._moments(phases))
 
     def _late(self, carried: Carried) -> tuple[float, float] | None:
         """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way."""
@@ -157,7 +221,7 @@ def _carrier(machine: Machine, table: Table, torso_m: float) -> tuple[Carrier, C
     return Carrier(machine, collisions, torso_m, table.height_m), collisions
 
 
-def _paced(carrying: list[tuple[int, Phase]], moments: Moments, least_s: FloatArray) -> FloatArray:
+def _paced(carrying: Sequence[tuple[int, Phase]], moments: Moments, least_s: FloatArray) -> FloatArray:
     """How long each step from moment to moment takes (s), shape (moments - 1,).
 
     The phases of one arm motion share its time; a drive is no quicker than it is, even in parts.
@@ -172,7 +236,7 @@ def _paced(carrying: list[tuple[int, Phase]], moments: Moments, least_s: FloatAr
     return found
 
 
-def _cues(carrying: list[tuple[int, Phase]], moments: Moments, times: FloatArray) -> Iterator[Cue]:
+def _cues(carrying: Sequence[tuple[int, Phase]], moments: Moments, times: FloatArray) -> Iterator[Cue]:
     start = 0.0
     for number, (primitive, phase) in enumerate(carrying):
         rows = np.flatnonzero((moments.phases == number) & (times > start))

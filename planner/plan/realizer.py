@@ -16,6 +16,7 @@ where steps were struck out.
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act, runs_of
@@ -23,10 +24,11 @@ from planner.plan.real_run import RealRun, RunMaker
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
-_SPREAD = 16
-"""So many other ways to do the same are tried once one has failed."""
+_SPREAD, _TRIED_MAX, _ENOUGH = 64, 12, 4
+"""Once one has failed, so many other ways to do the same are looked at, so many that may do are tried, until so many
+are real."""
 
-_FAILURES_MAX = 8
+_FAILURES_MAX = 5
 """So often the same is tried from a station by the same arms, the cloth here or there, if it never succeeds."""
 
 
@@ -113,17 +115,24 @@ class Realizer:
         self.struck.append(run[: number + 1])
         others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
-        for other in culprit.elsewhere(_SPREAD):
-            self._require_time()
-            made = None if _key(other) in others else self._maker.made((*before, other))
+        new = ((*before, other) for other in culprit.elsewhere(_SPREAD) if _key(other) not in others)
+        for candidate in islice(self._maker.candidates(self._in_time(new)), _TRIED_MAX):
+            made, other = self._maker.made(candidate), candidate.steps[-1]
             if made is not None:
                 others[_key(other)] = other
-                self._made[tuple(_key(step) for step in (*before, other))] = made
+                self._made[tuple(_key(step) for step in candidate.steps)] = made
                 self._least_s[_key(other)] = made.durations_s()[-1]
+            if len(others) == _ENOUGH:
+                break
         self._others[culprit.situation] = tuple(others.values())
         if others:
             self._succeeded.add(culprit.task)
         self._failures[culprit.task] += 1
+
+    def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
+        for steps in choices:
+            self._require_time()
+            yield steps
 
     def _require_time(self) -> None:
         if self._is_over():

@@ -98,6 +98,10 @@ class MoveStep:
         legs = zip(self.route.waypoints[:-1], self.route.waypoints[1:], strict=True)
         return tuple(Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True))
 
+    def extremes(self) -> tuple[Phase, ...]:
+        """Nothing is held."""
+        return ()
+
     def variants(self) -> Iterable["MoveStep"]:
         """There is but one way."""
         return (self,)

@@ -76,6 +76,10 @@ class DragStep:
         """Drive, reach, back off with the cloth."""
         return self._phases
 
+    def extremes(self) -> tuple[Phase, ...]:
+        """The drag itself."""
+        return self._phases[-1:]
+
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:
         work = self.work

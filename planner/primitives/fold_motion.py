@@ -60,6 +60,17 @@ class FoldMotion:
         follow = (self._phase(piece, [parts[i] for parts in hands]) for i, piece in enumerate(pieces, start=1))
         return (*begin, *follow)
 
+    def extremes(self) -> tuple[Phase, ...]:
+        """The hands at their picks and at their places, standing still."""
+        sweeps, stands = (0.0, 2.0), (self.first_stand, self.end)
+        hands = [self._cut(number, np.array(sweeps), np.array([1])) for number in range(len(self.way.trial.arms))]
+        found = (self._hands([parts[i] for parts in hands]) for i in range(len(sweeps)))
+        bases = (self._base(stand) for stand in stands)
+        return tuple(
+            Phase(0.0, (base, base), held, self._cloth(sweep, sweep))
+            for base, held, sweep in zip(bases, found, sweeps, strict=True)
+        )
+
     def _begin(self, points: "list[_Points]") -> tuple[Phase, ...]:
         still = self._cloth(0.0, 0.0)
         start, stand = self._base(self.before.back_off), self._base(self.first_stand)

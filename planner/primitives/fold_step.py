@@ -75,9 +75,17 @@ class FoldStep:
         """Drive, reach, and follow the path with the base's legs in between."""
         return self._phases
 
+    def extremes(self) -> tuple[Phase, ...]:
+        """The hands at the picks and at the places."""
+        return self._motion.extremes()
+
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:
-        return FoldMotion(self.work, self.way, self.before, self.first_stand, self.after.back_off).phases()
+        return self._motion.phases()
+
+    @property
+    def _motion(self) -> FoldMotion:
+        return FoldMotion(self.work, self.way, self.before, self.first_stand, self.after.back_off)
 
     def variants(self) -> Iterator["FoldStep"]:
         """This, then every other way between the same states, the quickest first."""

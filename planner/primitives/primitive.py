@@ -52,6 +52,10 @@ class Step(Protocol):
         """What it looks like while it happens; their durations add up to `duration_s`."""
         ...
 
+    def extremes(self) -> tuple[Phase, ...]:
+        """Where base and hands are when cloth is first and last held in it: phases in which hardly anything moves."""
+        ...
+
     def variants(self) -> "Iterable[Step]":
         """This step, and every other way between the same two states, the quickest first."""
         ...

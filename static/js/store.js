@@ -16,6 +16,7 @@ import { Live } from "./live.js";
  * @property {number} version of the document, whose plan it is
  * @property {boolean} is_stale whether the document has gone on since
  * @property {boolean} is_final whether no quicker one is looked for any more
+ * @property {number|null} at_least_s what any plan takes; null if that is known to be this one's cost
  * @property {string} id
  * @property {"solved"|"infeasible"|"budget_exceeded"} status
  * @property {number|null} cost_s

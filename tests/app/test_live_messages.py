@@ -40,6 +40,13 @@ def test_many_states_are_told_with_a_comma_and_a_bound_only_where_there_is_one()
     assert ": 12,345 states looked at. A longer limit" in status_text(answered(later))
 
 
+def test_what_any_plan_takes_is_told_until_that_is_known_to_be_the_plans_cost() -> None:
+    plan = make_plan(T_SHIRT)
+    open_s = replace(plan, statistics=replace(plan.statistics, bound_s=plan.cost_s - 2.0))
+    told = [plan_message(answered(one))["plan"]["at_least_s"] for one in (plan, open_s)]
+    assert told == [None, plan.cost_s - 2.0]
+
+
 def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() -> None:
     plan = make_plan(T_SHIRT)
     states = [answered(plan, is_final=is_final) for is_final in (False, True)]

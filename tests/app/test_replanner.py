@@ -240,7 +240,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     endless = Endless(is_once=False)
     with monkeypatch.context() as patch:
         patch.setattr("app.replanner.make_plan", endless)
-        patch.setattr("app.replanner.adapt_plan", nothing)
+        patch.setattr("app.replanner.quick_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
         assert endless.begun.wait(PATIENCE_S)
         desk.document.stop_planning()

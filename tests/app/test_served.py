@@ -50,6 +50,7 @@ def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
     assert shown.pop("version") == message["version"]
     assert shown.pop("is_stale") is False
     assert shown.pop("is_final") is True
+    assert shown.pop("at_least_s") is None, "it is known to be the quickest"
     assert httpx.get(f"{served.url}/api/plans/{shown['id']}").json() == shown
 
 

@@ -74,6 +74,28 @@ def test_while_a_quicker_plan_is_looked_for_the_one_on_show_can_be_kept(
     assert status.inner_text() == before
 
 
+def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.route_web_socket("**/live", out_of_time)
+    page.goto(new_sheet(napkin()).page_url)
+    numbers = page.get_by_role("region", name="Numbers")
+    expect(numbers).to_contain_text("There may be a quicker plan; none takes less than 6.5 s.")
+
+
+def out_of_time(page: WebSocketRoute) -> None:
+    """A server that knows no more of the quickest plan than that it takes 6.5 s or more."""
+    server = page.connect_to_server()
+
+    def tell(text: str) -> None:
+        message = json.loads(text)
+        if message["kind"] == "plan" and message["plan"] is not None:
+            message["plan"]["at_least_s"] = 6.5
+        page.send(json.dumps(message))
+
+    server.on_message(tell)
+
+
 def still_looking(page: WebSocketRoute) -> None:
     """A server that looks for a quicker plan until it is told to stop."""
     server = page.connect_to_server()

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner import Plan, Scene, adapt_plan, load_garment, make_plan
+from planner import Plan, Scene, load_garment, make_plan, quick_plan
 
 JEANS, SHIRT = load_garment("jeans"), load_garment("t-shirt")
 
@@ -17,24 +17,28 @@ def driving() -> Plan:
     return plan
 
 
-def test_without_the_station_that_it_drives_to_a_plan_cannot_be_adapted(driving: Plan):
+def test_without_the_station_that_it_drove_to_a_plan_goes_on_from_another(driving: Plan):
     gone_to = {p.base.station for p in driving.primitives if p.kind == "move"}
-    without = tuple(station for station in Scene().stations if station[0] not in gone_to)
-    assert len(without) < len(Scene().stations)
-    assert adapt_plan(driving, JEANS, Scene(stations=without)) is None
+    without = Scene(stations=tuple(station for station in Scene().stations if station[0] not in gone_to))
+    assert len(without.stations) < len(Scene().stations)
+    found = quick_plan(JEANS, without, like=[driving])
+    assert found is not None and {p.base.station for p in found.primitives} <= {name for name, _ in without.stations}
+    assert found.cost_s >= make_plan(JEANS, without).cost_s - 1e-9
 
 
 def test_a_station_is_known_by_its_name_wherever_it_is_in_the_list(driving: Plan):
     turned = Scene(stations=tuple(reversed(Scene().stations)))
-    found = adapt_plan(driving, JEANS, turned)
+    found = quick_plan(JEANS, turned, like=[driving])
     assert found is not None
     assert [p.base.station for p in found.primitives] == [p.base.station for p in driving.primitives]
     assert found.cost_s == pytest.approx(driving.cost_s)
 
 
-def test_where_the_base_may_not_back_off_so_far_a_plan_cannot_be_adapted():
+def test_where_the_base_may_not_back_off_so_far_a_plan_does_without():
     plan = make_plan(SHIRT, time_limit_s=60.0)
     furthest_m = max(p.base.back_off_m for p in plan.primitives)
     assert furthest_m > 0.0
-    assert adapt_plan(plan, SHIRT, replace(Scene(), back_off_max_m=0.0)) is None
-    assert adapt_plan(plan, SHIRT, replace(Scene(), back_off_max_m=furthest_m)) is not None
+    enough = quick_plan(SHIRT, replace(Scene(), back_off_max_m=furthest_m), like=[plan])
+    assert enough is not None and enough.cost_s == pytest.approx(plan.cost_s)
+    still = quick_plan(SHIRT, replace(Scene(), back_off_max_m=0.0), like=[plan])
+    assert still is None or all(p.base.back_off_m == 0.0 for p in still.primitives)

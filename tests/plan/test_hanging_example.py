@@ -12,6 +12,7 @@ import pytest
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import FloatArray, Pose2
+from planner.plan import edges
 from planner.plan import plan_search as planning
 from planner.plan.plan import PlannedPrimitive
 from planner.primitives.base_move import BaseMove
@@ -62,7 +63,7 @@ def towel() -> Plan:
 @pytest.fixture
 def without_hanging(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only drags that leave nothing hanging, and a "no" only once all states are exhausted."""
-    monkeypatch.setattr(planning, "PRIMITIVES", (GFold, LyingDrag, BaseMove))
+    monkeypatch.setattr(edges, "PRIMITIVES", (GFold, LyingDrag, BaseMove))
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
 
 
@@ -120,7 +121,7 @@ def test_on_a_table_so_smooth_that_nothing_may_hang_there_is_no_plan():
 
 
 def test_without_drags_there_is_no_plan(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(planning, "PRIMITIVES", (GFold, BaseMove))
+    monkeypatch.setattr(edges, "PRIMITIVES", (GFold, BaseMove))
     assert make_plan(load_garment("big-towel"), time_limit_s=60.0).status == "infeasible"
 
 

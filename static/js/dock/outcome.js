@@ -8,6 +8,7 @@ import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
 import { Refining } from "./refining.js";
+import { seconds } from "./words.js";
 
 export class Outcome {
   /**
@@ -46,7 +47,15 @@ export class Outcome {
     const isRefining = this.refining.isLong;
     this.stop.hidden = !isPlanning && !isRefining;
     this.stop.title = isPlanning ? "Stop planning; the next change is planned again" : "Keep this plan";
-    this.refined.textContent = isRefining ? "Looking for a quicker plan\u2026" : "";
+    this.tellOfQuicker();
+  }
+
+  /** Whether a quicker plan is looked for, or may exist though none was found in time. */
+  tellOfQuicker() {
+    const plan = this.store.plan?.plan;
+    const isOpen = plan?.status === "solved" && plan.is_final && plan.at_least_s !== null;
+    const open = isOpen ? `There may be a quicker plan; none takes less than ${seconds(plan.at_least_s)}.` : "";
+    this.refined.textContent = this.refining.isLong ? "Looking for a quicker plan\u2026" : open;
   }
 
   show() {
@@ -87,6 +96,7 @@ export class Outcome {
     this.numbers.hidden = plan.primitives.length === 0;
     const [cost, ...rest] = numbers(plan, before);
     this.numbers.replaceChildren(cost, this.refined, ...rest);
+    this.tellOfQuicker();
   }
 
   /** @param {boolean} isNone */

@@ -1,0 +1,99 @@
+"""Some plan, found soon: a search that goes straight for the end.
+
+It is the search for the quickest plan with the time to come counted several times over (weighted A*, Pohl 1970), so
+that it prefers to finish what it has begun. What it finds can be done, but may be far from the quickest. It gives up
+early, since then it mostly is no quicker than the proper search.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import count
+
+from planner.plan.act import Act, runs_of
+from planner.plan.edges import Edges
+from planner.plan.heuristic import arm_time
+from planner.plan.problem import Problem
+from planner.plan.real_run import RealRun
+from planner.primitives.primitive import Step
+from planner.primitives.state import State, StateKey
+from planner.search.a_star import a_star
+
+_WEIGHT = 10.0
+_EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 2
+"""So many states are expanded, and so many more for each fold."""
+
+_LOOKS_PER_STATE = 12
+"""So many times as many states and promises of steps are looked at altogether."""
+
+_FAILURES_MAX = 8
+"""So many runs may turn out not to be real."""
+
+
+def greedy(problem: Problem, start: State, is_over: Callable[[], bool] = lambda: False) -> tuple[Act, ...] | None:
+    """What is left to be done from a state on.
+
+    Args:
+        problem: what is to be planned.
+        start: the state.
+        is_over: asked again and again; true means that there is no time.
+
+    Returns:
+        What is done, act by act, the first beginning with primitive 0; None where no way was found soon that the arms
+        can follow.
+    """
+    return _Greedy(problem, is_over).acts(start)
+
+
+class _Greedy:
+    def __init__(self, problem: Problem, is_over: Callable[[], bool]) -> None:
+        self._problem = problem
+        self._is_over = is_over
+        self._remaining = arm_time(problem.work)
+        self._edges = Edges(problem.work, self._possible)
+        self._made: dict[tuple[StateKey, ...], RealRun | None] = {}
+        self._struck: set[tuple[StateKey, StateKey]] = set()
+
+    def acts(self, start: State) -> tuple[Act, ...] | None:
+        expanded_max = _EXPANDED_MAX + _EXPANDED_PER_FOLD * len(self._problem.work.sequence.folds)
+        looks = count()
+        while len(self._struck) < _FAILURES_MAX and not self._is_over():
+            result = a_star(
+                start,
+                self._edges.leaving,
+                self._problem.is_goal,
+                lambda state: _WEIGHT * self._remaining(state),
+                expanded_max,
+                lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
+            )
+            if not result.path:
+                return None
+            found = self._real([edge.action for edge in result.path])
+            if found is not None:
+                return found
+        return None
+
+    def _possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
+
+    def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+        """What steps are once they are real; where a run is not, its last step is tried no more."""
+        acts = []
+        for first, run in runs_of(steps):
+            act = None if self._is_over() else self._act(first, run)
+            if act is None:
+                self._struck.add(_ends(run[-1]))
+                return None
+            acts.append(act)
+        return tuple(acts)
+
+    def _act(self, first: int, steps: tuple[Step, ...]) -> Act | None:
+        if not any(step.grips for step in steps):
+            return Act(first, steps, None)
+        key = (steps[0].before.key, *(step.after.key for step in steps))
+        if key not in self._made:
+            self._made[key] = self._problem.maker.first_real((steps,))
+        run = self._made[key]
+        return None if run is None else Act(first, run.steps, run)
+
+
+def _ends(step: Step) -> tuple[StateKey, StateKey]:
+    return step.before.key, step.after.key
