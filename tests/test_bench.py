@@ -270,7 +270,7 @@ def test_re_planning_is_timed_for_each_move(tmp_path: Path):
     moves = replanned("vest", 3)
     assert len(moves) == 3
     assert all(0.0 < move.first_cpu_s <= move.final_cpu_s for move in moves)
-    assert any(move.is_adapted for move in moves), "most centimetres ask for no other plan"
+    assert any(move.is_soon for move in moves), "most centimetres ask for no other plan"
 
 
 def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path):
