@@ -1,6 +1,7 @@
 """Lower bounds on the time to a goal (paper, section 5.3)."""
 
 from collections.abc import Callable
+from functools import cache
 
 from planner.primitives.state import State
 from planner.primitives.work import Work
@@ -18,9 +19,12 @@ def arm_time(work: Work) -> Heuristic:
     motion = work.scene.arm_motion_s
     motions = [2 if fold.is_red else 3 for fold in work.sequence.folds]
 
+    @cache
+    def left(done: int) -> int:
+        return sum(m for i, m in enumerate(motions) if not done >> i & 1)
+
     def remaining(state: State) -> float:
-        left = sum(m for i, m in enumerate(motions) if not state.done >> i & 1)
-        return motion * (left - (1 if state.is_dragged else 0))
+        return motion * (left(state.done) - (1 if state.is_dragged else 0))
 
     return remaining
 

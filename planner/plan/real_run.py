@@ -29,8 +29,8 @@ MARGIN_M = 0.001
 _CHOICES_MAX = 40
 """So many choices of orientations are looked at for a run."""
 
-_TRIED_MAX = {1: 8, 2: 2}
-"""With so many arms so many of those are tried that may do; to lead two takes several times as long as to lead one."""
+_TRIED_ALONE_MAX, _TRIED_TOGETHER_MAX = 8, 2
+"""So many of those that may do are tried with one arm, and with several: to lead these takes several times as long."""
 
 _VARIANTS_MAX = 6
 """So many choices of each step are combined with those of the others in its run."""
@@ -93,9 +93,9 @@ class Candidate:
     moments: Moments
 
     @property
-    def arms(self) -> int:
-        """How many arms hold cloth at some time."""
-        return int(self.moments.is_held.any(axis=1).sum())
+    def is_together(self) -> bool:
+        """Whether more than one arm holds cloth."""
+        return bool(self.moments.is_held.any(axis=1).sum() > 1)
 
 
 def pose_of(base: FloatArray) -> Pose2:
@@ -138,7 +138,8 @@ class RunMaker:
         """The first that is real of some choices of steps; it is given up when a few, with patience more, are not."""
         for number, candidate in enumerate(self.candidates(choices), start=1):
             run = self.made(candidate, like)
-            if run is not None or number >= patience * _TRIED_MAX[candidate.arms]:
+            most = _TRIED_TOGETHER_MAX if candidate.is_together else _TRIED_ALONE_MAX
+            if run is not None or number >= patience * most:
                 return run
         return None
 
@@ -162,9 +163,8 @@ class RunMaker:
 
     def made(self, candidate: "Candidate", like: RealRun | None = None) -> RealRun | None:
         """A candidate made real, its joints like those of another run where they may; None without a way."""
-        found = None if like is None else self.made_like(candidate, like)
-        carried = None if found is not None else self._carrier.carried(candidate.moments)
-        return self._run(candidate, carried) if found is None else found
+        run = None if like is None else self.made_like(candidate, like)
+        return run or self._run(candidate, self._carrier.carried(candidate.moments))
 
     def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
         """A candidate made real, its joints near to those of another run; None where that cannot be."""
