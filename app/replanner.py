@@ -167,12 +167,13 @@ class Replanner:
         known = None
         if question is not None and plan is None:
             show = partial(self._show_meanwhile, state.version, question, first, is_unwanted)
-            known = self._found_soon(question, show, is_unwanted)
+            like = self._plans_known()
+            known = _found_soon(question, like, show, is_unwanted)
         self._check(state)
         if question is None or is_unwanted():
             return None
         if plan is None:
-            plan = _quickest(question, known, show, is_unwanted)
+            plan = _quickest(question, known, like, show, is_unwanted)
             if is_unwanted():
                 return None
             if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
@@ -180,14 +181,9 @@ class Replanner:
         self._publish(state.version, question, plan, is_final=True)
         return plan
 
-    def _found_soon(self, question: Question, show: Show, is_unwanted: ShouldStop) -> Plan | None:
-        """A plan for this question made of those that are known, shown at once; None if none was found soon."""
+    def _plans_known(self) -> list[Plan]:
         with self._lock:
-            known = self._known.by_cost()
-        plan = None if is_unwanted() or not known else _quick(question, known, is_unwanted)
-        if plan is not None:
-            show(plan)
-        return plan
+            return self._known.by_cost()
 
     def _show_meanwhile(
         self, version: int, question: Question, first: list[Plan], is_unwanted: ShouldStop, plan: Plan
@@ -220,18 +216,28 @@ class Replanner:
             self._of_previews.discard(made)
 
 
-def _quick(question: Question, known: list[Plan], should_stop: ShouldStop) -> Plan | None:
-    return quick_plan(
-        question.garment,
-        question.scene,
-        like=known,
-        start_station=question.start_station,
-        comfort_radius_m=question.comfort_radius_m,
-        should_stop=should_stop,
-    )
+def _found_soon(question: Question, like: list[Plan], show: Show, should_stop: ShouldStop) -> Plan | None:
+    """A plan made of those that are known for as many folds, shown at once; None if none was found soon.
+
+    Where there are more folds than before, or fewer, a search tells mostly as soon what is the quickest.
+    """
+    same = [plan for plan in like if len(plan.garment.folds) == len(question.garment.folds)]
+    plan = None
+    if same and not should_stop():
+        plan = quick_plan(
+            question.garment,
+            question.scene,
+            like=same,
+            start_station=question.start_station,
+            comfort_radius_m=question.comfort_radius_m,
+            should_stop=should_stop,
+        )
+    if plan is not None:
+        show(plan)
+    return plan
 
 
-def _quickest(question: Question, known: Plan | None, show: Show, should_stop: ShouldStop) -> Plan:
+def _quickest(question: Question, known: Plan | None, like: list[Plan], show: Show, should_stop: ShouldStop) -> Plan:
     return make_plan(
         question.garment,
         question.scene,
@@ -239,5 +245,6 @@ def _quickest(question: Question, known: Plan | None, show: Show, should_stop: S
         comfort_radius_m=question.comfort_radius_m,
         should_stop=should_stop,
         known=known,
+        like=like,
         on_found=show,
     )

@@ -42,6 +42,7 @@ def make_plan(
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     known: Plan | None = None,
+    like: Sequence[Plan] = (),
     on_found: Callable[[Plan], None] | None = None,
 ) -> Plan:
     """Plan how a robot folds a garment in the least time.
@@ -58,9 +59,9 @@ def make_plan(
         max_expanded: its budget in states (1..1,000,000).
         should_stop: asked while searching; true ends the search as out of budget.
         known: a solved plan for the same, as `quick_plan` gives; the answer is that unless a quicker one is found.
-
-        on_found: told, in a search that takes long, of a plan that was found greedily; the search for the quickest goes
-            on then.
+        like: solved plans for garments like it, of use if the search takes long.
+        on_found: told, in a search that takes long, of a plan as `quick_plan` gives; the search for the quickest then
+            goes on.
 
     Returns:
         The plan; that none exists, or none was found within the budget, is an answer too. Where time runs out it may be
@@ -78,7 +79,7 @@ def make_plan(
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
     bound = HEURISTICS[heuristic](problem.work)
     is_over = should_stop or (lambda: False)
-    return PlanSearch(problem, bound, time_limit_s, max_expanded, is_over, known, on_found).plan()
+    return PlanSearch(problem, bound, time_limit_s, max_expanded, is_over, known, like, on_found).plan()
 
 
 def quick_plan(

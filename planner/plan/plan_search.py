@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice, zip_longest
 
@@ -43,6 +43,7 @@ class PlanSearch:
         max_expanded: int,
         should_stop: Callable[[], bool],
         known: Plan | None = None,
+        like: Sequence[Plan] = (),
         on_found: Callable[[Plan], None] | None = None,
     ) -> None:
         """A search that has not begun; its time runs.
@@ -54,6 +55,7 @@ class PlanSearch:
             max_expanded: the budget in states.
             should_stop: asked while searching; true ends the search as out of budget.
             known: a plan for the problem; only a quicker one is looked for.
+            like: plans for problems like it, for one to fall back on.
             on_found: told of a plan that was found meanwhile, while the search for the quickest goes on.
         """
         self._problem = problem
@@ -65,6 +67,7 @@ class PlanSearch:
         self._greedy_at = self._started + GREEDY_AFTER_S
         self._should_stop = should_stop
         self._known = known
+        self._like = like
         self._on_found = on_found
         self._achieved = 0
         self._reached: set[State] = set()
@@ -147,7 +150,7 @@ class PlanSearch:
 
     def _fall_back(self) -> None:
         """Look for some plan; from then on that is known."""
-        self._known = quickly_planned(self._problem.anew(), (), self._is_out_of_budget)
+        self._known = quickly_planned(self._problem.anew(), self._like, self._is_out_of_budget)
         if self._known is not None and self._on_found is not None:
             self._on_found(self._known)
 

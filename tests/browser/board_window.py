@@ -17,7 +17,8 @@ PARTS = 'const board = document.getElementById("drafting-board"), pill = documen
 HAS_DRAWN = f"(version) => {{ {PARTS} return Number(board.dataset.version) >= version; }}"
 HAS_ANSWER = f"""(version) => {{
   {PARTS}
-  return pill.ariaBusy === "false" && {NUMBERS}.every((shown) => shown === version);
+  const isOver = pill.ariaBusy === "false" && pill.dataset.isFinal === "true";
+  return isOver && {NUMBERS}.every((shown) => shown === version);
 }}"""
 SHOWN = f"""() => {{
   {PARTS}
@@ -64,7 +65,7 @@ class Window:
         self.page.wait_for_function(HAS_DRAWN, arg=version)
 
     def wait_for_answer(self, version: int) -> None:
-        """Wait until this version is drawn, and the page says what planning it came to."""
+        """Wait until this version is drawn, and the page says what planning it came to in the end."""
         self.page.wait_for_function(HAS_ANSWER, arg=version)
 
     def shown(self) -> dict[str, Any]:

@@ -23,6 +23,7 @@ export function mountStatus(store, pill) {
     if (!planning.isGoingOn && store.plan) pill.dataset.version = String(store.plan.version);
     if (words.textContent !== text) words.textContent = pill.title = text;
     pill.dataset.status = kind;
+    pill.dataset.isFinal = String(store.plan?.plan?.is_final ?? true);
   }
 
   for (const name of ["document", "plan", "connection"]) store.addEventListener(name, show);

@@ -141,7 +141,15 @@ export class FoldTool extends Tool {
     this.stroke = null;
     this.question.forget();
     this.begun += 1;
-    this.finished = this.finished.then(() => this.complete(stroke));
+    this.finished = this.finished.then(() => this.complete(stroke)).catch((error) => this.fail(error));
+  }
+
+  /** A stroke was lost to a fault of the page; the next ones are none the worse. */
+  fail(error) {
+    this.done += 1;
+    if (!this.stroke) this.drop();
+    this.board.store.refuse("The fold could not be drawn. Draw it again, or reload the page.");
+    console.error(error);
   }
 
   /** Add the fold to those that are there by then. */
