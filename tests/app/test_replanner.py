@@ -8,89 +8,19 @@ from dataclasses import replace
 import pytest
 
 from app.api.live_messages import status_text
-from app.document import Document
 from app.document_state import DocumentState
-from app.drawing.draft import draft_of
-from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.solve import solve
-from app.job_pool import JobPool
-from app.plan_store import PlanStore, UnknownPlanError
+from app.plan_store import UnknownPlanError
 from app.replanner import Replanner
-from planner import Plan, make_plan
-from planner.cloth.garment import Garment
-from tests.app.drawing.drawings import crease, outlined, pulled
-from tests.app.samples import towel
-
-TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
-PATIENCE_S = 60.0
-
-
-class Desk:
-    """A document with its planner."""
-
-    def __init__(self) -> None:
-        self.pool = JobPool()
-        self.plans = PlanStore()
-        self.document = Document(draft_of(TOWEL))
-        self.replanner = Replanner(self.document, self.pool, self.plans, arms=2)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + PATIENCE_S
-        while not condition():
-            assert time.monotonic() < deadline
-            time.sleep(0.002)
-
-    def rest(self) -> None:
-        """Wait until everything that belongs to the drawing is there."""
-        self.until(lambda: self.is_answered and self.has_film and self.document.state.answer.is_final)
-
-    @property
-    def is_answered(self) -> bool:
-        return self.document.state.is_answered
-
-    @property
-    def has_film(self) -> bool:
-        state = self.document.state
-        return state.film is not None and state.answer is not None and state.film.plan is state.answer.plan
+from planner import Plan
+from tests.app.drawing.drawings import crease, outlined
+from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning
 
 
 @pytest.fixture
 def desk() -> Iterator[Desk]:
-    made = Desk()
-    yield made
-    made.replanner.close()
-    made.pool.close()
-
-
-class Endless:
-    """A search that ends when it is stopped; by default only the first is such.
-
-    Attributes:
-        begun: it has begun.
-        stopped: it was told to stop.
-    """
-
-    def __init__(self, *, is_once: bool = True) -> None:
-        self.begun, self.stopped = threading.Event(), threading.Event()
-        self._is_once = is_once
-
-    def __call__(self, *arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
-        if not (self._is_once and self.begun.is_set()):
-            self.begun.set()
-            while not should_stop():
-                time.sleep(0.001)
-            self.stopped.set()
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
-
-
-def nothing(*_: object, **__: object) -> None:
-    """No plan can be adapted."""
-
-
-def moved(millimetres: float) -> Drawing:
-    return solve(pulled(TOWEL, 0, -0.001 * millimetres, 0.0)).drawing
+    with replanning() as desk:
+        yield desk
 
 
 def test_the_first_plan_comes_by_itself_with_checks_and_film(desk: Desk) -> None:
@@ -251,57 +181,6 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk.rest()
     desk.document.stop_planning()
     assert desk.document.state.failure is None, "there is nothing to stop any more"
-
-
-def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_one_is_looked_for(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desk.rest()
-    may_end = threading.Event()
-
-    def waiting(*arguments: object, **options: object) -> object:
-        assert may_end.wait(PATIENCE_S)
-        return make_plan(*arguments, **options)  # type: ignore[arg-type]
-
-    monkeypatch.setattr("app.replanner.make_plan", waiting)
-    desk.document.edit(Edit("Move", moved(20)))
-    desk.until(lambda: desk.is_answered and desk.has_film)
-    first = desk.document.state.answer
-    assert first is not None and not first.is_final
-    assert first.plan.is_solved and first.plan.garment.outline[0] == (-0.02, 0.0)
-    may_end.set()
-    desk.rest()
-    last = desk.document.state.answer
-    assert last is not None and last.is_final and last.plan.is_proven
-    assert last.plan.cost_s <= first.plan.cost_s
-
-
-def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desk.rest()
-    endless = Endless(is_once=False)
-    monkeypatch.setattr("app.replanner.make_plan", endless)
-    desk.document.edit(Edit("Move", moved(20)))
-    assert endless.begun.wait(PATIENCE_S)
-    shown = desk.document.state.answer
-    assert shown is not None
-    desk.document.stop_planning()
-    assert endless.stopped.wait(PATIENCE_S)
-    desk.rest()
-    assert desk.document.state.failure is None and desk.document.state.answer.plan is shown.plan
-
-
-def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place(desk: Desk) -> None:
-    desk.rest()
-    shown = set()
-    unsubscribe = desk.document.subscribe(lambda: shown.add(desk.document.state.answer.plan_id))
-    for millimetres in (5, 15):
-        desk.document.edit(Edit("Move", moved(millimetres)))
-        desk.rest()
-    unsubscribe()
-    assert len(shown) >= 4, "of each edit the plan before as it is now, and what the search ended with"
-    assert all(desk.plans.plan(plan_id).is_solved for plan_id in shown)
 
 
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,88 @@
+"""A document that is planned anew at every edit, without a server."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.drawing import Drawing
+from app.drawing.garment_drawing import drawing_of
+from app.drawing.solve import solve
+from app.job_pool import JobPool
+from app.plan_store import PlanStore
+from app.replanner import Replanner
+from planner import make_plan
+from planner.cloth.garment import Garment
+from tests.app.drawing.drawings import pulled
+from tests.app.samples import towel
+
+TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
+PATIENCE_S = 60.0
+
+
+class Desk:
+    """A document with its planner."""
+
+    def __init__(self) -> None:
+        self.pool = JobPool()
+        self.plans = PlanStore()
+        self.document = Document(draft_of(TOWEL))
+        self.replanner = Replanner(self.document, self.pool, self.plans, arms=2)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < deadline
+            time.sleep(0.002)
+
+    def rest(self) -> None:
+        """Wait until everything that belongs to the drawing is there."""
+        self.until(lambda: self.is_answered and self.has_film and self.document.state.answer.is_final)
+
+    @property
+    def is_answered(self) -> bool:
+        return self.document.state.is_answered
+
+    @property
+    def has_film(self) -> bool:
+        state = self.document.state
+        return state.film is not None and state.answer is not None and state.film.plan is state.answer.plan
+
+
+@contextmanager
+def replanning() -> Iterator[Desk]:
+    made = Desk()
+    yield made
+    made.replanner.close()
+    made.pool.close()
+
+
+class Endless:
+    """A search that ends when it is stopped; by default only the first is such.
+
+    Attributes:
+        begun: it has begun.
+        stopped: it was told to stop.
+    """
+
+    def __init__(self, *, is_once: bool = True) -> None:
+        self.begun, self.stopped = threading.Event(), threading.Event()
+        self._is_once = is_once
+
+    def __call__(self, *arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
+        if not (self._is_once and self.begun.is_set()):
+            self.begun.set()
+            while not should_stop():
+                time.sleep(0.001)
+            self.stopped.set()
+        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+
+
+def nothing(*_: object, **__: object) -> None:
+    """No plan can be adapted."""
+
+
+def moved(millimetres: float) -> Drawing:
+    return solve(pulled(TOWEL, 0, -0.001 * millimetres, 0.0)).drawing

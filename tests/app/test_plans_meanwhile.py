@@ -1,0 +1,112 @@
+"""What is shown while the quickest plan is looked for: a plan for the drawing as it is now, found sooner."""
+
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from app.document_state import Answer
+from app.drawing.edit import Edit
+from app.drawing.solve import solve
+from planner import make_plan
+from planner.plan import plan_search
+from tests.app.drawing.drawings import crease
+from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, replanning
+
+QUARTERED = solve(replace(TOWEL, folds=(*TOWEL.folds, crease("quarter", (0.2, 0.15), (0.2, 0.3))))).drawing
+
+
+@pytest.fixture
+def desk() -> Iterator[Desk]:
+    with replanning() as desk:
+        yield desk
+
+
+def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_one_is_looked_for(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    may_end = threading.Event()
+
+    def waiting(*arguments: object, **options: object) -> object:
+        assert may_end.wait(PATIENCE_S)
+        return make_plan(*arguments, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("app.replanner.make_plan", waiting)
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.until(lambda: desk.is_answered and desk.has_film)
+    first = desk.document.state.answer
+    assert first is not None and not first.is_final
+    assert first.plan.is_solved and first.plan.garment.outline[0] == (-0.02, 0.0)
+    may_end.set()
+    desk.rest()
+    last = desk.document.state.answer
+    assert last is not None and last.is_final and last.plan.is_proven
+    assert last.plan.cost_s <= first.plan.cost_s
+
+
+def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    endless = Endless(is_once=False)
+    monkeypatch.setattr("app.replanner.make_plan", endless)
+    desk.document.edit(Edit("Move", moved(20)))
+    assert endless.begun.wait(PATIENCE_S)
+    shown = desk.document.state.answer
+    assert shown is not None
+    desk.document.stop_planning()
+    assert endless.stopped.wait(PATIENCE_S)
+    desk.rest()
+    assert desk.document.state.failure is None and desk.document.state.answer.plan is shown.plan
+
+
+def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place(desk: Desk) -> None:
+    desk.rest()
+    shown = set()
+    unsubscribe = desk.document.subscribe(lambda: shown.add(desk.document.state.answer.plan_id))
+    for millimetres in (5, 15):
+        desk.document.edit(Edit("Move", moved(millimetres)))
+        desk.rest()
+    unsubscribe()
+    assert len(shown) >= 4, "of each edit the plan before as it is now, and what the search ended with"
+    assert all(desk.plans.plan(plan_id).is_solved for plan_id in shown)
+
+
+def answers(desk: Desk) -> list[Answer]:
+    """Where all that is shown from now on is noted."""
+    shown: list[Answer] = []
+
+    def look() -> None:
+        state = desk.document.state
+        if state.is_answered and (not shown or shown[-1] is not state.answer):
+            shown.append(state.answer)
+
+    desk.document.subscribe(look)
+    return shown
+
+
+def test_with_another_fold_there_is_nothing_to_be_shown_before_the_quickest_plan(desk: Desk) -> None:
+    desk.rest()
+    shown = answers(desk)
+    desk.document.edit(Edit("Draw fold", QUARTERED))
+    desk.rest()
+    assert [answer.is_final for answer in shown] == [True]
+
+
+def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the_one_before(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    before = desk.document.state.answer.plan
+    monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.0)
+    shown = answers(desk)
+    desk.document.edit(Edit("Draw fold", QUARTERED))
+    desk.rest()
+    assert [answer.is_final for answer in shown] == [False, True]
+    meanwhile, last = (answer.plan for answer in shown)
+    begins = meanwhile.primitives[: len(before.primitives)]
+    assert [p.summary for p in begins] == [p.summary for p in before.primitives]
+    assert last.is_proven and last.cost_s <= meanwhile.cost_s
+    assert all(desk.plans.plan(answer.plan_id) is answer.plan for answer in shown)
