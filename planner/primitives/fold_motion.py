@@ -61,15 +61,11 @@ class FoldMotion:
         return (*begin, *follow)
 
     def extremes(self) -> tuple[Phase, ...]:
-        """The hands at their picks and at their places, standing still."""
-        sweeps, stands = (0.0, 2.0), (self.first_stand, self.end)
-        hands = [self._cut(number, np.array(sweeps), np.array([1])) for number in range(len(self.way.trial.arms))]
-        found = (self._hands([parts[i] for parts in hands]) for i in range(len(sweeps)))
-        bases = (self._base(stand) for stand in stands)
-        return tuple(
-            Phase(0.0, (base, base), held, self._cloth(sweep, sweep))
-            for base, held, sweep in zip(bases, found, sweeps, strict=True)
-        )
+        """From the picks straight to the places: only its beginning and its end are as they will be."""
+        numbers = range(len(self.way.trial.arms))
+        ends = [self._cut(number, np.array([0.0, 2.0]), np.empty(0, dtype=np.int64))[0] for number in numbers]
+        bases = (self._base(self.first_stand), self._base(self.end))
+        return (Phase(0.0, bases, self._hands(ends), self._cloth(0.0, 2.0)),)
 
     def _begin(self, points: "list[_Points]") -> tuple[Phase, ...]:
         still = self._cloth(0.0, 0.0)

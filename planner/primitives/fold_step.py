@@ -76,7 +76,7 @@ class FoldStep:
         return self._phases
 
     def extremes(self) -> tuple[Phase, ...]:
-        """The hands at the picks and at the places."""
+        """From the picks to the places."""
         return self._motion.extremes()
 
     @cached_property

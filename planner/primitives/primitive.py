@@ -53,7 +53,7 @@ class Step(Protocol):
         ...
 
     def extremes(self) -> tuple[Phase, ...]:
-        """Where base and hands are when cloth is first and last held in it: phases in which hardly anything moves."""
+        """Phases that begin and end where it does while cloth is held; what they are in between does not matter."""
         ...
 
     def variants(self) -> "Iterable[Step]":
