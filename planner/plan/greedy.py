@@ -28,7 +28,7 @@ _FAILURES_MAX = 8
 """So many runs may turn out not to be real."""
 
 
-def greedy(problem: Problem, start: State, is_over: Callable[[], bool] = lambda: False) -> tuple[Act, ...] | None:
+def greedy(problem: Problem, start: State, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
     """What is left to be done from a state on.
 
     Args:

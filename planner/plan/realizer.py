@@ -6,11 +6,11 @@ true cost, and the search goes on with what is known now. Bounds only rise, so t
 at which it was found is the quickest of all: the same that a search would find that made every step real at once.
 
 The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
-either, and to be told so one by one would take long. So a spread of other ways to do the same is tried at once, begun
-and ended elsewhere, and in every state in which the hands would do the same those that are real take the place of all
-that the search had, but for what has turned out to be real before. What the same arms have failed at several times from
-one station, wherever the cloth lay, and never succeeded in, is tried no more from there. So "infeasible" is no proof
-where steps were struck out.
+either, and to be told so one by one would take long. So a spread of other ways to do the same, begun and ended
+elsewhere, is looked at at once, and some of those that may do are tried; in every state in which the hands would do the
+same the first few that are real take the place of all that the search had, but for what has turned out to be real
+before. What the same arms have failed at several times from one station, wherever the cloth lay, and never succeeded
+in, is tried no more from there. So "infeasible" is no proof where steps were struck out.
 """
 
 import math
