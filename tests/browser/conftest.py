@@ -11,6 +11,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, Playwright, expec
 
 from tests.app.conftest import Served
 from tests.app.conftest import served as served
+from tests.browser.status_pill import expect_planned
 
 PATIENCE_MS = 20_000
 STAGE_PATIENCE_MS = 60_000
@@ -66,7 +67,7 @@ def stage_window(browser: Browser, served: Served) -> Iterator[tuple[Page, list[
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, served) else None)
     page.goto(served.url)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     page.wait_for_function(IS_THERE, arg="/cloth/front")
     yield page, faults
     page.close()

@@ -8,6 +8,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 LAID = """async ([count, edges]) => {
   const { columns, wayOf } = await import("/static/js/dock/dag_layout.js");
@@ -24,7 +25,7 @@ def planned(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterato
     with windows(chromium) as context:
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)
-        expect(page.get_by_role("slider", name="Time")).to_be_enabled()
+        expect_planned(page)
         yield page
 
 

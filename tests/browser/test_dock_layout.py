@@ -7,6 +7,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 SPILT = """() => {
   const dock = document.getElementById("dock");
@@ -24,7 +25,7 @@ def wide(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[P
     with windows(chromium, reduced_motion="reduce") as context:
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)
-        expect(page.get_by_role("slider", name="Time")).to_be_enabled()
+        expect_planned(page)
         yield page
 
 
@@ -35,7 +36,7 @@ def phone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)
         page.locator("#sheet").tap()
-        expect(page.get_by_role("slider", name="Time")).to_be_enabled()
+        expect_planned(page)
         yield page
 
 

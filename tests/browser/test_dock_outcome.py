@@ -12,6 +12,7 @@ from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import cost_s, expect_planned
 
 FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
 
@@ -33,15 +34,8 @@ def keep_front_alone(drawing: dict[str, Any]) -> None:
 def planned(page: Page, sheet: Sheet) -> float:
     """The page with a plan of a sheet, and its cost (s)."""
     page.goto(sheet.page_url)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     return cost_s(page)
-
-
-def cost_s(page: Page) -> float:
-    text = page.get_by_role("status").inner_text()
-    found = re.search(r", ([\d.]+) s$", text)
-    assert found is not None
-    return float(found[1])
 
 
 def suggestions(page: Page) -> Locator:
@@ -53,7 +47,7 @@ def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sh
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).to_have_count(0)
     move = suggestions(page).filter(has_text="Move the garment")
     move.first.click()
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     assert (stuck.can_undo or "").startswith("Move the garment ")
     assert stuck.drawing["placement"]["x_m"] < FAR["x_m"]
     expect(page.get_by_text("no plan before")).to_be_visible()
@@ -92,6 +86,7 @@ def test_the_numbers_say_what_the_cost_is_made_of_and_how_it_changed(
     sheet.edit(lambda drawing: drawing["folds"].pop())
     changed = numbers.locator(".total-change")
     expect(changed).to_contain_text("less than before")
+    expect_planned(page)
     saved = float(changed.inner_text().split()[0])
     assert saved == pytest.approx(before_s - cost_s(page), abs=0.11)
     for name in ("Expanded", "Explored", "IK queries", "Search", "Joint paths"):

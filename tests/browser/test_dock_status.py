@@ -10,6 +10,7 @@ from playwright.sync_api import BrowserContext, Page, WebSocketRoute, expect
 from tests.app.conftest import Served
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 WAITING = """async (millis) => {
   const { Planning } = await import("/static/js/dock/planning.js");
@@ -97,13 +98,15 @@ def out_of_time(page: WebSocketRoute) -> None:
 
 
 def still_looking(page: WebSocketRoute) -> None:
-    """A server that looks for a quicker plan until it is told to stop."""
+    """A server that looks for a quicker plan, in vain, until it is told to stop."""
     server = page.connect_to_server()
     last: list[str] = []
 
     def tell(text: str) -> None:
         message = json.loads(text)
         if message["kind"] == "plan" and message["plan"] is not None:
+            if not message["plan"]["is_final"]:
+                return
             last[:] = [text]
             message["plan"]["is_final"] = False
         page.send(json.dumps(message))
@@ -125,7 +128,7 @@ def test_a_lost_connection_is_told_and_the_player_rests(
     sockets = []
     page.route_web_socket("**/live", lambda route: sockets.append((route, route.connect_to_server())))
     page.goto(sheet.page_url)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     expect(page.get_by_role("button", name="Play")).to_be_enabled()
     page.route_web_socket("**/live", lambda route: route.close())
     sockets[0][0].close()

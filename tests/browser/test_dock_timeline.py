@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.app.conftest import Served
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +22,7 @@ def planned(
     with windows(chromium) as context:
         page = context.new_page()
         page.goto(sheet.page_url)
-        expect(slider(page)).to_be_enabled()
+        expect_planned(page)
         answer = httpx.post(f"{designer.url}/api/plans", json={"garment": napkin()}, timeout=20.0)
         primitives = answer.json()["primitives"]
         last = primitives[-1]

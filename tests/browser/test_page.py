@@ -9,6 +9,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.conftest import REST, STAGE_PATIENCE_MS
+from tests.browser.status_pill import expect_planned
 
 NODE = """(name) => {
   const stage = document.getElementById("stage").contentWindow;
@@ -45,7 +46,7 @@ def page(stage_page: Page, served: Served) -> Page:
     for command in ({"do": "pause"}, {"do": "seek", "t_s": 0.0}):
         REST.post(f"{document}/playback", json=command).raise_for_status()
     expect(stage_page.locator("#time")).to_have_js_property("value", "0")
-    expect(stage_page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(stage_page)
     until_there(stage_page, "/cloth/front")
     until_there(stage_page, "/robot")
     return stage_page
@@ -138,10 +139,10 @@ def test_the_space_bar_plays_and_arrows_step(page: Page) -> None:
 def test_another_garment_is_planned_and_shown(page: Page) -> None:
     page.get_by_role("combobox", name="Garment").select_option("hand-towel")
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(3)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     page.get_by_role("combobox", name="Garment").select_option("t-shirt")
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
 
 
 def test_the_stage_takes_on_the_pages_theme(page: Page) -> None:
@@ -178,7 +179,7 @@ def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
     expect(page.locator(".reasons li")).not_to_have_count(0)
     expect(page.get_by_role("button", name="Play")).to_be_disabled()
     page.get_by_role("combobox", name="Garment").select_option("t-shirt")
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
 
 
 def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) -> None:
@@ -188,10 +189,10 @@ def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) 
     body = {"base_version": REST.get(path).json()["version"], "label": "Fewer", "drawing": changed}
     assert REST.put(f"{path}/drawing", json=body).status_code == 200
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(2)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     assert REST.post(f"{path}/undo").status_code == 200
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
 
 
 def test_a_document_that_is_not_there_is_told_of(browser: Browser, served: Served) -> None:
@@ -208,6 +209,6 @@ def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page,
     served.stop()
     expect(page.get_by_role("status")).to_contain_text("Connection lost")
     served.start_again()
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     page.wait_for_function("!document.getElementById('stage').contentWindow.isOfBefore")
     until_there(page, "/cloth/front")

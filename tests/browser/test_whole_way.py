@@ -15,6 +15,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.app.conftest import Served
 from tests.browser.board_hand import Point
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet, windows
+from tests.browser.status_pill import expect_planned
 from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
 
 # 0.4 x 0.3 m: sides that end in peaks, a notch between them. Both sides are folded in, then it is halved.
@@ -25,7 +26,6 @@ PULLS_M = (0.04, 0.06, 0.08, 0.1, 0.12)
 # Where a hand puts a point: within a few pixels, and a pixel is some 3 mm there.
 NEAR_M = 0.008
 
-PLANNED = "Planned: "
 NO_PLAN = "No plan: "
 SMALL = {"width": 900, "height": 500}
 PHONE: dict[str, Any] = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
@@ -42,7 +42,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     status = page.get_by_role("status")
     drawn = sheet.state
     expect_answer(page, drawn["version"])
-    expect(status).to_contain_text(re.compile(f"^{PLANNED}[1-9]"))
+    expect(status).to_contain_text(re.compile("^Planned: [1-9]"))
     for corner, wanted in zip(drawn["drawing"]["outline"], CORNERS, strict=True):
         assert math.dist(corner["point"], wanted) < NEAR_M
     assert [fold["status"] for fold in drawn["solved"]] == ["legal"] * 3
@@ -57,7 +57,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
 
     expect(page.locator(".suggestions button", has_text="Move the garment").first).to_be_attached()
     way.press("Move the garment")
-    expect(status).to_contain_text(PLANNED)
+    expect_planned(page)
     helped = sheet.state
     assert helped["history"]["can_undo"].startswith("Move the garment ")
     assert helped["drawing"]["outline"] == pulled["drawing"]["outline"]
@@ -119,7 +119,7 @@ def redo_everything(page: Page, sheet: Sheet) -> None:
 
 def expect_all_of(page: Page, sheet: Sheet, state: dict[str, Any]) -> None:
     """The page shows a document as it was, with its plan, and nothing of its history is lost."""
-    expect(page.get_by_role("status")).to_contain_text(PLANNED)
+    expect_planned(page)
     expect(page.locator(".corner")).to_have_count(7)
     expect_folds(page, 3)
     expect(page.get_by_role("button", name="Undo")).to_have_attribute(
@@ -193,7 +193,7 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         page.get_by_label("File", exact=True).set_input_files([file])
         page.get_by_role("button", name="Open here").click()
         expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", "Undo: Import again.svg (Ctrl+Z)")
-        expect(page.get_by_role("status")).to_contain_text(PLANNED)
+        expect_planned(page)
         again = sheet.drawing
         for corner, wanted in zip(again["outline"], outline, strict=True):
             assert math.dist(corner["point"], wanted) < 1e-4

@@ -6,6 +6,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Sheet
+from tests.browser.status_pill import expect_planned
 
 # The T-shirt's corners and folds, as its file has them (m).
 SLEEVE_TIP = (0.61, 0.572)
@@ -27,7 +28,7 @@ def test_a_dragged_corner_goes_along_with_folds_and_plan_as_one_step(page: Page,
     Hand(page).drag(SLEEVE_TIP, (0.633, 0.531))
     expect_step(page, "Move vertex")
     assert corner(shirt, 6) == pytest.approx([0.633, 0.531], abs=PX_M)
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     page.keyboard.press("Control+z")
     expect_no_step(page)
     assert corner(shirt, 6) == list(SLEEVE_TIP)
@@ -44,7 +45,7 @@ def test_a_corner_pulled_into_the_cloth_is_told_of_where_it_is(page: Page, shirt
     expect(page.locator(".problem-line")).not_to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(page.locator(".callout")).to_be_hidden()
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
 
 
 def test_escape_drops_a_drag_without_a_step(page: Page, cloth: Desk) -> None:

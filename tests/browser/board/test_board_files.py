@@ -11,6 +11,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Sheet
+from tests.browser.status_pill import expect_planned
 
 SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" viewBox="0 0 400 300">
   <path d="M0 0H400V300H0Z" fill="none" stroke="black"/>
@@ -21,7 +22,7 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" vi
 @pytest.fixture
 def shirt(page: Page, desk: Desk) -> Desk:
     desk.lay(desk.garment("t-shirt"))
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     return desk
 
 
@@ -40,7 +41,7 @@ def test_a_template_with_other_measures_becomes_a_new_document(page: Page, shirt
     dialog.get_by_role("button", name="Create").click()
     page.wait_for_url(lambda url: url != shirt.page_url)
     expect(page.get_by_role("combobox", name="Garment")).not_to_have_value("t-shirt")
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     found = Sheet(page.url.partition("/d/")[0], page.url.rpartition("/")[2])
     sides = [abs(corner["point"][0]) for corner in found.drawing["outline"]]
     assert max(sides) - min(sides) == pytest.approx(20 * 0.0254, abs=1e-9)

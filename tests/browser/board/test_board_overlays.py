@@ -8,6 +8,7 @@ from playwright.sync_api import Page, Route, expect
 
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
+from tests.browser.status_pill import expect_planned
 
 
 @pytest.fixture
@@ -19,7 +20,7 @@ def moved_desk(desk: Desk) -> Iterator[Desk]:
 
 
 def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page, towel: Desk) -> None:
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     expect(page.locator(".must-hold")).to_have_count(0)
     first = towel.drawing["folds"][0]
     (ax, ay), (bx, by) = first["start"]["point"], first["end"]["point"]
@@ -30,7 +31,7 @@ def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page
 
 
 def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Desk) -> None:
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     reach, wait = page.get_by_role("button", name="Reach", exact=True), page.get_by_text("Working it out")
     asked: list[Route] = []
     page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))

@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Garment, Sheet
+from tests.browser.status_pill import expect_planned
 
 
 def chunk(kind: bytes, content: bytes) -> bytes:
@@ -138,7 +139,7 @@ def test_a_garment_is_renamed_on_a_phone(phone: Page, new_sheet: Callable[[Garme
 
 def test_every_name_that_others_look_for_is_there_once(page: Page, desk: Desk) -> None:
     desk.lay(desk.garment("t-shirt"))
-    expect(page.get_by_role("status")).to_contain_text("Planned: ")
+    expect_planned(page)
     names = "Draw outline,Draw fold,Select,Undo,Redo,Play,Blue: all layers,Red: last flap,Flip,New,Import,Export"
     for name in names.split(","):
         expect(page.get_by_role("button", name=name)).to_have_count(1)
