@@ -41,10 +41,17 @@ def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]
             return message
 
 
+def until_planned(page: ClientConnection) -> dict[str, Any]:
+    """The first message of a plan that stays: on a slow machine some plan is told of before the quickest."""
+    while not (message := until(page, "plan", status="solved"))["plan"]["is_final"]:
+        pass
+    return message
+
+
 def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
     with live(served) as page:
         assert until(page, "document")["garment"]["name"] == "t-shirt"
-        message = until(page, "plan", status="solved")
+        message = until_planned(page)
     assert message["text"].startswith("Planned: ")
     shown = message["plan"]
     assert shown.pop("version") == message["version"]
@@ -56,7 +63,7 @@ def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
 
 def test_play_seek_speed_and_pause_are_obeyed(served: Served) -> None:
     with live(served) as page:
-        duration_s = until(page, "plan", status="solved")["plan"]["cost_s"]
+        duration_s = until_planned(page)["plan"]["cost_s"]
         until(page, "playback", duration_s=duration_s)
         page.send(json.dumps({"do": "seek", "t_s": 5.0}))
         until(page, "playback", t_s=5.0, playing=False)
