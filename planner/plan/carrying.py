@@ -1,22 +1,18 @@
-"""Joint paths for a run: both arms from before their grips, along the cloth's way, to where they have let go.
-
-Arms are led one after the other, the second round the first; if that fails, in the other order.
-"""
+"""Joint paths for a run: both arms from before their grips, along the cloth's way, to where they have let go."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from itertools import permutations, product
+from dataclasses import dataclass, field
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.plan.carried import Carried
-from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Lead, Leads, Lines
+from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Leads, Lines
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments
-from planner.robot.arm_path import NoPath
+from planner.robot.arm_path import IsFree, NoPath
 
 _STEEP = 0.6
 """Hands that point down by more than the angle of this sine may have one finger over the other; flatter ones would
@@ -24,9 +20,6 @@ push the lower one into the table."""
 
 _LOOKED_AT = 5
 """At so many moments it is looked whether arms can be in their places together before they are led there."""
-
-_TOGETHER = 14
-"""So many postures of each arm are looked at when arms are to be in their places together."""
 
 _RUNS_KEPT, _PLACES_KEPT = 512, 8192
 """So many answers are remembered: of runs, some 50 kB each, and of places of a hand, some 2 kB each."""
@@ -94,16 +87,15 @@ class Carrier:
         if not np.array_equal(moments.is_held.any(axis=1), like.is_used):
             return None
         leads = Leads.of(moments, like.lines, self._height_m, self._has_room)
-        guides = like.guides(leads.first, moments, len(leads.bases))
-        joints = self._at_home(len(leads.bases))
-        for number, lead in enumerate(leads.each):
-            others = None if number == 0 and len(leads.each) > 1 else joints
-            question = _Question(self._collisions, lead.arm, leads.bases, others)
-            near = guides[: lead.last, lead.arm]
-            found = self._machine.guided_arm_path(lead.arm, lead.path, self._torso_m, question.is_free, near)
+        joints, guides = self._at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
+        for lead, is_free in zip(leads.each, self._are_free(leads), strict=True):
+            near = guides[:, lead.arm]
+            found = self._machine.guided_arm_path(lead.arm, lead.path, self._torso_m, is_free, near)
             if found is None:
                 return None
-            _put(joints, lead, found)
+            joints[:, lead.arm] = found
+        if len(leads.each) > 1 and not self._collisions.arms_apart(joints).all():
+            return None
         return Carried(moments, leads.bases, joints, leads.first, like.is_used, like.lines)
 
     def _with_lines(self, moments: Moments, lines: Lines) -> Carried | NoPath:
@@ -112,21 +104,38 @@ class Carrier:
         Where there are none, the moments are told at which an arm collides whatever it does, or cannot pass the other.
         """
         leads = Leads.of(moments, lines, self._height_m, self._has_room)
-        each, bases = leads.each, leads.bases
-        alone = {lead.arm: self._arm_path(lead, bases, None) for lead in each} if len(each) > 1 else {}
-        none = [found for found in alone.values() if isinstance(found, NoPath)]
-        for order in () if none else permutations(each):
-            joints = self._led(order, bases, alone.get(order[0].arm))
-            if not isinstance(joints, NoPath):
-                is_used = np.asarray(moments.is_held.any(axis=1))
-                return Carried(moments, bases, joints, leads.first, is_used, lines)
-            none.append(joints if len(each) == 1 else replace(joints, is_core=False))
-        return min(none, key=lambda one: len(one.blocked))
+        found = self._arm_paths(leads)
+        if isinstance(found, NoPath):
+            return found
+        joints = self._at_home(len(leads.bases))
+        joints[:, [lead.arm for lead in leads.each]] = found
+        return Carried(moments, leads.bases, joints, leads.first, np.asarray(moments.is_held.any(axis=1)), lines)
 
-    def _arm_path(self, lead: Lead, bases: FloatArray, others: FloatArray | None) -> FloatArray | NoPath:
-        """One arm's joints, the others as they are at each step; None: out of the way."""
-        question = _Question(self._collisions, lead.arm, bases, others)
-        return self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, question.is_free)
+    def _arm_paths(self, leads: Leads) -> FloatArray | NoPath:
+        """The joints of the arms that do something, shape (steps, arms, 7)."""
+        are_free = self._are_free(leads)
+        if len(leads.each) > 1:
+            left, right = (lead.path for lead in leads.each)
+            return self._machine.arm_pair_path(
+                (left, right), self._torso_m, self._height_m, (are_free[0], are_free[1]), self._collisions
+            )
+        (lead,), (is_free,) = leads.each, are_free
+        found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, is_free)
+        return found if isinstance(found, NoPath) else found[:, None]
+
+    def _are_free(self, leads: Leads) -> list[IsFree]:
+        """Of each arm that does something where it collides: with body and table, and an arm that stays at home."""
+        arms, is_alone = [lead.arm for lead in leads.each], len(leads.each) == 1
+
+        def is_free(arm: int, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+            answers = self._collisions.arm_free(arm, leads.bases[steps], joints, is_certain=is_certain)
+            if is_alone:
+                both = self._at_home(len(joints))
+                both[:, arm] = joints
+                answers &= self._collisions.arms_apart(both, is_certain=is_certain)
+            return answers
+
+        return [partial(is_free, arm) for arm in arms]
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int) -> bool:
         """Whether the arms can be where they are at a moment, each by itself and all of them together."""
@@ -139,9 +148,8 @@ class Carrier:
             return False
         if len(held) < 2:
             return True
-        some = [postures[:: max(1, len(postures) // _TOGETHER)] for postures in found]
-        pairs = np.array([*product(*some)])
-        return bool(self._collisions.arms_apart(pairs, is_certain=True).any())
+        left, right = found
+        return bool(self._collisions.postures_apart(left, right).any())
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
         """How an arm by itself can take a tool pose without touching body or table. Remembered."""
@@ -157,50 +165,9 @@ class Carrier:
             lambda joints: self._collisions.arm_free(arm, stand[None], joints, is_certain=True),
         )
 
-    def _led(
-        self, order: tuple[Lead, ...], bases: FloatArray, first: FloatArray | NoPath | None
-    ) -> FloatArray | NoPath:
-        """All arms' joints, one arm led after the other, the first as it would go alone where that is known."""
-        joints = self._at_home(len(bases))
-        for lead in order:
-            found = first if lead is order[0] and first is not None else self._arm_path(lead, bases, joints)
-            if isinstance(found, NoPath):
-                return found
-            _put(joints, lead, found)
-        return joints
-
     def _at_home(self, steps: int) -> FloatArray:
         homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
         return np.broadcast_to(homes, (steps, *homes.shape)).copy()
 
     def _has_room(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> bool:
         return len(self._postures(arm, base, position, rotation)) > 0
-
-
-def _put(joints: FloatArray, lead: Lead, found: FloatArray) -> None:
-    """An arm goes its way, and waits where it withdrew to."""
-    joints[: lead.last, lead.arm] = found
-    joints[lead.last :, lead.arm] = found[-1]
-
-
-class _Question:
-    """Whether one arm collides at some steps of a run, the other arms where they are then."""
-
-    def __init__(self, collisions: Collisions, arm: int, bases: FloatArray, others: FloatArray | None) -> None:
-        self._collisions = collisions
-        self._arm = arm
-        self._bases = bases
-        self._others = others
-
-    def is_free(self, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
-        """For joints of the arm at some steps, shape (m,) and (m, 7)."""
-        answers = np.ones(len(steps), dtype=bool)
-        if self._others is not None:
-            both = self._others[steps].copy()
-            both[:, self._arm] = joints
-            answers = self._collisions.arms_apart(both, is_certain=is_certain)
-        asked = np.flatnonzero(answers)
-        answers[asked] = self._collisions.arm_free(
-            self._arm, self._bases[steps[asked]], joints[asked], is_certain=is_certain
-        )
-        return answers

@@ -55,16 +55,11 @@ class Lead:
 
     Attributes:
         arm: which arm.
-        path: where its tool must be, from the first step on.
+        path: where its tool must be at each step of the run; where it has withdrawn to it stays.
     """
 
     arm: int
     path: ToolPath
-
-    @property
-    def last(self) -> int:
-        """The step after its last."""
-        return len(self.path.positions)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +92,7 @@ class Leads:
         after = max(len(_stepped(way.retreat)) for way in ways) - 1
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
         bases = np.concatenate([start, moments.bases, end])
-        return Leads(tuple(way.lead(before, after) for way in ways), bases, before)
+        return Leads(tuple(way.lead(before, after, len(bases)) for way in ways), bases, before)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,15 +106,16 @@ class _Way:
     approach: FloatArray
     retreat: FloatArray
 
-    def lead(self, before: int, after: int) -> Lead:
-        """The tool's path, coming in so many steps and leaving in so many."""
+    def lead(self, before: int, after: int, steps: int) -> Lead:
+        """The tool's path of so many steps, coming in some of them, leaving in some, then where it is."""
         coming = _resampled(_stepped(self.approach), before)[:0:-1]
         leaving = _resampled(_stepped(self.retreat), after)[1:]
         first, last = self.rotations[:1], self.rotations[-1:]
+        rest = steps - before - len(self.positions)
         path = ToolPath(
-            np.concatenate([coming, self.positions, leaving]),
-            np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(after, 0)]),
-            np.concatenate([np.full(before, np.inf), self.spans_s, np.full(after, np.inf)]),
+            np.concatenate([coming, self.positions, leaving, leaving[-1:].repeat(rest - after, 0)]),
+            np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(rest, 0)]),
+            np.concatenate([np.full(before, np.inf), self.spans_s, np.full(rest, np.inf)]),
             (before, before + len(self.positions)),
         )
         return Lead(self.arm, path)

@@ -6,6 +6,7 @@ from typing import Protocol
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.primitives.reach import Reach
+from planner.robot.arm_pair_path import BothArms
 from planner.robot.arm_path import IsFree, NoPath, ToolPath
 from planner.robot.card import RobotCard
 from planner.robot.collision.contact import Contact
@@ -32,6 +33,13 @@ class Collisions(Protocol):
 
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         """In which configurations, shape (n, arms, 7), no arm touches another; shape (n,); see `arm_free`."""
+        ...
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        """Which postures of the left arm, shape (k, 7), certainly touch none of which of the right, shape (l, 7).
+
+        In all postures of an arm its tool is in the same pose. The answers are of shape (k, l).
+        """
         ...
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
@@ -76,6 +84,25 @@ class Machine(Hashable, Protocol):
             torso_m: how far the lift is raised (m).
             floor_m: the height over which elbows had better stay, base frame (m).
             is_free: which joints do not collide.
+        """
+        ...
+
+    def arm_pair_path(
+        self,
+        paths: tuple[ToolPath, ToolPath],
+        torso_m: float,
+        floor_m: float,
+        are_free: tuple[IsFree, IsFree],
+        both_arms: BothArms,
+    ) -> FloatArray | NoPath:
+        """The same for two arms, joints of shape (n, 2, 7).
+
+        Args:
+            paths: where the tools must be, one path as long as the other.
+            torso_m: how far the lift is raised (m).
+            floor_m: the height over which elbows had better stay, base frame (m).
+            are_free: of each arm which joints do not collide, whatever the other does.
+            both_arms: knows whether the arms are in each other's way.
         """
         ...
 

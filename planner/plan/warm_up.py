@@ -4,9 +4,13 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.cloth.garment import Garment
+from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.plan.plan import Plan
+from planner.primitives.base_legs import travel
+from planner.robot.arm_path import ToolPath
 
 _NAPKIN = {
     "name": "napkin",
@@ -17,10 +21,24 @@ _NAPKIN = {
 
 _FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
 
+_LEFT_M, _RIGHT_M = (0.6, 0.2, 0.9), (0.6, -0.2, 0.9)
+
+
+class _InTheWay:
+    """Arms that cannot pass each other."""
+
+    def arms_apart(self, joints: FloatArray) -> BoolArray:
+        """Nowhere."""
+        return np.zeros(len(joints), dtype=bool)
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        """None."""
+        return np.zeros((len(left), len(right)), dtype=bool)
+
 
 @cache
 def warm_up(plan: Callable[[Garment], Plan]) -> None:
-    """Plan a napkin, play it, and ask why two places are out of reach: that touches every compiled function.
+    """Plan a napkin, play it, ask why places are out of reach, lead arms past each other: that touches all.
 
     Args:
         plan: makes a plan for a garment.
@@ -33,3 +51,15 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
         reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
         reach.shortfall_together(0, point[None, None], np.array([0]))
         reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
+    travel(np.ones((1, 2), dtype=np.uint32), 2)
+    robot, torso_m = found.problem.robot, found.work.scene.torso_m
+    left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
+    robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
+
+
+def _staying(place: Point3) -> ToolPath:
+    return ToolPath(np.array([place, place]), np.array([np.eye(3), np.eye(3)]), np.array([np.inf]), (0, 2))
+
+
+def _anywhere(_poses: NDArray[np.int64], joints: FloatArray, _is_certain: bool) -> BoolArray:
+    return np.ones(len(joints), dtype=bool)

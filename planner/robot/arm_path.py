@@ -66,25 +66,6 @@ class NoPath:
     is_core: bool
 
 
-def arm_path(
-    arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
-) -> FloatArray | NoPath:
-    """The calmest joints that keep the tool on a path.
-
-    Args:
-        arm: the arm.
-        speeds: how fast its joints turn (rad/s), shape (7,).
-        path: where the tool must be.
-        torso_m: how far the torso is raised (m).
-        floor_m: the height over which elbows had better stay, base frame (m).
-        is_free: which joints do not collide.
-
-    Returns:
-        Joints (rad), shape (n, 7), forearm and wrist roll unwound; or that there are none.
-    """
-    return _ArmPath(arm, speeds, path, torso_m, floor_m, is_free).found()
-
-
 def guided_arm_path(
     arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
 ) -> FloatArray | None:
@@ -127,93 +108,143 @@ def free_postures(
     return able[is_free(able)] if len(able) else able
 
 
-class _ArmPath:
-    """One question."""
+class ArmSearch:
+    """The search for one arm's path.
+
+    Attributes:
+        links: the poses at which the chain has a link, shape (l,).
+        samples: joints that bring the tool there, as the left arm names them (rad), shape (l, m, 7).
+        costs: what each costs, shape (l, m); infinite where there is none, and where one has been struck out.
+        speeds: how fast the joints turn (rad/s), shape (7,).
+        spans: how long each link should take at most (s), shape (l - 1,).
+    """
 
     def __init__(
         self, arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
     ) -> None:
+        """Nothing is struck out yet.
+
+        Args:
+            arm: the arm.
+            speeds: how fast its joints turn (rad/s), shape (7,).
+            path: where the tool must be.
+            torso_m: how far the torso is raised (m).
+            floor_m: the height over which elbows had better stay, base frame (m).
+            is_free: which joints do not collide.
+        """
         self._arm = arm
-        self._speeds = speeds
         self._is_free = is_free
         self._core = path.core
         shoulder = arm.shoulder(torso_m)
         self._positions = arm.mirrored_places(path.positions) - shoulder
         self._rotations = arm.mirrored_rotations(path.rotations)
         count = len(self._positions)
-        self._links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
-        self._samples, self._costs = solutions(
-            arm.shape, self._positions[self._links], self._rotations[self._links], floor_m - float(shoulder[2])
+        self.speeds = speeds
+        self.links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
+        self.samples, self.costs = solutions(
+            arm.shape, self._positions[self.links], self._rotations[self.links], floor_m - float(shoulder[2])
         )
-        self._spans = np.add.reduceat(np.append(path.spans_s, 0.0), self._links)[:-1]
-        self._is_asked = np.zeros(len(self._links), dtype=bool)
+        self.spans = np.add.reduceat(np.append(path.spans_s, 0.0), self.links)[:-1]
+        self._is_asked = np.zeros(len(self.links), dtype=bool)
         self._has_dropped = False
 
     def found(self) -> FloatArray | NoPath:
+        """The calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
+
+        Forearm and wrist roll are unwound.
+        """
         for number in range(_TRIES_MAX):
-            chain = cheapest_chain(self._samples, self._costs, self._speeds, self._spans)
+            chain = cheapest_chain(self.samples, self.costs, self.speeds, self.spans)
             if not len(chain):
                 break
-            guides = self._guides(chain)
-            bad = self._links[~self._is_free(self._links, self._arm.mirrored_joints(guides), False)]
+            guides = self.guides(chain)
+            bad = self.links[~self.are_free(guides)]
             if not len(bad):
-                joints, bad = self._followed(guides)
+                joints, bad = self.followed(guides)
             if not len(bad):
-                return self._smoothed(guides, joints)
+                return self.smoothed(guides, joints)
             self._strike(chain, bad, number)
         return self._none()
 
-    def _none(self) -> NoPath:
+    @property
+    def inside(self) -> NDArray[np.int64]:
+        """The links within the path's core, shape (k,)."""
         first, last = self._core
-        inside = np.flatnonzero((self._links >= first) & (self._links < last))
-        blocked = self._links[inside[np.isinf(self._costs[inside]).all(axis=1)]] - first
-        part = slice(inside[0], inside[-1] + 1)
-        chain = cheapest_chain(self._samples[part], self._costs[part], self._speeds, self._spans[part][:-1])
-        return NoPath(blocked, is_core=not (len(chain) or self._has_dropped))
+        return np.flatnonzero((self.links >= first) & (self.links < last))
 
-    def _guides(self, chain: NDArray[np.int64]) -> FloatArray:
-        """The chain's joints, continuous ones unwound, shape (links, 7)."""
-        guides = self._samples[np.arange(len(chain)), chain]
+    def poses(self, links: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The poses of links, counted from the first of the path's core."""
+        return self.links[links] - self._core[0]
+
+    def guides(self, chain: NDArray[np.int64]) -> FloatArray:
+        """The chain's joints, continuous ones unwound, shape (l, 7)."""
+        guides = self.samples[np.arange(len(chain)), chain]
         for joint in (4, 6):
             guides[:, joint] = np.unwrap(guides[:, joint])
         return guides
 
-    def _followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+    def are_free(self, guides: FloatArray) -> BoolArray:
+        """At which links the arm does not collide, shape (l,)."""
+        return self._is_free(self.links, self.joints(guides), False)
+
+    def joints(self, guides: FloatArray) -> FloatArray:
+        """Guides as this arm names its joints, shape (l, 7)."""
+        return self._arm.mirrored_joints(guides)
+
+    def followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
         """The joints along the whole path, shape (n, 7), and the poses at which they will not do."""
         everywhere = np.arange(len(self._positions))
-        between = np.column_stack([np.interp(everywhere, self._links, column) for column in guides.T])
+        between = np.column_stack([np.interp(everywhere, self.links, column) for column in guides.T])
         return _along(self._arm, self._positions, self._rotations, between, self._is_free)
+
+    def smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
+        """The same path with the pan's corners rounded, as far as that keeps it possible."""
+        calmer = guides.copy()
+        for _ in range(_SMOOTHINGS):
+            calmer[1:-1] = 0.25 * calmer[:-2] + 0.5 * calmer[1:-1] + 0.25 * calmer[2:]
+        smooth, bad = self.followed(calmer)
+        return joints if len(bad) else smooth
+
+    def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
+        """The samples at a link that certainly do not collide: which they are, shape (k,), and their joints (k, 7)."""
+        self._ask(np.array([link])[~self._is_asked[[link]]])
+        which = np.flatnonzero(np.isfinite(self.costs[link]))
+        return which, self._arm.mirrored_joints(self.samples[link, which])
+
+    def _none(self) -> NoPath:
+        inside = self.inside
+        blocked = self.poses(inside[np.isinf(self.costs[inside]).all(axis=1)])
+        part = slice(inside[0], inside[-1] + 1)
+        chain = cheapest_chain(self.samples[part], self.costs[part], self.speeds, self.spans[part][:-1])
+        return NoPath(blocked, is_core=not (len(chain) or self._has_dropped))
 
     def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:
         """Ask all samples beside bad poses, at some tries more; where nothing collides drop the ones that were taken.
 
         Whether there is no way at all shows in a few links mostly, so some are asked before the others.
         """
-        beside = np.unique(np.clip(np.searchsorted(self._links, bad)[:, None] - [0, 1], 0, None))
+        beside = links_beside(self.links, bad)
         everywhere = np.arange(len(chain))
         taken = everywhere if number in _ASKED_OF else beside
         for asked in (everywhere[:: _ASKED_OF[number]], everywhere) if number in _ASKED_OF else (beside,):
             self._ask(np.asarray(asked[~self._is_asked[asked]], dtype=np.int64))
-            if np.isinf(self._costs[taken, chain[taken]]).any():
+            if np.isinf(self.costs[taken, chain[taken]]).any():
                 return
         self._has_dropped = True
-        self._costs[taken, chain[taken]] = np.inf
+        self.costs[taken, chain[taken]] = np.inf
 
     def _ask(self, links: NDArray[np.int64]) -> None:
-        rows, columns = np.nonzero(np.isfinite(self._costs[links]))
+        rows, columns = np.nonzero(np.isfinite(self.costs[links]))
         asked = links[rows]
         self._is_asked[links] = True
-        joints = self._arm.mirrored_joints(self._samples[asked, columns])
-        is_bad = ~self._is_free(self._links[asked], joints, True)
-        self._costs[asked[is_bad], columns[is_bad]] = np.inf
+        joints = self._arm.mirrored_joints(self.samples[asked, columns])
+        is_bad = ~self._is_free(self.links[asked], joints, True)
+        self.costs[asked[is_bad], columns[is_bad]] = np.inf
 
-    def _smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
-        """The same path with the pan's corners rounded, as far as that keeps it possible."""
-        calmer = guides.copy()
-        for _ in range(_SMOOTHINGS):
-            calmer[1:-1] = 0.25 * calmer[:-2] + 0.5 * calmer[1:-1] + 0.25 * calmer[2:]
-        smooth, bad = self._followed(calmer)
-        return joints if len(bad) else smooth
+
+def links_beside(links: NDArray[np.int64], poses: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Of the poses that are links, the numbers of those next to some poses."""
+    return np.unique(np.clip(np.searchsorted(links, poses)[:, None] - [0, 1], 0, None))
 
 
 def _along(

@@ -10,7 +10,8 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
-from planner.robot.arm_path import IsFree, NoPath, ToolPath, arm_path, free_postures, guided_arm_path
+from planner.robot.arm_pair_path import BothArms, arm_pair_path
+from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures, guided_arm_path
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -122,7 +123,7 @@ class Pr2:
     def arm_path(
         self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
     ) -> FloatArray | NoPath:
-        """The calmest joints that keep an arm's tool on a path, or that there are none (see `arm_path`).
+        """The calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
 
         Args:
             arm: which arm.
@@ -134,8 +135,35 @@ class Pr2:
         Returns:
             Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
         """
+        return self._search(arm, path, torso_m, floor_m, is_free).found()
+
+    def arm_pair_path(
+        self,
+        paths: tuple[ToolPath, ToolPath],
+        torso_m: float,
+        floor_m: float,
+        are_free: tuple[IsFree, IsFree],
+        both_arms: BothArms,
+    ) -> FloatArray | NoPath:
+        """The calmest joints that keep both tools on their paths, or that there are none (see `arm_pair_path`).
+
+        Args:
+            paths: where the tools must be, one path as long as the other.
+            torso_m: how far the torso is raised (m).
+            floor_m: the height over which elbows had better stay, base frame (m).
+            are_free: of each arm which joints do not collide, whatever the other does.
+            both_arms: knows whether the arms are in each other's way.
+
+        Returns:
+            Joints within their limits (rad), shape (n, 2, 7), forearm and wrist roll unwound.
+        """
+        each = enumerate(zip(paths, are_free, strict=True))
+        left, right = (self._search(arm, path, torso_m, floor_m, is_free) for arm, (path, is_free) in each)
+        return arm_pair_path(left, right, both_arms)
+
+    def _search(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> ArmSearch:
         speeds = np.array(self._card.arms[arm].speeds_rad_s)
-        return arm_path(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
+        return ArmSearch(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
 
     def guided_arm_path(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray

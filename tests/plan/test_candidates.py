@@ -1,16 +1,9 @@
 """What is looked at before arms are led: whether they can be where a run begins, ends, and goes."""
 
-import math
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.solve import solve
-from planner import Garment, Scene, load_garment, make_plan
 from planner.plan.moments import moments_of
-from tests.replay.checker import check
 from tests.replay.planned import planned
 
 
@@ -31,23 +24,3 @@ def test_what_was_made_real_is_a_candidate():
     plan = planned("t-shirt").answer
     runs = [act.steps for act in plan.acts if act.run is not None]
     assert [candidate.steps for candidate in plan.problem.maker.candidates(runs)] == runs
-
-
-def test_hands_that_must_be_close_together_find_the_orientation_in_which_they_can():
-    # Of the orientations in which the tie's second fold is in reach few keep the arms off the table and each other.
-    cloth = pulled_tie(corner=0, by_m=0.03, towards_rad=3.4614)
-    plan = make_plan(cloth, time_limit_s=60.0)
-    assert plan.is_solved
-    check(cloth.to_dict(), Scene().to_dict(), plan.to_dict())
-
-
-def pulled_tie(corner: int, by_m: float, towards_rad: float) -> Garment:
-    """A tie one of whose corners has been pulled, the folds along with it."""
-    drawing = solve(drawing_of(load_garment("tie"))).drawing
-    outline = list(drawing.outline)
-    x, y = outline[corner].point
-    there = (x + by_m * math.cos(towards_rad), y + by_m * math.sin(towards_rad))
-    outline[corner] = replace(outline[corner], point=there)
-    garment = solve(replace(drawing, outline=tuple(outline))).garment
-    assert garment is not None
-    return garment

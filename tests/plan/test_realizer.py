@@ -126,6 +126,9 @@ class BarredCollisions:
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         return self._real.arms_apart(joints, is_certain=is_certain)
 
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        return self._real.postures_apart(left, right)
+
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
         return self._real.deepest_contact(base_in_table, joints)
 

@@ -99,6 +99,24 @@ def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m, opening_m):
     assert agreed >= 0.95 * len(postures), f"only {agreed} of {len(postures)} answers are those of the meshes"
 
 
+def test_postures_are_apart_as_they_are_pair_by_pair():
+    rng, apart, met = np.random.default_rng(14), 0, 0
+    for _ in range(12):
+        # Hands beside each other over the table, 4 to 30 cm apart, each in all samples of its arm's postures.
+        place, gap_m = rng.uniform((0.45, -0.1, 0.85), (0.7, 0.1, 1.1)), rng.uniform(0.04, 0.3)
+        aside = np.array([0.0, gap_m / 2, 0.0])
+        left, right = (
+            ROBOT.free_postures(arm, place + side * aside, DOWN, TORSO_M, lambda joints: np.ones(len(joints), bool))
+            for arm, side in ((0, 1), (1, -1))
+        )
+        found = COLLISIONS.postures_apart(left, right)
+        pairs = np.stack([left.repeat(len(right), 0), np.tile(right, (len(left), 1))], axis=1)
+        np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart(pairs, is_certain=True))
+        apart, met = apart + int(found.sum()), met + int((~found).sum())
+    assert min(apart, met) > 100
+    assert COLLISIONS.postures_apart(np.empty((0, 7)), HOME[:1]).shape == (0, 1)
+
+
 def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not():
     postures = random_postures(300, 13)
     for base in (FRONT, FRONT.ahead(-0.4), FAR):

@@ -22,6 +22,7 @@ from planner.robot.collision.contact import Contact
 from planner.robot.collision.part_poses import EACH, PLACE, Index, set_middles
 from planner.robot.collision.part_shapes import OPENINGS_M
 from planner.robot.collision.parts import BODY_PARTS, FINGERTIPS, pairs_in_arm, pairs_with_body
+from planner.robot.collision.posture_pairs import postures_apart
 from planner.robot.collision.robot_parts import RobotParts, compiled_parts
 from planner.robot.collision.separation import ROUNDING, first_close
 
@@ -91,6 +92,15 @@ class Collisions:
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         """In which postures, shape (n, 2, 7), the arms do not collide with each other, shape (n,); see `arm_free`."""
         return self._are_free(self._of_arms, _ORIGIN, joints, _BOTH, is_certain)
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        """Which postures of the left arm are certainly apart from which of the right, shape (k, l).
+
+        Args:
+            left: joints of the left arm, shape (k, 7), the tool in the same pose in all of them.
+            right: joints of the right arm, shape (l, 7), likewise.
+        """
+        return postures_apart(self._arm, self._torso_m, self._parts, left, right, self._of_arms, self._margin_m)
 
     def body_free(self, base_in_table: Pose2) -> bool:
         """Whether the base, torso and head, without the arms, stay clear of the table."""

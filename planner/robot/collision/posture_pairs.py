@@ -1,0 +1,66 @@
+"""Which postures of the one arm are certainly apart from which of the other? Compiled, for all pairs at once.
+
+The tool of each arm stays where it is, so its hand does, and is looked at once for all postures: it is the hands that
+come nearest to each other, and to tell what is near apart takes longest.
+"""
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robot.arm import ArmShape
+from planner.robot.collision.part_poses import EACH, Index, pose_arm, set_middles
+from planner.robot.collision.parts import PALM
+from planner.robot.collision.separation import Parts, first_close_pair
+
+
+@njit(cache=True, nogil=True)
+def postures_apart(
+    shape: ArmShape, lift_m: float, parts: Parts, left: FloatArray, right: FloatArray, pairs: Index, margin: float
+) -> BoolArray:
+    """Which postures of the left arm are certainly apart from which of the right, shape (k, l).
+
+    Args:
+        shape: the left arm.
+        lift_m: how far the torso is raised (m).
+        parts: all parts.
+        left: joints of the left arm (rad), shape (k, 7), the tool in the same pose in all of them.
+        right: those of the right arm, shape (l, 7), likewise.
+        pairs: numbers of the parts to be compared, the left arm's first, shape (q, 2).
+        margin: how far apart they should be (m).
+    """
+    corners, spans, bounds = parts
+    are_apart = np.zeros((len(left), len(right)), dtype=np.bool_)
+    if are_apart.size == 0:
+        return are_apart
+    is_left_hand, is_right_hand = pairs[:, 0] >= PALM, pairs[:, 1] >= EACH + PALM
+    lefts = _placed(shape, lift_m, bounds[:EACH], left, 1.0)
+    rights = _placed(shape, lift_m, bounds[EACH : 2 * EACH], right, -1.0)
+    both = np.concatenate((lefts[0], rights[0]))
+    if first_close_pair(corners, spans, bounds, both, pairs[is_left_hand & is_right_hand], 0, margin) >= 0:
+        return are_apart
+    of_left, of_right = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
+    of_both = pairs[~is_left_hand & ~is_right_hand]
+    is_right_apart = np.empty(len(right), dtype=np.bool_)
+    for j in range(len(right)):
+        both[EACH:] = rights[j]
+        is_right_apart[j] = first_close_pair(corners, spans, bounds, both, of_right, 0, margin) < 0
+    for i in range(len(left)):
+        both[:EACH] = lefts[i]
+        if first_close_pair(corners, spans, bounds, both, of_left, 0, margin) >= 0:
+            continue
+        for j in range(len(right)):
+            if is_right_apart[j]:
+                both[EACH:] = rights[j]
+                are_apart[i, j] = first_close_pair(corners, spans, bounds, both, of_both, 0, margin) < 0
+    return are_apart
+
+
+@njit(cache=True, nogil=True)
+def _placed(shape: ArmShape, lift_m: float, bounds: FloatArray, postures: FloatArray, side: float) -> FloatArray:
+    """Where an arm's parts are in each of some postures, shape (n, EACH, 5, 3)."""
+    poses = np.empty((len(postures), EACH, 5, 3))
+    for i in range(len(postures)):
+        pose_arm(shape, lift_m, postures[i], side, poses[i])
+        set_middles(bounds, poses[i])
+    return poses
