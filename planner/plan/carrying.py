@@ -138,17 +138,18 @@ class Carrier:
         return [partial(is_free, arm) for arm in arms]
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int) -> bool:
-        """Whether the arms can be where they are at a moment, each by itself and all of them together."""
+        """Whether the arms can be where they are at a moment, each by itself and all of them together.
+
+        One that does nothing in the whole run is at home.
+        """
+        able = [self._machine.home(arm)[None] for arm in range(len(self._machine.card.arms))]
         held = [arm for arm in arms if moments.is_held[arm, moment]]
-        found = [
-            self._postures(arm, moments.bases[moment], moments.positions[arm, moment], moments.rotations[arm, moment])
-            for arm in held
-        ]
-        if not all(len(postures) for postures in found):
-            return False
-        if len(held) < 2:
-            return True
-        left, right = found
+        for arm in held:
+            stand, tool = moments.bases[moment], (moments.positions[arm, moment], moments.rotations[arm, moment])
+            able[arm] = self._postures(arm, stand, *tool)
+        left, right = able
+        if len(held) < len(arms):
+            return len(left) > 0 and len(right) > 0
         return bool(self._collisions.postures_apart(left, right).any())
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
