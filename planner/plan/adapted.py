@@ -42,7 +42,7 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
         return None if likest is None else Act(act.first, likest, None)
     maker = problem.maker
     run = maker.made_like(maker.candidate(likest), act.run)
-    run = run or maker.first_real(chain((likest,), ways), act.run, _PATIENCE)
+    run = run or maker.first_real(chain((likest,), ways), _PATIENCE)
     return None if run is None else Act(act.first, run.steps, run)
 
 

@@ -132,12 +132,10 @@ class RunMaker:
         """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow."""
         return self.first_real(islice(_choices(steps), _CHOICES_MAX))
 
-    def first_real(
-        self, choices: Iterable[tuple[Step, ...]], like: RealRun | None = None, patience: int = 1
-    ) -> RealRun | None:
+    def first_real(self, choices: Iterable[tuple[Step, ...]], patience: int = 1) -> RealRun | None:
         """The first that is real of some choices of steps; it is given up when a few, with patience more, are not."""
         for number, candidate in enumerate(self.candidates(choices), start=1):
-            run = self.made(candidate, like)
+            run = self.made(candidate)
             most = _TRIED_TOGETHER_MAX if candidate.is_together else _TRIED_ALONE_MAX
             if run is not None or number >= patience * most:
                 return run
@@ -161,10 +159,9 @@ class RunMaker:
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
         return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]))
 
-    def made(self, candidate: "Candidate", like: RealRun | None = None) -> RealRun | None:
-        """A candidate made real, its joints like those of another run where they may; None without a way."""
-        run = None if like is None else self.made_like(candidate, like)
-        return run or self._run(candidate, self._carrier.carried(candidate.moments))
+    def made(self, candidate: "Candidate") -> RealRun | None:
+        """A candidate made real; None without a way."""
+        return self._run(candidate, self._carrier.carried(candidate.moments))
 
     def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
         """A candidate made real, its joints near to those of another run; None where that cannot be."""

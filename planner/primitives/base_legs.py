@@ -17,7 +17,7 @@ def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
     """Drive to and fro within the mask at one waypoint."""
     for j in range(count):
         if not (mask >> j) & 1:
-            steps[j] = 1 << 20
+            steps[j] = IMPOSSIBLE
         elif j > 0 and steps[j - 1] + 1 < steps[j]:
             steps[j] = steps[j - 1] + 1
     for j in range(count - 2, -1, -1):
@@ -26,38 +26,25 @@ def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
 
 
 @njit(cache=True)
-def _travel(strips: NDArray[np.uint32], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    best = np.full((count, count), 1 << 20, dtype=np.int64)
-    choice = np.full((count, count), -1, dtype=np.int64)
-    steps = np.empty(count, dtype=np.int64)
-    for number in range(strips.shape[0]):
-        for start in range(count):
-            if not (int(strips[number, 0]) >> start) & 1:
-                continue
-            steps[:] = 1 << 20
-            steps[start] = 0
-            for waypoint in range(strips.shape[1]):
-                _relax(steps, int(strips[number, waypoint]), count)
-            for end in range(count):
-                if steps[end] < best[start, end]:
-                    best[start, end] = steps[end]
-                    choice[start, end] = number
-    return best, choice
-
-
-def travel(strips: NDArray[np.uint32], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The least travel along a path for each pair of back-offs, over several strips.
+def travel(strips: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
+    """The least travel along a path, for each of several strips and each pair of back-offs.
 
     Args:
         strips: bit masks of back-offs, shape (strips, waypoints).
         count: the number of back-offs.
 
     Returns:
-        Two arrays of shape (count, count), from the back-off at the first waypoint to that at the last: the
-        number of steps driven (`IMPOSSIBLE` if there is no way), and which strip needs so few.
+        From the back-off at the first waypoint to that at the last the number of steps driven, `IMPOSSIBLE` if there
+        is no way; shape (strips, count, count).
     """
-    best, choice = _travel(strips, count)
-    return best, choice
+    steps = np.full((len(strips), count, count), IMPOSSIBLE, dtype=np.int64)
+    for number in range(len(strips)):
+        for start in range(count):
+            if (int(strips[number, 0]) >> start) & 1:
+                steps[number, start, start] = 0
+                for waypoint in range(strips.shape[1]):
+                    _relax(steps[number, start], int(strips[number, waypoint]), count)
+    return steps
 
 
 def unbeaten(steps: NDArray[np.int64]) -> list[int]:

@@ -135,7 +135,7 @@ class FoldStep:
         for trial in by_nearness(old, fold_trials(work, state, old.fold)):
             same = FoldWay(trial, tuple(orientation.get(arm, -1) for arm in trial.arms))
             if is_on_grid and all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
-                driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0][first, end])
+                driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0, first, end])
                 if driven < IMPOSSIBLE:
                     yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
             for v in sorted(trial_variants(work, state, trial), key=lambda v: (v.steps, abs(v.end - end), v.rank)):

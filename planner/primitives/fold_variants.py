@@ -74,16 +74,17 @@ def trial_variants(work: Work, state: State, trial: FoldTrial, end: int | None =
     """
     masks, approaches, ranks = _all_strips(work, state, trial)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
-    for number in range(0, len(ranks), every):
-        steps, _ = travel(masks[number : number + 1], work.back_offs)
-        begin = np.abs(np.arange(work.back_offs) - state.back_off)
-        total = steps if end is None else steps + begin[:, None]
-        total = np.where(_allowed(work, state, end), total, IMPOSSIBLE)
-        first, last = (int(i) for i in np.unravel_index(int(total.argmin()), total.shape))
-        if total[first, last] < IMPOSSIBLE:
-            way = FoldWay(trial, tuple(int(approach) for approach in approaches[number]))
-            driven = int(steps[first, last])
-            yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
+    masks, approaches, ranks = np.ascontiguousarray(masks[::every]), approaches[::every], ranks[::every]
+    steps = np.where(_allowed(work, state, end), travel(masks, work.back_offs), IMPOSSIBLE)
+    begin = np.abs(np.arange(work.back_offs) - state.back_off)
+    total = steps if end is None else np.minimum(steps + begin[:, None], IMPOSSIBLE)
+    total = total.reshape(len(steps), work.back_offs**2)
+    least = total.argmin(axis=1)
+    for number in np.flatnonzero(total.min(axis=1) < IMPOSSIBLE):
+        first, last = divmod(int(least[number]), work.back_offs)
+        way = FoldWay(trial, tuple(int(approach) for approach in approaches[number]))
+        driven = int(steps[number, first, last])
+        yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
 
 
 def _allowed(work: Work, state: State, end: int | None) -> BoolArray:

@@ -50,43 +50,33 @@ def random_strips(seed: int) -> tuple[NDArray[np.uint32], int]:
 
 
 def test_where_one_back_off_suits_every_waypoint_the_base_stays():
-    steps, _ = travel(strip_of(0b111, 0b110, 0b011)[None], 3)
+    (steps,) = travel(strip_of(0b111, 0b110, 0b011)[None], 3)
     assert steps[1, 1] == 0
 
 
 def test_the_base_drives_no_further_than_the_masks_ask():
     # From 0 to 2 by way of 1: two steps, taken at the waypoint where all three are in reach.
-    steps, _ = travel(strip_of(0b001, 0b111, 0b100)[None], 3)
+    (steps,) = travel(strip_of(0b001, 0b111, 0b100)[None], 3)
     assert steps.tolist() == [[IMPOSSIBLE, IMPOSSIBLE, 2], [IMPOSSIBLE] * 3, [IMPOSSIBLE] * 3]
     assert legs(strip_of(0b001, 0b111, 0b100), 0, 2, 3) == (0, 2, 2)
 
 
 def test_a_gap_in_what_is_in_reach_cannot_be_crossed():
-    steps, _ = travel(strip_of(0b001, 0b101, 0b100)[None], 3)
+    (steps,) = travel(strip_of(0b001, 0b101, 0b100)[None], 3)
     assert (steps == IMPOSSIBLE).all()
-
-
-def test_of_several_strips_each_way_has_the_one_that_needs_least():
-    steps, choice = travel(np.array([[0b11, 0b10], [0b11, 0b11]], dtype=np.uint32), 2)
-    assert steps[0].tolist() == [0, 1] and steps[1].tolist() == [1, 0]
-    assert choice[0, 0] == 1 and choice[1, 1] == 0
 
 
 @given(st.integers(0, 100_000))
 def test_travel_is_what_dijkstra_finds_on_every_strip(seed: int):
     strips, count = random_strips(seed)
-    each = np.array([brute_force(strip, count) for strip in strips])
-    steps, choice = travel(strips, count)
-    assert (steps == each.min(axis=0)).all()
-    for start, end in zip(*np.nonzero(steps < IMPOSSIBLE), strict=True):
-        assert each[choice[start, end], start, end] == steps[start, end]
+    np.testing.assert_array_equal(travel(strips, count), [brute_force(strip, count) for strip in strips])
 
 
 @given(st.integers(0, 100_000))
 def test_the_legs_realise_the_travel(seed: int):
     strips, count = random_strips(seed)
     strip = strips[0]
-    steps, _ = travel(strip[None], count)
+    (steps,) = travel(strip[None], count)
     for start, end in zip(*np.nonzero(steps < IMPOSSIBLE), strict=True):
         stands = legs(strip, int(start), int(end), count)
         assert len(stands) == len(strip) and stands[-1] == end
