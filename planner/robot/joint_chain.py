@@ -144,15 +144,17 @@ def cheapest_chain(joints: FloatArray, costs: FloatArray, speeds: FloatArray, sp
     parents = np.full((count, size), -1, dtype=np.int64)
     for i in range(1, count):
         totals = np.full(size, np.inf)
+        order = np.argsort(best, kind="mergesort")
         for b in range(size):
             if costs[i, b] == np.inf:
                 continue
-            for a in range(size):
-                if best[a] + costs[i, b] < totals[b]:
-                    total = best[a] + costs[i, b] + link_cost(joints[i - 1, a], joints[i, b], speeds, spans[i - 1])
-                    if total < totals[b]:
-                        totals[b] = total
-                        parents[i, b] = a
+            for a in order:
+                if best[a] + costs[i, b] >= totals[b]:
+                    break
+                total = best[a] + costs[i, b] + link_cost(joints[i - 1, a], joints[i, b], speeds, spans[i - 1])
+                if total < totals[b]:
+                    totals[b] = total
+                    parents[i, b] = a
         best = totals
     last = int(np.argmin(best))
     if best[last] == np.inf:
