@@ -12,7 +12,7 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
-from planner.geometry.ring import feet
+from planner.geometry.ring import after, before, feet
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
@@ -53,7 +53,7 @@ def _is_on(ring: FloatArray, segment: Segment) -> BoolArray:
     beyond = ~is_on & (np.abs(segment.left_distances(ring)) <= LENGTH_M)
     if beyond.any():
         ends = np.array([segment.start, segment.end])
-        gaps = np.hypot(*(feet(ends, ring, np.roll(ring, -1, axis=0)) - ends[:, None]).transpose(2, 0, 1))
+        gaps = np.hypot(*(feet(ends, ring, after(ring)) - ends[:, None]).transpose(2, 0, 1))
         leaves_there = gaps <= 2 * LENGTH_M
         is_on |= beyond & (leaves_there & np.roll(leaves_there, 1, axis=1)).any(axis=0)
     return np.asarray(is_on)
@@ -70,8 +70,8 @@ def _is_supported(ring: FloatArray, up: Point2, support_angle_rad: float) -> Boo
     At a vertex the cloth fills the directions from the edge that leaves it, counter-clockwise, to the edge
     that arrives. Directions are compared by how far the neighbouring vertex is from them.
     """
-    leaving = np.roll(ring, -1, axis=0) - ring
-    arriving = np.roll(ring, 1, axis=0) - ring
+    leaving = after(ring) - ring
+    arriving = before(ring) - ring
     slack = LENGTH_M / np.minimum(np.hypot(*leaving.T), np.hypot(*arriving.T))
     first = _angle_from(up, leaving)
     width = np.mod(_angle_from(up, arriving) - first, math.tau)

@@ -27,9 +27,18 @@ def corners(ring: FloatArray) -> FloatArray:
 
 def counter_clockwise(ring: FloatArray) -> FloatArray:
     """The same ring, the inside to its left."""
-    x, y = ring.T
-    doubled = np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))
-    return ring if doubled >= 0.0 else ring[::-1]
+    (x, y), (x_after, y_after) = ring.T, after(ring).T
+    return ring if np.dot(x, y_after) >= np.dot(y, x_after) else ring[::-1]
+
+
+def after(ring: FloatArray) -> FloatArray:
+    """For each point the next one, shape (n, 2)."""
+    return np.concatenate([ring[1:], ring[:1]])
+
+
+def before(ring: FloatArray) -> FloatArray:
+    """For each point the one before, shape (n, 2)."""
+    return np.concatenate([ring[-1:], ring[:-1]])
 
 
 def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
@@ -37,11 +46,11 @@ def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
 
     None for a point off the ring.
     """
-    for before, corner, after in zip(np.roll(ring, 1, axis=0), ring, np.roll(ring, -1, axis=0), strict=True):
-        side = Segment(_point(corner), _point(after))
+    for last, corner, following in zip(before(ring), ring, after(ring), strict=True):
+        side = Segment(_point(corner), _point(following))
         if np.hypot(*(corner - point)) <= LENGTH_M:
-            return _halving(Segment(_point(before), _point(corner)), side)
-        if np.hypot(*(after - point)) > LENGTH_M and side.distances(np.array([point]))[0] <= LENGTH_M:
+            return _halving(Segment(_point(last), _point(corner)), side)
+        if np.hypot(*(following - point)) > LENGTH_M and side.distances(np.array([point]))[0] <= LENGTH_M:
             return side.left
     return None
 
@@ -54,7 +63,7 @@ def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray
 
 
 def _is_on_line(point: FloatArray, a: FloatArray, b: FloatArray) -> bool:
-    if np.allclose(a, b, atol=LENGTH_M):
+    if np.hypot(*(a - b)) <= LENGTH_M:
         return False
     return bool(abs(Segment(_point(a), _point(b)).left_distances(point[None])[0]) <= LENGTH_M)
 

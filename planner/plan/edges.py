@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TypeAlias
 
+from planner.geometry.tolerance import TIME_S
 from planner.primitives.primitive import Later, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
@@ -25,20 +26,44 @@ class Edges:
             possible: asked each time that edges are wanted.
         """
         self._primitives = [kind(work) for kind in PRIMITIVES]
+        self._work = work
         self._possible = possible
-        self._steps: dict[State, tuple[Step | Later[Step], ...]] = {}
+        self._steps: dict[tuple[State, bool], tuple[Step | Later[Step], ...]] = {}
+        self._asked: set[State] = set()
+        self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
         self._worked_out: dict[Later[Step], tuple[Step | Later[Step], ...]] = {}
 
     @property
     def expanded(self) -> int:
         """How many states have been asked about, each counted once."""
-        return len(self._steps)
+        return len(self._asked)
 
-    def leaving(self, state: State) -> Successors[State, Step]:
-        """The edges that leave a state, and promises of those that have time."""
-        if state not in self._steps:
-            self._steps[state] = tuple(one for kind in self._primitives for one in in_time(kind.successors(state)))
-        return self._of(state, self._steps[state])
+    def begin(self) -> None:
+        """A search begins: no state has been left yet."""
+        self._left.clear()
+
+    def leaving(self, state: State, cost_s: float) -> Successors[State, Step]:
+        """The edges that leave a state reached at a cost (s), and promises of those that have time.
+
+        Where the base could as well have driven there from a state that has been left before, what begins with driving
+        is left out: from there it took no longer.
+        """
+        self._asked.add(state)
+        is_passed = not state.held and self._is_passed(state, cost_s)
+        key = (state, is_passed)
+        if key not in self._steps:
+            kinds = [kind for kind in self._primitives if not (is_passed and kind.begins_with_driving)]
+            self._steps[key] = tuple(one for kind in kinds for one in in_time(kind.successors(state)))
+        return self._of(state, self._steps[key])
+
+    def _is_passed(self, state: State, cost_s: float) -> bool:
+        """Whether a state that differs in the back-off alone was left so much earlier; else this one is noted."""
+        left = self._left.setdefault((state.done, state.place, state.station), [])
+        drive_s = self._work.drive_s
+        if any(before_s + drive_s(abs(back_off - state.back_off)) <= cost_s + TIME_S for back_off, before_s in left):
+            return True
+        left.append((state.back_off, cost_s))
+        return False
 
     def _of(self, state: State, found: Iterable[Step | Later[Step]]) -> Successors[State, Step]:
         for later in (one for one in found if isinstance(one, Later)):

@@ -56,6 +56,7 @@ class _Greedy:
         expanded_max = _EXPANDED_MAX + _EXPANDED_PER_FOLD * len(self._problem.work.sequence.folds)
         looks = count()
         while len(self._struck) < _FAILURES_MAX and not self._is_over():
+            self._edges.begin()
             result = a_star(
                 start,
                 self._edges.leaving,

@@ -95,6 +95,7 @@ class PlanSearch:
         is_goal, is_over = self._problem.is_goal, self._is_over
         question = (start, self._edges.leaving, is_goal, self._heuristic, self._max_expanded, is_over)
         while True:
+            self._edges.begin()
             result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
             if result.outcome is not Outcome.SOLVED:

@@ -58,6 +58,7 @@ class Realizer:
         self._real_steps: set[object] = set()
         self._failures: Counter[tuple[object, ...]] = Counter()
         self._succeeded: set[tuple[object, ...]] = set()
+        self._given_up: set[tuple[object, ...]] = set()
         self.struck: list[tuple[Step, ...]] = []
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
@@ -67,7 +68,7 @@ class Realizer:
             return
         situations: dict[tuple[object, ...], None] = {}
         for step in steps:
-            if self._failures[step.task] >= _FAILURES_MAX and step.task not in self._succeeded:
+            if self._given_up and step.task in self._given_up:
                 continue
             situation = step.situation
             situations[situation] = None
@@ -128,6 +129,8 @@ class Realizer:
         if others:
             self._succeeded.add(culprit.task)
         self._failures[culprit.task] += 1
+        if self._failures[culprit.task] >= _FAILURES_MAX and culprit.task not in self._succeeded:
+            self._given_up.add(culprit.task)
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:
@@ -147,6 +150,7 @@ class Realizer:
             self._least_s[_key(step)] = max(duration_s, known)
             self._real_steps.add(_key(step))
             self._succeeded.add(step.task)
+            self._given_up.discard(step.task)
         return is_known
 
 

@@ -134,6 +134,8 @@ class MoveStep:
 class BaseMove:
     """Drives from station to station with free hands."""
 
+    begins_with_driving = False
+
     def __init__(self, work: Work) -> None:
         self._work = work
         self._routes: dict[tuple[int, int, int], Route] = {}

@@ -22,6 +22,8 @@ _STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
 class GDrag:
     """Drags the article towards the robot, in steps of 10 cm."""
 
+    begins_with_driving = True
+
     def __init__(self, work: Work) -> None:
         self._work = work
         self._ways = work.kept(DragWays)

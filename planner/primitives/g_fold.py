@@ -14,6 +14,8 @@ from planner.primitives.work import Work
 class GFold:
     """Performs any fold that the Fold-DAG makes available."""
 
+    begins_with_driving = True
+
     def __init__(self, work: Work) -> None:
         self._work = work
         self._questions = work.kept(FoldQuestions)

@@ -118,7 +118,14 @@ class InTime(Generic[S]):
 
 
 class Primitive(Protocol):
-    """A kind of motion, for one planning problem."""
+    """A kind of motion, for one planning problem.
+
+    Attributes:
+        begins_with_driving: whether the base may first drive on, closer to its station or further off, at the cost of
+            the way: what begins further on costs so much less.
+    """
+
+    begins_with_driving: bool
 
     def successors(self, state: State) -> Iterable[Step]:
         """The steps of this kind that are possible in a state; `InTime` where working them out takes long."""

@@ -137,7 +137,7 @@ class _Search(Generic[S, A]):
 
 def a_star(
     start: S,
-    successors: Callable[[S], Successors[S, A]],
+    successors: Callable[[S, float], Successors[S, A]],
     is_goal: Callable[[S], bool],
     heuristic: Callable[[S], float],
     max_expanded: int,
@@ -148,7 +148,7 @@ def a_star(
 
     Args:
         start: where the search begins.
-        successors: the edges that leave a state, or promises of them.
+        successors: the edges that leave a state reached at a cost, or promises of them.
         is_goal: whether a state is a goal.
         heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no way to one.
         max_expanded: the budget in expansions.
@@ -170,7 +170,7 @@ def a_star(
         if promise is None:
             search.closed.add(state)
             expanded += 1
-            search.push_all(state, cost, successors(state))
+            search.push_all(state, cost, successors(state, cost))
         else:
             search.push_all(state, cost, promise.redeem())
     return SearchResult(Outcome.INFEASIBLE, (), math.inf, math.inf, expanded, search.explored)

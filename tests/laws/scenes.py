@@ -13,6 +13,7 @@ from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import AREA_M2
+from planner.plan.edges import Edges
 from planner.plan.heuristic import HEURISTICS
 from planner.primitives.primitive import Primitive, Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -67,6 +68,18 @@ class Problem:
             self.garment, self.scene, start_station=self.start, comfort_radius_m=self.comfort_m, time_limit_s=60.0
         )
 
+    def lean_cost_s(self) -> float:
+        """The same by the edges that planning goes along: without what is no cheaper than from elsewhere."""
+        work, state = self.work, self.first_state
+        if work.unrest(state.done, state.offset) is not None:
+            return math.inf
+        edges = Edges(work, lambda _, steps: ((step, step.duration_s) for step in steps))
+        everything = (1 << len(self.garment.folds)) - 1
+        bound = HEURISTICS["arm_time"](work)
+        found = a_star(state, edges.leaving, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
+        assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
+        return found.cost
+
     def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
         """What the cheapest sequence of primitives costs (s); infinite when there is none."""
         work, state = self.work, self.first_state
@@ -74,7 +87,7 @@ class Problem:
             return math.inf
         primitives = [kind(work) for kind in kinds]
 
-        def successors(state: State) -> Iterator[Edge[State, Step]]:
+        def successors(state: State, _cost_s: float) -> Iterator[Edge[State, Step]]:
             for primitive in primitives:
                 for step in primitive.successors(state):
                     yield Edge(step, step.duration_s, step.after)

@@ -22,6 +22,12 @@ def test_the_search_finds_what_trying_everything_finds(problem: Problem):
     assert found == pytest.approx(tried, abs=SECOND)
 
 
+@given(problems(most_stations=3))
+@law("planning", short=12, long=100)
+def test_what_is_no_cheaper_than_from_elsewhere_is_left_out_without_loss(problem: Problem):
+    assert problem.lean_cost_s() == pytest.approx(problem.cost_s(), abs=SECOND)
+
+
 @given(problems())
 @law("planning", short=12, long=50)
 def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primitives(problem: Problem):

@@ -36,7 +36,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
     bound, goal = arm_time(problem), (1 << len(problem.sequence.folds)) - 1
     start = State(0, (0.0, 0.0), 0, 0)
 
-    def successors(state: State):
+    def successors(state: State, _cost_s: float):
         for kind in kinds:
             for step in kind.successors(state):
                 assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.summary

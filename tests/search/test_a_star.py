@@ -21,7 +21,8 @@ def search(
     should_stop: Callable[[], bool] = lambda: False,
     limit: float = math.inf,
 ) -> SearchResult[object, object]:
-    return a_star(start, successors, lambda state: state == goal, heuristic, max_expanded, should_stop, limit)
+    leaving = lambda state, cost: successors(state)  # noqa: E731
+    return a_star(start, leaving, lambda state: state == goal, heuristic, max_expanded, should_stop, limit)
 
 
 def number_line(n: int) -> list[Edge[int, int]]:
