@@ -1,0 +1,68 @@
+"""What leaves a state in the search: all that can be done, but for what is no cheaper than from a state left before."""
+
+import pytest
+
+from planner.plan.edges import Edges
+from planner.plan.heuristic import arm_time
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+from planner.primitives.work import Work
+from planner.search.a_star import Edge, Outcome, a_star
+from tests.replay.planned import planned
+
+EXPANDED_MAX = 100_000
+
+
+def edges_of(work: Work) -> Edges:
+    """What the model allows, whether arms can follow it or not."""
+    return Edges(work, lambda _, steps: ((step, step.duration_s) for step in steps))
+
+
+@pytest.mark.parametrize("name", ["tie", "scarf", "t-shirt"])
+def test_what_is_left_out_makes_no_plan_dearer(name: str):
+    case = planned(name).answer
+    start, goal, bound = case.problem.start, case.problem.is_goal, arm_time(case.work)
+    edges, whole, left_out = edges_of(case.work), edges_of(case.work), []
+
+    def everything(state: State, _cost_s: float):
+        whole.begin()
+        return list(whole.leaving(state, 0.0))
+
+    def some(state: State, cost_s: float):
+        found = list(edges.leaving(state, cost_s))
+        left_out.append(len(everything(state, 0.0)) - len(found))
+        return found
+
+    lean = a_star(start, some, goal, bound, EXPANDED_MAX, lambda: False)
+    full = a_star(start, everything, goal, bound, EXPANDED_MAX, lambda: False)
+    assert lean.outcome is full.outcome is Outcome.SOLVED
+    assert lean.cost == pytest.approx(full.cost, abs=1e-9)
+    assert max(left_out) > 0, "else nothing is tested"
+
+
+def test_from_a_back_off_passed_on_the_way_only_the_base_moves_on():
+    case = planned("tie").answer
+    work = case.work
+    edges = edges_of(work)
+    near, far = State(0, (0.0, 0.0), 0, 0), State(0, (0.0, 0.0), 0, 4)
+    first = kinds_of(edges.leaving(near, 10.0))
+    assert kinds_of(edges.leaving(far, 10.0 + work.drive_s(4))) == {"move"}
+    edges.begin()
+    edges.leaving(near, 10.0)
+    assert kinds_of(edges.leaving(far, 10.0 + work.drive_s(4) - 0.01)) == first
+    edges.begin()
+    assert kinds_of(edges.leaving(far, 10.0 + work.drive_s(4))) == first, "a new search begins"
+
+
+def kinds_of(found) -> set[str]:
+    """The kinds of all steps, those worked out that have time."""
+    kinds: set[str] = set()
+    waiting = list(found)
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, Edge):
+            step: Step = one.action
+            kinds.add(step.kind)
+        else:
+            waiting += one.redeem()
+    return kinds
