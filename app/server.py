@@ -1,6 +1,5 @@
 """Serves the designer on one address, until it is told to stop."""
 
-import gc
 import socket
 import sys
 from collections.abc import Callable
@@ -47,7 +46,6 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
             timeout_graceful_shutdown=_GRACE_S,
             server_header=False,
         )
-        gc.freeze()  # the modules are no garbage; to look through them stops everything for some hundredths of a second
         _AnnouncingServer(config, lambda: announce(_url(bound))).run(sockets=[listener])
 
 

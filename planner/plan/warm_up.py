@@ -1,5 +1,6 @@
 """Compile all that is compiled, or load it from the cache, so that no user's search is charged for it."""
 
+import gc
 from collections.abc import Callable
 from functools import cache
 
@@ -43,6 +44,7 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
     Args:
         plan: makes a plan for a garment.
     """
+    gc.freeze()  # modules are no garbage, and to look through them stops everything for some hundredths of a second
     found = plan(Garment.from_dict(_NAPKIN))
     found.timeline().at(0.0)
     reach = found.work.reach
@@ -55,6 +57,7 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
     robot, torso_m = found.problem.robot, found.work.scene.torso_m
     left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
     robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
+    gc.freeze()  # nor is what has been compiled
 
 
 def _staying(place: Point3) -> ToolPath:
