@@ -13,7 +13,6 @@ from planner.plan.plan import Plan
 from planner.plan.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.primitives.work import Work
 
 _LOOKS_MAX = 12
 """So many ways to do again what a run of primitives did are looked at."""
@@ -36,7 +35,7 @@ def adapted(plan: Plan, problem: Problem) -> tuple[Act, ...]:
 
 
 def _act(act: Act, problem: Problem, state: State) -> Act | None:
-    ways = islice(_again(act.steps, problem.work, state), _LOOKS_MAX)
+    ways = islice(_again(act.steps, problem, state), _LOOKS_MAX)
     likest = next(ways, None)
     if likest is None or act.run is None:
         return None if likest is None else Act(act.first, likest, None)
@@ -46,7 +45,7 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
     return None if run is None else Act(act.first, run.steps, run)
 
 
-def _again(steps: Sequence[Step], work: Work, state: State) -> Iterator[tuple[Step, ...]]:
+def _again(steps: Sequence[Step], problem: Problem, state: State) -> Iterator[tuple[Step, ...]]:
     """The same steps one after the other from a state, the likest first; hands hold on where they did.
 
     There is time to try only a few, so they are mixed: those that begin in the likest way, more and more of others.
@@ -54,10 +53,10 @@ def _again(steps: Sequence[Step], work: Work, state: State) -> Iterator[tuple[St
     if not steps:
         yield ()
         return
-    begins = (step for step in steps[0].again(work, state) if bool(step.after.held) == bool(steps[0].after.held))
+    begins = (step for step in steps[0].again(problem.work, state) if _may_begin(step, steps, problem))
     begun: list[Iterator[tuple[Step, ...]]] = []
     while True:
-        begun += [_begun_with(step, steps[1:], work) for step in islice(begins, 1)]
+        begun += [_begun_with(step, steps[1:], problem) for step in islice(begins, 1)]
         if not begun:
             return
         for ways in tuple(begun):
@@ -68,6 +67,12 @@ def _again(steps: Sequence[Step], work: Work, state: State) -> Iterator[tuple[St
                 yield way
 
 
-def _begun_with(step: Step, others: Sequence[Step], work: Work) -> Iterator[tuple[Step, ...]]:
-    for rest in _again(others, work, step.after):
+def _may_begin(step: Step, steps: Sequence[Step], problem: Problem) -> bool:
+    """Whether steps may begin with one like the first of them; what can follow it takes long to find out."""
+    is_alike = bool(step.after.held) == bool(steps[0].after.held)
+    return is_alike and (len(steps) == 1 or problem.maker.can_begin_and_end((step,)))
+
+
+def _begun_with(step: Step, others: Sequence[Step], problem: Problem) -> Iterator[tuple[Step, ...]]:
+    for rest in _again(others, problem, step.after):
         yield (step, *rest)

@@ -148,10 +148,16 @@ class RunMaker:
         where they begin and end first.
         """
         for steps in choices:
-            if self._can_hold(self._moments([phase for step in steps for phase in step.extremes()])):
+            if self.can_begin_and_end(steps):
                 candidate = self.candidate(steps)
                 if self._carrier.can_hold(candidate.moments):
                     yield candidate
+
+    def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
+        """Whether the arms can be where they are when each of some steps takes hold, and when its motions end."""
+        moments = self._moments([phase for step in steps for phase in step.extremes()])
+        ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
+        return self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         """Steps as they are to be performed, moment by moment, whether they may be real or not."""
@@ -177,11 +183,6 @@ class RunMaker:
         times = np.append(0.0, np.cumsum(_paced(carrying, moments, least[first:last])))
         cues = tuple(_cues(carrying, moments, times))
         return RealRun(candidate.steps, carried, cues, times, least[:first], least[last:], late)
-
-    def _can_hold(self, moments: Moments) -> bool:
-        """Whether the arms can be where they are at the first moment and at the last of each phase."""
-        ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-        return self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._work.scene.table.height_m)
