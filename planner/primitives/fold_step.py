@@ -10,16 +10,19 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point3
 from planner.primitives.base_legs import travel
 from planner.primitives.fold_motion import FoldMotion
-from planner.primitives.fold_trial import fold_trials, geometric_obstacle
-from planner.primitives.fold_variants import fold_spread, fold_variants, trial_variants
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
-from planner.primitives.grasping import by_nearness
+from planner.primitives.grasping import by_nearness, like_approach
 from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
 
 _DENSE_SWEEP = 0.02
+
+_LIKE = 8
+"""So many approaches of each arm count as like one that it had: to look at all takes several times as long."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +125,8 @@ class FoldStep:
     def again(self, work: Work, state: State) -> Iterator["FoldStep"]:
         """The same fold with the same hands, each at the grip nearest to where it was: as it was done, if it still can.
 
-        Else the ways in which the base travels least; where the same hands cannot, with others.
+        Else the ways in which the base travels least, hands held much the same before others; where the same hands
+        cannot, with others.
         """
         old = self.way.trial
         is_next = old.fold in work.sequence.dag.available(state.done)
@@ -138,7 +142,7 @@ class FoldStep:
                 driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0, first, end])
                 if driven < IMPOSSIBLE:
                     yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
-            for v in sorted(trial_variants(work, state, trial), key=lambda v: (v.steps, abs(v.end - end), v.rank)):
+            for v in _variants_like(work, state, trial, orientation, end):
                 yield fold_step(work, v.way, state, v.first, v.end, v.steps)
 
     def _tools(self, sweep: float) -> FloatArray:
@@ -159,6 +163,27 @@ def fold_step(work: Work, way: FoldWay, state: State, first: int, end: int, step
         )
     after = State(state.done | 1 << fold, state.offset, state.station, end, held)
     return FoldStep(work, way, state, after, first, steps - abs(first - state.back_off))
+
+
+def _variants_like(
+    work: Work, state: State, trial: FoldTrial, orientation: dict[int, int], end: int
+) -> Iterator[Variant]:
+    """The ways of a trial, of least travel first, then those that end nearest to a back-off.
+
+    Before all others come those in which each arm's approach is like one that it had.
+    """
+
+    def rank(variant: Variant) -> tuple[int, int, int]:
+        return variant.steps, abs(variant.end - end), variant.rank
+
+    like = tuple(
+        like_approach(work, allowed, orientation[arm], _LIKE) if arm in orientation else allowed[:_LIKE]
+        for arm, allowed in zip(trial.arms, trial.approaches, strict=True)
+    )
+    yield from sorted(trial_variants(work, state, trial, approaches=like), key=rank)
+    for variant in sorted(trial_variants(work, state, trial), key=rank):
+        if any(approach not in some for approach, some in zip(variant.way.approaches, like, strict=True)):
+            yield variant
 
 
 def _point(row: FloatArray) -> Point3:

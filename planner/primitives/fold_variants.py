@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from heapq import merge
 from itertools import product
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,9 @@ from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 _COMBINATIONS_MAX = 240
 """Of more combinations of orientations than this only so many are looked at, evenly spread."""
+
+Approaches: TypeAlias = tuple[NDArray[np.int64], ...]
+"""Of each hand the approaches that it may take, the most natural first."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,14 +71,16 @@ def _rank(variant: Variant) -> tuple[int, int]:
     return variant.steps, variant.rank
 
 
-def trial_variants(work: Work, state: State, trial: FoldTrial, end: int | None = None) -> Iterator[Variant]:
+def trial_variants(
+    work: Work, state: State, trial: FoldTrial, end: int | None = None, approaches: Approaches | None = None
+) -> Iterator[Variant]:
     """The ways of one trial, each combination of orientations with the base travelling least.
 
-    The base ends at a back-off, or at any.
+    The base ends at a back-off, or at any; hands approach in some of the trial's ways, or in any.
     """
-    masks, approaches, ranks = _all_strips(work, state, trial)
+    masks, chosen, ranks = _all_strips(work, state, trial, approaches or trial.approaches)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
-    masks, approaches, ranks = np.ascontiguousarray(masks[::every]), approaches[::every], ranks[::every]
+    masks, chosen, ranks = np.ascontiguousarray(masks[::every]), chosen[::every], ranks[::every]
     steps = np.where(_allowed(work, state, end), travel(masks, work.back_offs), IMPOSSIBLE)
     begin = np.abs(np.arange(work.back_offs) - state.back_off)
     total = steps if end is None else np.minimum(steps + begin[:, None], IMPOSSIBLE)
@@ -82,7 +88,7 @@ def trial_variants(work: Work, state: State, trial: FoldTrial, end: int | None =
     least = total.argmin(axis=1)
     for number in np.flatnonzero(total.min(axis=1) < IMPOSSIBLE):
         first, last = divmod(int(least[number]), work.back_offs)
-        way = FoldWay(trial, tuple(int(approach) for approach in approaches[number]))
+        way = FoldWay(trial, tuple(int(approach) for approach in chosen[number]))
         driven = int(steps[number, first, last])
         yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
 
@@ -96,7 +102,7 @@ def _allowed(work: Work, state: State, end: int | None) -> BoolArray:
 
 
 def _all_strips(
-    work: Work, state: State, trial: FoldTrial
+    work: Work, state: State, trial: FoldTrial, approaches: Approaches
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
     """Every combination of approaches in which the base has a place at every waypoint, and how natural it is.
 
@@ -104,7 +110,7 @@ def _all_strips(
     """
     start = state.back_off if state.held else None
     masks, numbers = [], []
-    for arm, tools, allowed in zip(trial.arms, trial.tools, trial.approaches, strict=True):
+    for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
         points = work.in_base(state.station, tools)
         found = work.reach.back_offs(arm, points, allowed, work.back_offs, BACK_OFF_STEP_M, start=start)
         able = np.flatnonzero(found.all(axis=1))
@@ -115,6 +121,6 @@ def _all_strips(
     is_able = both.all(axis=1)
     kept = choices[is_able]
     ranks = np.sum([n[kept[:, i]] for i, n in enumerate(numbers)], axis=0)
-    columns = zip(trial.approaches, numbers, strict=True)
-    approaches = np.column_stack([allowed[n[kept[:, i]]] for i, (allowed, n) in enumerate(columns)])
-    return both[is_able], approaches, np.asarray(ranks, dtype=np.int64)
+    columns = zip(approaches, numbers, strict=True)
+    chosen = np.column_stack([allowed[n[kept[:, i]]] for i, (allowed, n) in enumerate(columns)])
+    return both[is_able], chosen, np.asarray(ranks, dtype=np.int64)

@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
 from planner.primitives.work import Work
 
@@ -80,6 +80,17 @@ def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip:
         grip: a point of the stack, article frame (m).
     """
     return work.kept(_Pinches).of(done, heading_in_base, grip)
+
+
+def like_approach(work: Work, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
+    """Of some approaches so many that turn the hand least from one, in the order in which they were."""
+    wanted = work.reach.approaches[one]
+    found = [work.reach.approaches[approach] for approach in approaches]
+    off = [
+        abs(wrapped_angle(each.heading_rad - wanted.heading_rad)) + abs(each.pitch_rad - wanted.pitch_rad)
+        for each in found
+    ]
+    return np.asarray(approaches[np.sort(np.argsort(off, kind="stable")[:count])])
 
 
 class _Pinches:
