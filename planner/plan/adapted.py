@@ -6,7 +6,7 @@ instead of a search. So it can be shown at once, and the search may take its tim
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import chain, islice
+from itertools import chain, islice, zip_longest
 
 from planner.plan.act import Act
 from planner.plan.plan import Plan
@@ -16,6 +16,9 @@ from planner.primitives.state import State
 
 _LOOKS_MAX = 12
 """So many ways to do again what a run of primitives did are looked at."""
+
+_BEGUN = 4
+"""Of so many ways to begin one way to go on each is looked at before others."""
 
 _PATIENCE = 2
 """So many times as many as elsewhere are tried: one that does saves a search."""
@@ -48,23 +51,26 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
 def _again(steps: Sequence[Step], problem: Problem, state: State) -> Iterator[tuple[Step, ...]]:
     """The same steps one after the other from a state, the likest first; hands hold on where they did.
 
-    There is time to try only a few, so they are mixed: those that begin in the likest way, more and more of others.
+    There is time to try only a few, so they are taken in turns from a few that begin in the likest ways: mostly it is
+    where they begin that one is real and another is not.
     """
     if not steps:
         yield ()
         return
     begins = (step for step in steps[0].again(problem.work, state) if _may_begin(step, steps, problem))
     begun: list[Iterator[tuple[Step, ...]]] = []
-    while True:
-        begun += [_begun_with(step, steps[1:], problem) for step in islice(begins, 1)]
-        if not begun:
-            return
-        for ways in tuple(begun):
-            way = next(ways, None)
-            if way is None:
-                begun.remove(ways)
-            else:
-                yield way
+    for step in begins:
+        ways = _begun_with(step, steps[1:], problem)
+        yield from islice(ways, 1)
+        begun.append(ways)
+        if len(begun) == _BEGUN:
+            yield from _in_turns(begun)
+            begun.clear()
+    yield from _in_turns(begun)
+
+
+def _in_turns(begun: Sequence[Iterator[tuple[Step, ...]]]) -> Iterator[tuple[Step, ...]]:
+    return (way for turn in zip_longest(*begun) for way in turn if way is not None)
 
 
 def _may_begin(step: Step, steps: Sequence[Step], problem: Problem) -> bool:
