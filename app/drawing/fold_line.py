@@ -117,7 +117,8 @@ def _tried(
         drawn = DrawnFold(crease.name, crease.kind, *ends, radius_m)
         if crease.is_red and is_flap_missed(replay.cloths[-1], Segment(*ends)):
             raise FoldError("start", flap_missed(names.titles[index - 1]))
-        line = snapped_line(drawn, silhouette)
+        snapped = snapped_line(drawn, silhouette)
+        line = Segment(_kept(crease.start.point, snapped.start), _kept(crease.end.point, snapped.end))
         before = replay.lines[-1] if crease.is_red else None
         return line, fold_cloth(replay.cloths[-1], line, is_red=crease.is_red, crease=before)
     except (FoldError, GarmentError) as error:
@@ -127,7 +128,7 @@ def _tried(
 
 def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: Replay, names: Names) -> Crease:
     start, end = (
-        End(_kept(place.end.point, point), _settled_tie(place, point, replay, names, is_red=crease.is_red))
+        End(point, _settled_tie(place, point, replay, names, is_red=crease.is_red))
         for place, point in zip(places, (line.start, line.end), strict=True)
     )
     return replace(crease, start=start, end=end)

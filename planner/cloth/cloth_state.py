@@ -1,7 +1,9 @@
 """The cloth as a stack of layers, bottom to top."""
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
+
+import shapely
 
 from planner.cloth.layer import Layer
 from planner.errors import FoldError
@@ -10,6 +12,8 @@ from planner.geometry.region import Region
 
 LAYERS_MAX = 2000
 """A stack of more layers is refused."""
+
+_SPREAD_OUT_KEPT = 16
 
 
 class ClothState:
@@ -30,8 +34,8 @@ class ClothState:
 
     @staticmethod
     def spread_out(pattern: Region) -> "ClothState":
-        """The cloth as it lies at the start: one layer, front face up."""
-        return ClothState([Layer(pattern, Isometry())])
+        """The cloth as it lies at the start: one layer, front face up. The latest are remembered."""
+        return _spread_out(pattern.shape.wkb)
 
     @cached_property
     def silhouette(self) -> Region:
@@ -47,3 +51,8 @@ class ClothState:
     def area(self) -> float:
         """The summed area of all layers (m^2)."""
         return sum(layer.area for layer in self.layers)
+
+
+@lru_cache(_SPREAD_OUT_KEPT)
+def _spread_out(pattern: bytes) -> ClothState:
+    return ClothState([Layer(Region(shapely.from_wkb(pattern)), Isometry())])

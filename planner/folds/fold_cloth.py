@@ -1,6 +1,7 @@
 """Folding a stack of layers: cut along the segment, reflect the left part, lay it on top (paper, section 6)."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
 from planner.geometry.tolerance import LENGTH_M
+
+_FOLDED_KEPT = 256
 
 
 @dataclass(frozen=True)
@@ -28,8 +31,9 @@ class Folded:
     layers: tuple[Layer, ...]
 
 
+@lru_cache(_FOLDED_KEPT)
 def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segment | None = None) -> Folded:
-    """Fold what lies to the left of a line over it.
+    """Fold what lies to the left of a line over it. Remembered: who draws, who checks and who plans all ask for it.
 
     Args:
         cloth: the stack before.

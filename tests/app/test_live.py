@@ -37,7 +37,7 @@ async def test_a_page_is_told_everything_when_it_comes(client: httpx.AsyncClient
     state = await created(client)
     page = listening(client, state["id"])
     assert await page.until("document") == state
-    plan = await page.until("plan", status="solved", version=1)
+    plan = await page.until_planned(1)
     assert plan["text"].startswith("Planned: ")
     assert (plan["plan"]["version"], plan["plan"]["is_stale"]) == (1, False)
     assert plan["checks"]["folds"][0]["grips_needed"] == 2
@@ -53,9 +53,8 @@ async def test_two_pages_are_told_the_same(client: httpx.AsyncClient) -> None:
     moved = await move(client, state, -0.02)
     for page in pages:
         assert await page.until("document", version=moved["version"]) == moved
-        plan = await page.until("plan", version=moved["version"], status="solved")
+        plan = await page.until_planned(moved["version"])
         assert plan["plan"]["version"] == moved["version"]
-        await page.until("playback", version=moved["version"])
     assert pages[0].last == pages[1].last
     for page in pages:
         await page.hang_up()

@@ -46,6 +46,15 @@ class Listener:
                 await asyncio.sleep(0.002)
         return self.last[kind]
 
+    async def until_planned(self, version: int) -> dict[str, Any]:
+        """Wait for the plan of a version that stays, and for its playback; its message."""
+        plan = await self.until("plan", status="solved", version=version)
+        async with asyncio.timeout(60.0):
+            while not (plan := self.last["plan"])["plan"]["is_final"]:
+                await asyncio.sleep(0.002)
+        await self.until("playback", version=version, duration_s=plan["plan"]["cost_s"])
+        return plan
+
     async def hang_up(self) -> None:
         self._inbox.put_nowait({"type": "websocket.disconnect", "code": 1001})
         with contextlib.suppress(asyncio.CancelledError):
