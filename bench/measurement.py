@@ -14,7 +14,7 @@ from typing import Any
 
 from planner import Garment, load_garment, make_plan
 from planner.plan.make_plan import compile_kernels
-from planner.plan.problem import replayed
+from planner.plan.problem import forget_garments
 
 TIME_LIMIT_S = 60.0
 
@@ -129,7 +129,7 @@ def measure(*cases: Case, repetitions: int) -> list[Measurement]:
 
 def _run(garment: Garment, case: Case) -> _Run:
     started = perf_counter()
-    replayed.cache_clear()
+    forget_garments()
     plan = make_plan(
         garment,
         comfort_radius_m=case.comfort_radius_m,

@@ -35,7 +35,7 @@ class ClothState:
     @staticmethod
     def spread_out(pattern: Region) -> "ClothState":
         """The cloth as it lies at the start: one layer, front face up. The latest are remembered."""
-        return _spread_out(pattern.shape.wkb)
+        return spread_out(pattern.shape.wkb)
 
     @cached_property
     def silhouette(self) -> Region:
@@ -54,5 +54,6 @@ class ClothState:
 
 
 @lru_cache(_SPREAD_OUT_KEPT)
-def _spread_out(pattern: bytes) -> ClothState:
+def spread_out(pattern: bytes) -> ClothState:
+    """One layer of a pattern given as well-known binary; see `ClothState.spread_out`."""
     return ClothState([Layer(Region(shapely.from_wkb(pattern)), Isometry())])

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
+from planner.cloth.cloth_state import spread_out
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
+from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.plan.machine import Machine
@@ -81,3 +83,9 @@ def require_between(field: str, value: float, low: float, high: float) -> None:
 
 replayed = lru_cache(_GARMENTS)(FoldSequence.of)
 """A garment with its folds made legal. The latest are remembered, with what was worked out about their cloth."""
+
+
+def forget_garments() -> None:
+    """Forget all cloth that is remembered, folded or not: whoever measures wants it worked out anew."""
+    for remembered in (replayed, fold_cloth, spread_out):
+        remembered.cache_clear()
