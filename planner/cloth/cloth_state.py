@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from functools import cached_property, lru_cache
 
-import shapely
-
 from planner.cloth.layer import Layer
 from planner.errors import FoldError
 from planner.geometry.isometry import Isometry
@@ -35,7 +33,7 @@ class ClothState:
     @staticmethod
     def spread_out(pattern: Region) -> "ClothState":
         """The cloth as it lies at the start: one layer, front face up. The latest are remembered."""
-        return spread_out(pattern.shape.wkb)
+        return spread_out(pattern.to_bytes())
 
     @cached_property
     def silhouette(self) -> Region:
@@ -55,5 +53,5 @@ class ClothState:
 
 @lru_cache(_SPREAD_OUT_KEPT)
 def spread_out(pattern: bytes) -> ClothState:
-    """One layer of a pattern given as well-known binary; see `ClothState.spread_out`."""
-    return ClothState([Layer(Region(shapely.from_wkb(pattern)), Isometry())])
+    """One layer of a pattern given as `Region.to_bytes` does; see `ClothState.spread_out`."""
+    return ClothState([Layer(Region.from_bytes(pattern), Isometry())])

@@ -40,6 +40,15 @@ class Region:
         return Region(shapely.Polygon([tuple(p) for p in points]))
 
     @staticmethod
+    def from_bytes(content: bytes) -> "Region":
+        """The region whose `to_bytes` these are."""
+        return Region(shapely.from_wkb(content))
+
+    def to_bytes(self) -> bytes:
+        """All vertices to the last digit: well-known binary, the same for the same vertices in the same order."""
+        return bytes(shapely.to_wkb(self.shape))
+
+    @staticmethod
     def empty() -> "Region":
         """The region that has no points."""
         return Region(shapely.Polygon())

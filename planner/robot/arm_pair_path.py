@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robot.arm_path import ArmSearch, NoPath, links_beside
+from planner.robot.arm_path import ArmSearch, NoPath, links_beside, links_inside
 from planner.robot.joint_chain_pair import cheapest_chain_pair
 
 
@@ -135,8 +135,9 @@ class _PairSearch:
         return smooth if self._both_arms.arms_apart(smooth).all() else joints
 
     def _none(self) -> NoPath:
-        inside = self._arms[0].inside
+        first, last = zip(*(arm.core for arm in self._arms), strict=True)
+        inside = links_inside(self._links, (min(first), max(last)))
         is_blocked = ~self._is_allowed[inside].any(axis=(1, 2))
         core = slice(inside[0], inside[-1] + 1)
         is_core = is_blocked.any() or not (self._has_dropped or self._chains(core).size)
-        return NoPath(self._arms[0].poses(inside[is_blocked]), bool(is_core))
+        return NoPath(self._links[inside[is_blocked]] - min(first), bool(is_core))

@@ -117,6 +117,7 @@ class ArmSearch:
         costs: what each costs, shape (l, m); infinite where there is none, and where one has been struck out.
         speeds: how fast the joints turn (rad/s), shape (7,).
         spans: how long each link should take at most (s), shape (l - 1,).
+        core: the first of the poses that matter, and the one after their last.
     """
 
     def __init__(
@@ -134,7 +135,7 @@ class ArmSearch:
         """
         self._arm = arm
         self._is_free = is_free
-        self._core = path.core
+        self.core = path.core
         shoulder = arm.shoulder(torso_m)
         self._positions = arm.mirrored_places(path.positions) - shoulder
         self._rotations = arm.mirrored_rotations(path.rotations)
@@ -165,16 +166,6 @@ class ArmSearch:
                 return self.smoothed(guides, joints)
             self._strike(chain, bad, number)
         return self._none()
-
-    @property
-    def inside(self) -> NDArray[np.int64]:
-        """The links within the path's core, shape (k,)."""
-        first, last = self._core
-        return np.flatnonzero((self.links >= first) & (self.links < last))
-
-    def poses(self, links: NDArray[np.int64]) -> NDArray[np.int64]:
-        """The poses of links, counted from the first of the path's core."""
-        return self.links[links] - self._core[0]
 
     def guides(self, chain: NDArray[np.int64]) -> FloatArray:
         """The chain's joints, continuous ones unwound, shape (l, 7)."""
@@ -212,8 +203,8 @@ class ArmSearch:
         return which, self._arm.mirrored_joints(self.samples[link, which])
 
     def _none(self) -> NoPath:
-        inside = self.inside
-        blocked = self.poses(inside[np.isinf(self.costs[inside]).all(axis=1)])
+        inside = links_inside(self.links, self.core)
+        blocked = self.links[inside[np.isinf(self.costs[inside]).all(axis=1)]] - self.core[0]
         part = slice(inside[0], inside[-1] + 1)
         chain = cheapest_chain(self.samples[part], self.costs[part], self.speeds, self.spans[part][:-1])
         return NoPath(blocked, is_core=not (len(chain) or self._has_dropped))
@@ -240,6 +231,11 @@ class ArmSearch:
         joints = self._arm.mirrored_joints(self.samples[asked, columns])
         is_bad = ~self._is_free(self.links[asked], joints, True)
         self.costs[asked[is_bad], columns[is_bad]] = np.inf
+
+
+def links_inside(links: NDArray[np.int64], core: tuple[int, int]) -> NDArray[np.int64]:
+    """Of the poses that are links, the numbers of those from one pose on and before another."""
+    return np.flatnonzero((links >= core[0]) & (links < core[1]))
 
 
 def links_beside(links: NDArray[np.int64], poses: NDArray[np.int64]) -> NDArray[np.int64]:
