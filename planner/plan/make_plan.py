@@ -120,7 +120,10 @@ def quick_plan(
 
 
 def compile_kernels() -> None:
-    """Compile what is compiled, or load it from the cache, once a process; `make_plan` sees to it too."""
+    """Compile what is compiled, or load it from the cache, once a process; `make_plan` sees to it too.
+
+    What is there by then, modules above all, the garbage collector does not look at any more (`gc.freeze`).
+    """
     warm_up(_plan_simply)
 
 

@@ -14,6 +14,11 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robot.arm_path import ArmSearch, NoPath, links_beside, links_inside
 from planner.robot.joint_chain_pair import cheapest_chain_pair
 
+_TRIES_MAX = 24
+
+_ASKED_OF = (8, 4, 2, 1)
+"""Of the poses to be asked every so many are asked first, those between them afterwards."""
+
 
 class BothArms(Protocol):
     """What knows whether the arms are in each other's way."""
@@ -28,12 +33,6 @@ class BothArms(Protocol):
         In all postures of an arm its tool is in the same pose.
         """
         ...
-
-
-_TRIES_MAX = 24
-
-_ASKED_OF = (8, 4, 2, 1)
-"""Of the poses to be asked every so many are asked first, those between them afterwards."""
 
 
 def arm_pair_path(left: ArmSearch, right: ArmSearch, both_arms: BothArms) -> FloatArray | NoPath:
@@ -68,7 +67,7 @@ class _PairSearch:
         count, size = arms[0].costs.shape
         self._is_allowed = np.ones((count, size, size), dtype=np.bool_)
         self._is_asked = np.zeros(count, dtype=bool)
-        self._has_dropped = False
+        self._has_dropped = any(arm.has_dropped for arm in arms)
 
     def found(self) -> FloatArray | NoPath:
         for _ in range(_TRIES_MAX):

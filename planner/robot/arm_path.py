@@ -118,6 +118,7 @@ class ArmSearch:
         speeds: how fast the joints turn (rad/s), shape (7,).
         spans: how long each link should take at most (s), shape (l - 1,).
         core: the first of the poses that matter, and the one after their last.
+        has_dropped: whether samples were struck out that do not collide, since no path could be made of them.
     """
 
     def __init__(
@@ -147,7 +148,7 @@ class ArmSearch:
         )
         self.spans = np.add.reduceat(np.append(path.spans_s, 0.0), self.links)[:-1]
         self._is_asked = np.zeros(len(self.links), dtype=bool)
-        self._has_dropped = False
+        self.has_dropped = False
 
     def found(self) -> FloatArray | NoPath:
         """The calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
@@ -207,7 +208,7 @@ class ArmSearch:
         blocked = self.links[inside[np.isinf(self.costs[inside]).all(axis=1)]] - self.core[0]
         part = slice(inside[0], inside[-1] + 1)
         chain = cheapest_chain(self.samples[part], self.costs[part], self.speeds, self.spans[part][:-1])
-        return NoPath(blocked, is_core=not (len(chain) or self._has_dropped))
+        return NoPath(blocked, is_core=not (len(chain) or self.has_dropped))
 
     def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:
         """Ask all samples beside bad poses, at some tries more; where nothing collides drop the ones that were taken.
@@ -221,7 +222,7 @@ class ArmSearch:
             self._ask(np.asarray(asked[~self._is_asked[asked]], dtype=np.int64))
             if np.isinf(self.costs[taken, chain[taken]]).any():
                 return
-        self._has_dropped = True
+        self.has_dropped = True
         self.costs[taken, chain[taken]] = np.inf
 
     def _ask(self, links: NDArray[np.int64]) -> None:
