@@ -6,13 +6,14 @@ import numpy as np
 
 from docs.figures.drawing import BACK, BLUE, EDGE, FAINT, FRONT, INK, NONE, RED, TABLE, Drawing, Style, View
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import unrest
+from planner.cloth.g_state import TableInArticle, unrest
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
 
 _HERE = Pose2(0.0, 0.0, 0.0)
 _TABLE = Table()
+_TOP = TableInArticle.seen_from(_HERE, _TABLE)
 _LENGTH_M = 1.0
 _FRICTIONS = np.linspace(0.0, 4.0, 41)
 _MARKED = (0.5, 1.0, 4.0)
@@ -23,7 +24,7 @@ def most_hanging(friction: float) -> float:
     low, high = 0.0, 1.0
     for _ in range(18):
         share = (low + high) / 2
-        is_at_rest = unrest(_strip(share), _HERE, _TABLE, friction, 0.0) is None
+        is_at_rest = unrest(_strip(share), _TOP, friction, 0.0) is None
         low, high = (share, high) if is_at_rest else (low, share)
     return low
 
@@ -85,7 +86,7 @@ def _least_friction(cloth: ClothState) -> float:
     low, high = 0.0, 10.0
     for _ in range(24):
         friction = (low + high) / 2
-        is_at_rest = unrest(cloth, _HERE, _TABLE, friction, 0.0) is None
+        is_at_rest = unrest(cloth, _TOP, friction, 0.0) is None
         low, high = (low, friction) if is_at_rest else (friction, high)
     return high
 

@@ -40,25 +40,33 @@ class Unrest:
     needed_friction: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TableInArticle:
     """The table top seen from the article frame.
 
     Attributes:
-        region: the rectangle.
-        edges: its four edges counter-clockwise; outwards is to the right of each.
+        table: the table.
+        corners: where its corners are, counter-clockwise, shape (4, 2), m.
     """
 
-    region: Region
-    edges: tuple[Segment, ...]
+    table: Table
+    corners: FloatArray
 
     @staticmethod
     def seen_from(placement: Pose2, table: Table) -> "TableInArticle":
         """The table top as an article with this placement sees it."""
-        corners = placement.to_inner(np.array(table.corners))
-        points: list[Point2] = [(float(x), float(y)) for x, y in corners]
-        edges = tuple(Segment(points[i], points[(i + 1) % 4]) for i in range(4))
-        return TableInArticle(Region.polygon(points), edges)
+        return TableInArticle(table, placement.to_inner(np.array(table.corners)))
+
+    @cached_property
+    def region(self) -> Region:
+        """The rectangle."""
+        return Region.polygon(self.corners)
+
+    @cached_property
+    def edges(self) -> tuple[Segment, ...]:
+        """Its four edges counter-clockwise; outwards is to the right of each."""
+        points: list[Point2] = [(x, y) for x, y in self.corners.tolist()]
+        return tuple(Segment(points[i], points[(i + 1) % 4]) for i in range(4))
 
     def contains(self, region: Region) -> bool:
         """Whether a region lies on the table altogether, to the tolerance."""
@@ -81,26 +89,22 @@ EDGE_NAMES = ("right", "far", "left", "near")
 """The table's edges, in the order of `TableInArticle.edges`, as seen from the station `front`."""
 
 
-def unrest(
-    cloth: ClothState, placement: Pose2, table: Table, friction: float, support_angle_rad: float
-) -> Unrest | None:
+def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angle_rad: float) -> Unrest | None:
     """Why the cloth, left alone, would move; None if it is in a g-state.
 
     Args:
         cloth: the stack.
-        placement: the article frame in the table frame.
-        table: the table.
+        top: the table top.
         friction: coefficient of static friction between cloth and table.
         support_angle_rad: see `must_hold` (rad).
     """
-    top = TableInArticle.seen_from(placement, table)
     if top.contains(cloth.silhouette):
         return None
     beyond = cloth.silhouette.difference(top.region)
     if cloth.silhouette.area - beyond.area < AREA_M2:
         off = min(cloth.silhouette.distance_to(edge) for edge in top.edges)
         return Unrest("not_a_g_state", f"nothing of the cloth lies on the table: it is {off:.2f} m beside it", off)
-    covered = _covered_corner(cloth, beyond, top, table)
+    covered = _covered_corner(cloth, beyond, top)
     if covered is not None:
         return covered
     hanging = list(_hanging_parts(cloth, beyond, top))
@@ -125,8 +129,8 @@ def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInArticle) -> It
                 yield _Hanging(number, part, int(top.inside(part.coordinates).max(axis=0).argmin()))
 
 
-def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle, table: Table) -> Unrest | None:
-    for edge, (x, y) in zip(top.edges, table.corners, strict=True):
+def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle) -> Unrest | None:
+    for edge, (x, y) in zip(top.edges, top.table.corners, strict=True):
         if cloth.silhouette.contains(edge.start, margin_m=LENGTH_M):
             depth = cloth.silhouette.boundary_distance(edge.start)
             message = f"the cloth covers the table's corner at ({x:.3f}, {y:.3f}) m, which is {depth:.2f} m inside it"

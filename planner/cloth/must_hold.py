@@ -32,13 +32,12 @@ def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_
     """
     if piece.is_sliver:
         return np.empty((0, 2))
-    return np.vstack([_of_ring(ring, piece.hull, up, baseline, support_angle_rad) for ring in piece.rings])
+    loose = np.concatenate([_not_supported(ring, up, baseline, support_angle_rad) for ring in piece.rings])
+    return loose[_is_on_hull(loose, piece.hull)] if len(loose) else loose
 
 
-def _of_ring(
-    ring: FloatArray, hull: FloatArray, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float
-) -> FloatArray:
-    free = ~_is_supported(ring, up, support_angle_rad) & _is_on_hull(ring, hull)
+def _not_supported(ring: FloatArray, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float) -> FloatArray:
+    free = ~_is_supported(ring, up, support_angle_rad)
     for segment in baseline:
         free &= ~_is_on(ring, segment)
     return ring[free]
@@ -59,8 +58,8 @@ def _is_on(ring: FloatArray, segment: Segment) -> BoolArray:
     return np.asarray(is_on)
 
 
-def _is_on_hull(ring: FloatArray, hull: FloatArray) -> BoolArray:
-    gaps = np.abs(ring[:, None, :] - hull[None, :, :]).max(axis=2)
+def _is_on_hull(points: FloatArray, hull: FloatArray) -> BoolArray:
+    gaps = np.abs(points[:, None, :] - hull[None, :, :]).max(axis=2)
     return np.asarray(gaps.min(axis=1) <= LENGTH_M)
 
 

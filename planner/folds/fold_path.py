@@ -50,12 +50,13 @@ class FoldPath:
         Returns:
             Shape (n, 3), or (k, n, 3): place in the unrolled plane and height above it (m).
         """
-        distances, along = self.line.left_distances(points), self.line.positions(points)
-        flat = np.minimum(distances, self.depth_m * np.abs(1.0 - np.asarray(sweep)))
-        offsets = np.where(np.asarray(sweep) <= 1.0, flat, -flat)
-        feet = np.array(self.line.start) + along[:, None] * np.array(self.line.direction)
-        places = feet + offsets[..., None] * np.array(self.line.left)
-        return np.concatenate([places, (distances - flat)[..., None]], axis=-1)
+        distances, moment = self.line.left_distances(points), np.asarray(sweep)
+        flat = np.minimum(distances, self.depth_m * np.abs(1.0 - moment))
+        shifts = np.where(moment <= 1.0, flat, -flat) - distances
+        found = np.empty((*flat.shape, 3))
+        found[..., :2] = points + shifts[..., None] * np.array(self.line.left)
+        found[..., 2] = distances - flat
+        return found
 
     def top_at(self, sweep: float) -> TableTop:
         """The top over which cloth does not hang at a moment."""
@@ -76,6 +77,8 @@ class FoldPath:
     def tool_paths(self, grips: FloatArray, sweeps: FloatArray) -> FloatArray:
         """The same at several moments, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
         unrolled = self.swept(grips, sweeps[:, None]) + np.array([0.0, 0.0, REST_HEIGHT_M])
+        if self.rising_top == self.top:
+            return self.top.over_edge(unrolled).transpose(1, 0, 2)
         rising, falling = unrolled[sweeps < 1.0], unrolled[sweeps >= 1.0]
         paths = np.concatenate([self.rising_top.over_edge(rising), self.top.over_edge(falling)])
         return paths.transpose(1, 0, 2)
@@ -93,5 +96,4 @@ class FoldPath:
         A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge.
         """
         ends = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
-        is_over_table = bool(np.all(self.top.beyond(ends) == 0.0))
-        return SPACING_M / (math.sqrt(2.0) if is_over_table else 2.0)
+        return SPACING_M / (math.sqrt(2.0) if self.top.covers(ends) else 2.0)

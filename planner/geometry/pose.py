@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -21,7 +22,7 @@ def wrapped_angle(angle_rad: float) -> float:
     return math.pi if wrapped <= -math.pi else wrapped
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Pose2:
     """Where a plane figure or a base stands in another frame.
 
@@ -40,11 +41,11 @@ class Pose2:
 
     def to_outer(self, points: FloatArray) -> FloatArray:
         """Points of the inner frame, shape (..., 2) or (..., 3), seen from the outer one (m)."""
-        return _rotated(points, self.yaw_rad) + self._offset(points.shape[-1])
+        return points @ self._turn[: points.shape[-1], : points.shape[-1]].T + self._offset[: points.shape[-1]]
 
     def to_inner(self, points: FloatArray) -> FloatArray:
         """Points of the outer frame, shape (..., 2) or (..., 3), seen from the inner one (m)."""
-        return _rotated(points - self._offset(points.shape[-1]), -self.yaw_rad)
+        return (points - self._offset[: points.shape[-1]]) @ self._turn[: points.shape[-1], : points.shape[-1]]
 
     def ahead(self, distance_m: float) -> "Pose2":
         """The pose `distance_m` further along its own x axis (backwards if negative)."""
@@ -71,16 +72,14 @@ class Pose2:
         """The pose as JSON: ``{"x_m", "y_m", "yaw_rad"}``."""
         return {"x_m": self.x_m, "y_m": self.y_m, "yaw_rad": self.yaw_rad}
 
-    def _offset(self, dimensions: int) -> FloatArray:
-        return np.array((self.x_m, self.y_m, 0.0)[:dimensions])
+    @cached_property
+    def _offset(self) -> FloatArray:
+        return np.array((self.x_m, self.y_m, 0.0))
 
-
-def _rotated(points: FloatArray, angle_rad: float) -> FloatArray:
-    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
-    turned = np.array(points, dtype=float)
-    turned[..., 0] = cos * points[..., 0] - sin * points[..., 1]
-    turned[..., 1] = sin * points[..., 0] + cos * points[..., 1]
-    return turned
+    @cached_property
+    def _turn(self) -> FloatArray:
+        cos, sin = math.cos(self.yaw_rad), math.sin(self.yaw_rad)
+        return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True)

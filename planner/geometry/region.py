@@ -35,9 +35,9 @@ class Region:
         self.shape = polygonal(shape)
 
     @staticmethod
-    def polygon(points: Iterable[Sequence[float]]) -> "Region":
+    def polygon(points: FloatArray | Sequence[Sequence[float]]) -> "Region":
         """The region within a ring of points (m), in either orientation, the first not repeated."""
-        return Region(shapely.Polygon([tuple(p) for p in points]))
+        return Region(shapely.polygons(np.asarray(points)[:, :2]))
 
     @staticmethod
     def from_bytes(content: bytes) -> "Region":

@@ -17,9 +17,8 @@ def corners(ring: FloatArray) -> FloatArray:
     """
     if len(ring) < 4:
         return counter_clockwise(ring)
-    closed = np.vstack([ring, ring[:1]])
-    slim = np.asarray(shapely.get_coordinates(shapely.simplify(shapely.LineString(closed), LENGTH_M)))
-    slim = slim[:-1]
+    closed = np.concatenate([ring, ring[:1]])
+    slim = np.asarray(shapely.get_coordinates(shapely.simplify(shapely.linestrings(closed), LENGTH_M)))[:-1]
     if len(slim) > 3 and _is_on_line(slim[0], slim[-1], slim[1]):
         slim = slim[1:]
     return counter_clockwise(slim if len(slim) >= 3 else ring)
@@ -63,9 +62,9 @@ def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray
 
 
 def _is_on_line(point: FloatArray, a: FloatArray, b: FloatArray) -> bool:
-    if np.hypot(*(a - b)) <= LENGTH_M:
-        return False
-    return bool(abs(Segment(_point(a), _point(b)).left_distances(point[None])[0]) <= LENGTH_M)
+    (x, y), (ax, ay), (bx, by) = point.tolist(), a.tolist(), b.tolist()
+    length = math.hypot(bx - ax, by - ay)
+    return length > LENGTH_M and abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) <= LENGTH_M * length
 
 
 def _halving(arriving: Segment, leaving: Segment) -> Point2:

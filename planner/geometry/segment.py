@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Segment:
     """A directed segment of positive length.
 
@@ -26,18 +27,18 @@ class Segment:
         if self.start == self.end:
             raise ValueError(f"a segment needs two different ends, both are {self.start}")
 
-    @property
+    @cached_property
     def length(self) -> float:
         """The length (m)."""
         return math.dist(self.start, self.end)
 
-    @property
+    @cached_property
     def direction(self) -> Point2:
         """The unit vector from start to end."""
         length = self.length
         return ((self.end[0] - self.start[0]) / length, (self.end[1] - self.start[1]) / length)
 
-    @property
+    @cached_property
     def left(self) -> Point2:
         """The unit normal to the left of the direction."""
         ux, uy = self.direction
@@ -45,11 +46,11 @@ class Segment:
 
     def left_distances(self, points: FloatArray) -> FloatArray:
         """Signed distances of points, shape (n, 2), from the whole line, positive on its left (m)."""
-        return np.asarray((points - np.array(self.start)) @ np.array(self.left))
+        return np.asarray((points - self._origin) @ self._normal)
 
     def positions(self, points: FloatArray) -> FloatArray:
         """Where points, shape (n, 2), project onto the line, from the start along the direction (m)."""
-        return np.asarray((points - np.array(self.start)) @ np.array(self.direction))
+        return np.asarray((points - self._origin) @ self._tangent)
 
     def at(self, position_m: float) -> Point2:
         """The point of the line this far from the start."""
@@ -58,9 +59,8 @@ class Segment:
 
     def distances(self, points: FloatArray) -> FloatArray:
         """Distances of points, shape (n, 2), from the segment itself (m)."""
-        along = np.clip(self.positions(points), 0.0, self.length)
-        feet = np.array(self.start) + along[:, None] * np.array(self.direction)
-        return np.asarray(np.hypot(*(points - feet).T))
+        across, along = self.left_distances(points), self.positions(points)
+        return np.hypot(across, along - np.minimum(np.maximum(along, 0.0), self.length))
 
     def meeting_point(self, other: "Segment") -> Point2 | None:
         """A point that two segments share, ends included to the tolerance; None if they are apart."""
@@ -80,6 +80,18 @@ class Segment:
             if one.distances(np.array([point]))[0] <= LENGTH_M:
                 return point
         return None
+
+    @cached_property
+    def _origin(self) -> FloatArray:
+        return np.array(self.start)
+
+    @cached_property
+    def _tangent(self) -> FloatArray:
+        return np.array(self.direction)
+
+    @cached_property
+    def _normal(self) -> FloatArray:
+        return np.array(self.left)
 
     @property
     def reversed(self) -> "Segment":

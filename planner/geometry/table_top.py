@@ -61,9 +61,19 @@ class TableTop:
         )
         return tuple(edge for place, edge in sides if math.isfinite(place))
 
+    def covers(self, points: FloatArray) -> bool:
+        """Whether points, shape (..., 2 or 3), all lie on the top in the unrolled plane, to the tolerance."""
+        places = points[..., :2].reshape(-1, 2)
+        if not len(places):
+            return True
+        (x0, y0), (x1, y1) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
+        (left, near), (right, far) = self.low, self.high
+        is_within_x = left - LENGTH_M <= x0 and x1 <= right + LENGTH_M
+        return bool(is_within_x and near - LENGTH_M <= y0 and y1 <= far + LENGTH_M)
+
     def beyond(self, points: FloatArray) -> FloatArray:
         """How far points, shape (..., 2 or 3), lie beyond the top in the unrolled plane (m); 0 on it."""
-        out = points[..., :2] - np.clip(points[..., :2], self.low, self.high)
+        out = points[..., :2] - np.minimum(np.maximum(points[..., :2], self.low), self.high)
         return np.asarray(np.hypot(out[..., 0], out[..., 1]))
 
     def over_edge(self, points: FloatArray, gap_m: float = 0.0, droop: float = 1.0) -> FloatArray:
@@ -77,7 +87,9 @@ class TableTop:
         Returns:
             The same points in space, table frame (m).
         """
-        nearest = np.clip(points[..., :2], self.low, self.high)
+        if gap_m == 0.0 and self.covers(points):
+            return points.copy()
+        nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
         out = points[..., :2] - nearest
         beyond = np.hypot(out[..., 0], out[..., 1])
         outwards = out / np.where(beyond > 0.0, beyond, 1.0)[..., None]

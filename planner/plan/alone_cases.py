@@ -32,7 +32,7 @@ class Case:
     def state(self, station: int, offset: FloatArray) -> State:
         """The same with the robot at a station and the article dragged so far (m)."""
         place = (float(offset[0]), float(offset[1]))
-        return State(self.done, place, station, 0, self.held, is_dragged=bool(self.held))
+        return State(self.done, place, station, 0, self.held, dragged=1 if self.held else 0)
 
 
 class Cases:

@@ -18,16 +18,18 @@ Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, flo
 class Edges:
     """What can be done in each state of one planning problem."""
 
-    def __init__(self, work: Work, possible: Possible) -> None:
+    def __init__(self, work: Work, possible: Possible, is_wanted: Callable[[State], bool]) -> None:
         """Nothing is worked out yet.
 
         Args:
             work: the problem.
             possible: asked each time that edges are wanted.
+            is_wanted: whether spare steps to the grasp of a state are wanted by now; asked each time that there are.
         """
         self._primitives = [kind(work) for kind in PRIMITIVES]
         self._work = work
         self._possible = possible
+        self._is_wanted = is_wanted
         self._steps: dict[tuple[State, bool], tuple[Step | Later[Step], ...]] = {}
         self._asked: set[State] = set()
         self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
@@ -67,11 +69,15 @@ class Edges:
 
     def _of(self, state: State, found: Iterable[Step | Later[Step]]) -> Successors[State, Step]:
         for later in (one for one in found if isinstance(one, Later)):
-            yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
+            if later.is_spare and not self._is_wanted(later.towards):
+                continue
+            if later in self._worked_out:
+                yield from self._of(state, self._worked_out[later])
+            else:
+                yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
         for step, cost_s in self._possible(state, (one for one in found if not isinstance(one, Later))):
             yield Edge(step, cost_s, step.after)
 
     def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
-        if later not in self._worked_out:
-            self._worked_out[later] = tuple(later.steps())
+        self._worked_out[later] = tuple(later.steps())
         return self._of(state, self._worked_out[later])

@@ -48,7 +48,7 @@ class _Greedy:
         self._problem = problem
         self._is_over = is_over
         self._remaining = arm_time(problem.work)
-        self._edges = Edges(problem.work, self._possible)
+        self._edges = Edges(problem.work, self._possible, lambda _: bool(self._struck))
         self._made: dict[tuple[StateKey, ...], RealRun | None] = {}
         self._struck: set[tuple[StateKey, StateKey]] = set()
 

@@ -73,7 +73,7 @@ class PlanSearch:
         self._reached: set[State] = set()
         self._blocking: list[int] = []
         self._realizer = Realizer(problem.maker, self._is_out_of_budget)
-        self._edges = Edges(problem.work, self._possible)
+        self._edges = Edges(problem.work, self._possible, self._is_wanted)
         self._explored = 0
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
@@ -111,7 +111,6 @@ class PlanSearch:
                 self._joint_time_s += time.perf_counter() - begun
             if found is not None:
                 return result, found
-            self._achieved = 0
             self._reached.clear()
 
     @property
@@ -138,6 +137,11 @@ class PlanSearch:
             self._achieved |= step.after.done
             self._reached.add(step.after)
             yield step, cost_s
+
+    def _is_wanted(self, held: State) -> bool:
+        """Whether a grasp that the search came to is to be had with the base elsewhere too."""
+        self._reached.add(held)
+        return self._realizer.is_in_doubt(held)
 
     def _is_over(self) -> bool:
         if self._edges.expanded >= LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:

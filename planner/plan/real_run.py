@@ -32,6 +32,9 @@ _CHOICES_MAX = 40
 _TRIED_ALONE_MAX, _TRIED_TOGETHER_MAX = 8, 2
 """So many of those that may do are tried with one arm, and with several: to lead these takes several times as long."""
 
+_LATE_MAX = 2
+"""So many runs that take longer than their steps seem to are made for a plan that is to be the quickest."""
+
 _VARIANTS_MAX = 6
 """So many choices of each step are combined with those of the others in its run."""
 
@@ -66,6 +69,11 @@ class RealRun:
     def free_phases(self) -> tuple[Phase, ...]:
         """The phases before the grips are reached: the base drives, the hands reach."""
         return tuple(p for p in self.steps[0].phases() if p.duration_s > 0.0 and not is_carrying(p))
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it takes longer than its steps seem to."""
+        return sum(self.durations_s()) > sum(step.duration_s for step in self.steps)
 
     def durations_s(self) -> tuple[float, ...]:
         """How long each step really takes (s)."""
@@ -129,17 +137,27 @@ class RunMaker:
         self.collisions = collisions
 
     def real(self, steps: Sequence[Step]) -> RealRun | None:
-        """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow."""
-        return self.first_real(islice(_choices(steps), _CHOICES_MAX))
+        """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow.
 
-    def first_real(self, choices: Iterable[tuple[Step, ...]], patience: int = 1) -> RealRun | None:
-        """The first that is real of some choices of steps; it is given up when a few, with patience more, are not."""
+        Where it takes longer than they seem to, the quickest of the first few ways.
+        """
+        return self.first_real(islice(_choices(steps), _CHOICES_MAX), late_max=_LATE_MAX)
+
+    def first_real(self, choices: Iterable[tuple[Step, ...]], patience: int = 1, late_max: int = 1) -> RealRun | None:
+        """The first that is real of some choices of steps; it is given up when a few, with patience more, are not.
+
+        If it takes longer than its steps seem to, the quickest of the first `late_max`.
+        """
+        late: list[RealRun] = []
         for number, candidate in enumerate(self.candidates(choices), start=1):
             run = self.made(candidate)
             most = _TRIED_TOGETHER_MAX if candidate.is_together else _TRIED_ALONE_MAX
-            if run is not None or number >= patience * most:
+            if run is not None and not run.is_late:
                 return run
-        return None
+            late += [] if run is None else [run]
+            if len(late) == late_max or number - len(late) >= patience * most:
+                break
+        return min(late, key=lambda run: sum(run.durations_s()), default=None)
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
         """The choices of steps that may be real.

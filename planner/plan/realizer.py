@@ -59,6 +59,7 @@ class Realizer:
         self._failures: Counter[tuple[object, ...]] = Counter()
         self._succeeded: set[tuple[object, ...]] = set()
         self._given_up: set[tuple[object, ...]] = set()
+        self._doubted: set[tuple[object, ...]] = set()
         self.struck: list[tuple[Step, ...]] = []
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
@@ -82,6 +83,10 @@ class Realizer:
         cost_s = max(step.duration_s, self._least_s.get(_key(step), 0.0))
         if math.isfinite(cost_s):
             yield step, cost_s
+
+    def is_in_doubt(self, held: State) -> bool:
+        """Whether ways to or from a grasp have turned out not to be real, or to take longer than they seemed."""
+        return bool(self._given_up) or held.grasp in self._doubted
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
@@ -116,6 +121,7 @@ class Realizer:
         self.struck.append(run[: number + 1])
         others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
+        self._doubt(run)
         new = ((*before, other) for other in culprit.elsewhere(_SPREAD) if _key(other) not in others)
         for candidate in islice(self._maker.candidates(self._in_time(new)), _TRIED_MAX):
             made, other = self._maker.made(candidate), candidate.steps[-1]
@@ -151,7 +157,13 @@ class Realizer:
             self._real_steps.add(_key(step))
             self._succeeded.add(step.task)
             self._given_up.discard(step.task)
+        if not is_known:
+            self._doubt(run)
         return is_known
+
+    def _doubt(self, run: tuple[Step, ...]) -> None:
+        """What seemed best about the grasps on the way may be no longer."""
+        self._doubted.update(step.after.grasp for step in run if step.after.held)
 
 
 def _key(step: Step) -> tuple[object, ...]:

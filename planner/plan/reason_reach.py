@@ -101,7 +101,7 @@ def miss_in(work: Work, state: State, fold: int) -> Miss | None:
 def from_every_station(work: Work, state: State) -> Iterator[State]:
     """A state with the base at each station; what is held keeps it where it is."""
     for station in (state.station,) if state.held else range(len(work.scene.stations)):
-        yield State(state.done, state.offset, station, state.back_off, state.held, state.is_dragged)
+        yield State(state.done, state.offset, station, state.back_off, state.held, state.dragged)
 
 
 def _candidates(work: Work, attempt: Attempt, places: Places, at_most: int) -> Iterator[_Candidate]:

@@ -151,14 +151,15 @@ class DragStep:
         Then from other back-offs, the nearest first; then other hands.
         """
         steps = self.after.back_off - self.first_stand
-        offset = dragged(work, state.offset, state.station, steps * DRAGS_PER_M // BACK_OFFS_PER_M)
+        count = steps * DRAGS_PER_M // BACK_OFFS_PER_M
+        offset = dragged(work, state.offset, state.station, count)
         if work.unrest(state.done, offset) is not None:
             return
         for way in by_nearness(self.way, work.kept(DragWays).of(state)):
             held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()
             for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
                 if stand + steps < work.back_offs:
-                    after = State(state.done, offset, state.station, stand + steps, held, is_dragged=bool(held))
+                    after = State(state.done, offset, state.station, stand + steps, held, count if held else 0)
                     yield DragStep(work, way, state, after, stand)
 
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:

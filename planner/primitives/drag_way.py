@@ -87,7 +87,6 @@ class DragWays:
             allowed = approaches_from_outside(work, state.done, turn, grip)
             point = work.in_base(state.station, picks[i : i + 1])
             masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
-            for index, mask in reversed(list(zip(allowed, masks[:, 0], strict=True))):
-                stands = [b for b in range(work.back_offs) if int(mask) >> b & 1]
-                chosen[stands, i] = index
+            is_able = (masks >> np.arange(work.back_offs, dtype=np.uint32) & 1).astype(bool)
+            chosen[:, i] = np.where(is_able.any(axis=0), allowed[is_able.argmax(axis=0)], -1)
         return DragWay(arms, cover, picks, chosen)

@@ -8,7 +8,6 @@ nothing cheaper is left.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,21 +39,13 @@ class End:
 class FoldQuestion:
     """One fold, from one station, of the article at one place, with what is held."""
 
-    def __init__(self, work: Work, state: State, fold: int, begun: NDArray[np.int64]) -> None:
-        """What can be tried; what speaks against it is noted.
-
-        Args:
-            work: the problem.
-            state: with any back-off.
-            fold: the fold's index.
-            begun: for each back-off of a state a row: the steps in which the base can be at each back-off when the
-                hands begin.
-        """
+    def __init__(self, work: Work, state: State, fold: int) -> None:
+        """What can be tried in a state with any back-off; what speaks against it is noted."""
         self._work = work
         self._state = state
-        self._begun = begun
         self._trials = tuple(self._search(fold))
         self._hands = tuple(trial.following(work, state.station) for trial in self._trials)
+        self._least = np.zeros(work.back_offs, dtype=np.int64)
         self._is_noted = False
 
     def _search(self, fold: int) -> Iterator[FoldTrial]:
@@ -64,35 +55,36 @@ class FoldQuestion:
         else:
             self._work.obstacles.note(obstacle)
 
-    @cached_property
-    def least_steps(self) -> int:
-        """The least steps that any way takes, wherever the hands begin; `IMPOSSIBLE` if there is no way."""
-        anywhere = np.zeros(self._work.back_offs, dtype=np.int64)
-        found = (hands.least_driving(anywhere) for hands in self._hands)
-        return min((int(driving.steps.min()) for driving in found), default=IMPOSSIBLE)
-
-    def ends(self, back_off: int, least: int, most: int) -> tuple[list[End], int]:
+    def ends(self, begun: NDArray[np.int64], least: int, most: int) -> tuple[list[End], int]:
         """The ends that take so many steps, no less and no more, and that cannot be had as cheaply by driving on.
 
         Args:
-            back_off: where the base stands.
+            begun: for each back-off the steps in which the base can be there when the hands begin.
             least: ends of fewer steps are left out.
             most: and so are those of more.
 
         Returns:
             The ends, and the least steps that others may take; `IMPOSSIBLE` if there are none.
         """
-        found = [hands.least_driving(self._begun[back_off], most) for hands in self._hands]
+        at_least = min(int((begun + self._least).min()), IMPOSSIBLE)
+        if at_least > most:
+            return [], at_least
+        found = [hands.least_driving(begun, most) for hands in self._hands]
         ends = [end for number, driving in enumerate(found) for end in self._ends(number, driving)]
         kept = [end for i, end in enumerate(ends) if not any(_beats(other, end, j < i) for j, other in enumerate(ends))]
         more = min((driving.more for driving in found), default=IMPOSSIBLE)
         if not ends and more == IMPOSSIBLE:
             self._note_out_of_reach()
+        self._learn(begun, min((end.steps for end in ends), default=more))
         return [end for end in kept if end.steps >= least], more
 
-    def every_end(self, back_off: int) -> list[End]:
-        """All ends, and of each choice of grips and arms."""
-        begun = self._begun[back_off]
+    def _learn(self, begun: NDArray[np.int64], steps: int) -> None:
+        """From where the base can be at a back-off when the hands begin, it takes at least so many steps in all."""
+        beyond = IMPOSSIBLE if steps == IMPOSSIBLE else steps - begun
+        np.maximum(self._least, beyond, out=self._least, where=begun < IMPOSSIBLE)
+
+    def every_end(self, begun: NDArray[np.int64]) -> list[End]:
+        """All ends, and of each choice of grips and arms; `begun` is as for `ends`."""
         found = (hands.least_driving(begun, wanted="every") for hands in self._hands)
         ends = [end for number, driving in enumerate(found) for end in self._ends(number, driving)]
         if not ends:
@@ -131,8 +123,13 @@ class FoldQuestions:
 
     def of(self, state: State, fold: int) -> FoldQuestion:
         """What is asked about a fold in a state; states that differ in their back-off share it."""
-        done, x, y, station, _, held, is_dragged = state.key
-        key = (done, x, y, station, held, is_dragged, fold)
+        done, x, y, station, _, held, dragged = state.key
+        key = (done, x, y, station, held, dragged > 0, fold)
         if key not in self._kept:
-            self._kept[key] = FoldQuestion(self._work, state, fold, self._driven[bool(state.held)])
+            self._kept[key] = FoldQuestion(self._work, state, fold)
         return self._kept[key]
+
+    def begun(self, state: State) -> NDArray[np.int64]:
+        """The steps in which the base can be at each back-off when the hands begin; while they hold, where it is."""
+        steps: NDArray[np.int64] = self._driven[bool(state.held)][state.back_off]
+        return steps

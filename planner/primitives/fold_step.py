@@ -95,6 +95,8 @@ class FoldStep:
         yield self
         fold, end = self.way.trial.fold, self.after.back_off
         for variant in fold_variants(self.work, self.before, fold, end):
+            if variant.first == self.first_stand and variant.way.is_like(self.way):
+                continue
             driven = variant.steps - abs(variant.first - self.before.back_off)
             yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 

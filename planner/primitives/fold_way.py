@@ -28,6 +28,10 @@ class FoldWay:
     trial: FoldTrial
     approaches: tuple[int, ...]
 
+    def is_like(self, other: "FoldWay") -> bool:
+        """Whether the same arms take the same grips in the same approaches."""
+        return self.trial.is_like(other.trial) and self.approaches == other.approaches
+
     def strip(self, work: Work, station: int) -> NDArray[np.uint32]:
         """At each waypoint the back-offs from which every hand is in comfort, as bit masks, shape (waypoints,)."""
         hands = zip(self.trial.arms, self.trial.in_base(work, station), self.approaches, strict=True)

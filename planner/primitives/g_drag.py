@@ -8,15 +8,13 @@ import numpy as np
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
 from planner.primitives.base_legs import unbeaten
-from planner.primitives.drag_grips import DRAGS_PER_M, dragged, longest_drag
+from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay, DragWays
-from planner.primitives.fold_trial import held_covers
+from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
 from planner.primitives.primitive import InTime, Later
-from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFFS_PER_M, Work
-
-_STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
+from planner.primitives.state import State
+from planner.primitives.work import Work
 
 
 class GDrag:
@@ -27,14 +25,14 @@ class GDrag:
     def __init__(self, work: Work) -> None:
         self._work = work
         self._ways = work.kept(DragWays)
-        self._useful: dict[tuple[object, ...], bool] = {}
+        self._holding = work.kept(HoldingDrags)
         self._longest = longest_drag(work)
 
     def successors(self, state: State) -> Iterable[DragStep]:
         """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
         if state.held:
             return InTime(())
-        held = State(state.done, state.offset, state.station, 0, is_dragged=True)
+        held = State(state.done, state.offset, state.station, 0, dragged=1)
         return InTime((*self._later(state, 1, state), *self._later(state, 1, held)))
 
     def by(self, state: State, count: int) -> Iterator[DragStep]:
@@ -44,12 +42,12 @@ class GDrag:
         if ways and self._work.unrest(state.done, offset) is None:
             yield from self._letting_go(state, ways, count, offset)
             for way in ways:
-                yield from self._holding(state, way, count, offset)
+                yield from self._holding.every(state, way, count, offset)
 
     def _later(self, state: State, count: int, towards: State) -> Iterator[Later[DragStep]]:
         """Drags of at least so many steps of the grid, in their time; the hands hold on if they do `towards`."""
         if count <= self._longest:
-            duration = self._work.scene.arm_motion_s + self._work.drive_s(count * _STEPS_PER_DRAG)
+            duration = self._work.scene.arm_motion_s + self._work.drive_s(count * STEPS_PER_DRAG)
             yield Later(duration, towards, partial(self._steps, state, count, towards))
 
     def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Later[DragStep]]:
@@ -61,17 +59,10 @@ class GDrag:
         if self._work.unrest(state.done, offset) is None:
             if towards.is_dragged:
                 for way in ways:
-                    yield from self._holding(state, way, count, offset)
+                    yield from self._holding.successors(state, way, count, offset)
             else:
                 yield from self._letting_go(state, ways, count, offset)
         yield from self._later(state, count + 1, towards)
-
-    def _serves(self, done: int, fold: int, held: tuple[Held, ...]) -> bool:
-        """Whether a fold can be done with grips held from a drag."""
-        key = (done, fold, tuple(h.key for h in held))
-        if key not in self._useful:
-            self._useful[key] = bool(held_covers(self._work, done, fold, held))
-        return self._useful[key]
 
     def _letting_go(self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2) -> Iterator[DragStep]:
         """The cheapest way to each end back-off, where driving on from another end is no cheaper."""
@@ -81,22 +72,10 @@ class GDrag:
                 best.setdefault(stand, way)
         steps = np.full(self._work.back_offs, IMPOSSIBLE)
         for stand in best:
-            end = stand + count * _STEPS_PER_DRAG
+            end = stand + count * STEPS_PER_DRAG
             if end < len(steps):
                 steps[end] = abs(state.back_off - stand) + end - stand
         for end in unbeaten(steps):
-            stand = end - count * _STEPS_PER_DRAG
+            stand = end - count * STEPS_PER_DRAG
             after = State(state.done, offset, state.station, end)
             yield DragStep(self._work, best[stand], state, after, stand)
-
-    def _holding(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
-        work = self._work
-        held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
-        blue = (f for f in work.sequence.dag.available(state.done) if not work.sequence.folds[f].is_red)
-        if not any(self._serves(state.done, f, held) for f in blue):
-            return
-        for stand in way.stands:
-            end = stand + count * _STEPS_PER_DRAG
-            if end < work.back_offs:
-                after = State(state.done, offset, state.station, end, held, is_dragged=True)
-                yield DragStep(work, way, state, after, stand)

@@ -39,13 +39,11 @@ class GFold:
 
     def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
         """The steps with so much driving or some more, and in their time those with still more."""
-        question = self._questions.of(state, fold)
+        question, begun = self._questions.of(state, fold), self._questions.begun(state)
         if self._follows_at_once[fold]:
-            ends, more = question.every_end(state.back_off), IMPOSSIBLE
-        elif state.held and driven < question.least_steps < IMPOSSIBLE:
-            ends, more = [], question.least_steps
+            ends, more = question.every_end(begun), IMPOSSIBLE
         else:
-            ends, more = question.ends(state.back_off, driven, 4 * driven + 4 if driven or state.held else 0)
+            ends, more = question.ends(begun, driven, 3 * driven)
         for end in ends:
             yield fold_step(self._work, end.way, state, end.first, end.back_off, end.steps)
         if more < IMPOSSIBLE:

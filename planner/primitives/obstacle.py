@@ -40,8 +40,8 @@ class Code(StrEnum):
 
 def situation(state: State) -> Situation:
     """What of a state matters to whether a fold is possible, places to the grid."""
-    done, x, y, _, back_off, held, is_dragged = state.key
-    return (done, x, y, held, is_dragged, back_off if held else -1)
+    done, x, y, _, back_off, held, dragged = state.key
+    return (done, x, y, held, dragged > 0, back_off if held else -1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -123,7 +123,7 @@ class Attempt:
         """The state with the article at one of the places."""
         x, y = (float(c) for c in self.places[index])
         state = self.state
-        return State(state.done, (x, y), state.station, state.back_off, state.held, state.is_dragged)
+        return State(state.done, (x, y), state.station, state.back_off, state.held, state.dragged)
 
     @property
     def kind(self) -> tuple[object, ...]:

@@ -91,15 +91,18 @@ class Later(Generic[S]):
     """Steps that are worked out only when nothing quicker is left to try.
 
     Attributes:
-        duration_s: none of them takes less (s).
+        duration_s: none of them takes less (s), or else what has to follow takes so much more than it seems.
         towards: none of them leads to a state nearer to the end of all folds. Where it says that a drag's grips are
             held but not which, any may be.
         steps: works them out; of some it may say once more that there is time.
+        is_spare: whether they are of no use as long as all other ways to and from the grasp of `towards` are real and
+            take no longer than they seem.
     """
 
     duration_s: float
     towards: State
     steps: "Callable[[], Iterable[S | Later[S]]]"
+    is_spare: bool = False
 
 
 @dataclass(frozen=True, eq=False)

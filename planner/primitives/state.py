@@ -9,8 +9,8 @@ from planner.geometry.tolerance import grid_key
 HeldKey: TypeAlias = tuple[int, int, int]
 """A grip to the grid: the arm, and where it holds."""
 
-StateKey: TypeAlias = tuple[int, int, int, int, int, tuple[HeldKey, ...], bool]
-"""A state to the grid: folds done, place (x, y), station, back-off, what is held, whether from a drag."""
+StateKey: TypeAlias = tuple[int, int, int, int, int, tuple[HeldKey, ...], int]
+"""A state to the grid: folds done, place (x, y), station, back-off, what is held, and from a drag how long."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +42,8 @@ class State:
         station: index of the base's station in the scene's order.
         back_off: how many steps the base has backed off from it.
         held: what is held; empty when the hands are free.
-        is_dragged: whether what is held is held from a drag (else from a fold, for a red fold).
+        dragged: how long the drag was from which it is held, in steps of the grid of drags: what a fold really takes
+            may depend on that. 0: nothing is held, or from a fold, for a red fold.
         key: all of that, places in steps of the grid.
     """
 
@@ -51,7 +52,7 @@ class State:
     station: int
     back_off: int
     held: tuple[Held, ...] = ()
-    is_dragged: bool = False
+    dragged: int = 0
     key: StateKey = field(init=False, repr=False)
     _hash: int = field(init=False, repr=False)
 
@@ -59,14 +60,24 @@ class State:
         """Work out the key: the state to the grid."""
         x, y = self.offset
         held = tuple([h.key for h in self.held])
-        key = (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.is_dragged)
+        key = (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.dragged)
         object.__setattr__(self, "key", key)
         object.__setattr__(self, "_hash", hash(key))
+
+    @property
+    def is_dragged(self) -> bool:
+        """Whether what is held is held from a drag."""
+        return self.dragged > 0
 
     @property
     def hold(self) -> tuple[object, ...]:
         """What is held, and how far the base has backed off from it; while hands are free that does not matter."""
         return (*(h.key for h in self.held), self.is_dragged, self.back_off) if self.held else ()
+
+    @property
+    def grasp(self) -> tuple[object, ...]:
+        """What is held, from which station, where the article lies; but not how far the base has backed off."""
+        return (self.place, self.station, self.is_dragged, *(h.key for h in self.held))
 
     @property
     def place(self) -> tuple[int, int]:

@@ -127,10 +127,6 @@ class Work:
         if key not in self._unrest:
             scene = self.scene
             self._unrest[key] = unrest(
-                self.sequence.cloth(done),
-                self.placed(offset),
-                scene.table,
-                scene.friction,
-                scene.support_angle_rad,
+                self.sequence.cloth(done), self.table_in_article(offset), scene.friction, scene.support_angle_rad
             )
         return self._unrest[key]

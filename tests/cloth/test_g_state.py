@@ -9,7 +9,7 @@ import random
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import Unrest, unrest
+from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
@@ -23,7 +23,7 @@ HERE = Pose2(0.0, 0.0, 0.0)
 
 
 def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, HERE, TABLE, friction, math.radians(support_deg))
+    return unrest(cloth, TableInArticle.seen_from(HERE, TABLE), friction, math.radians(support_deg))
 
 
 def over_near_edge(hanging_m: float, lying_m: float, width_m: float = 0.4) -> ClothState:
@@ -130,7 +130,7 @@ def test_where_the_article_frame_lies_makes_no_difference():
         there = Isometry.rotation(turn, dx, dy)
         moved = spread([there.inverse.apply_point(p) for p in points])
         here = why(spread(points), support_deg=5.0)
-        seen = unrest(moved, Pose2(dx, dy, turn), TABLE, 1.0, math.radians(5.0))
+        seen = unrest(moved, TableInArticle.seen_from(Pose2(dx, dy, turn), TABLE), 1.0, math.radians(5.0))
         assert (here and here.code) == (seen and seen.code)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import Unrest, unrest
+from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
@@ -35,7 +35,7 @@ def block(low: float, high: float, lying_m: float, hanging_m: float) -> list[Poi
 
 
 def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0, table: Table = TABLE) -> Unrest | None:
-    return unrest(cloth, Pose2(0.0, 0.0, 0.0), table, friction, math.radians(support_deg))
+    return unrest(cloth, TableInArticle.seen_from(Pose2(0.0, 0.0, 0.0), table), friction, math.radians(support_deg))
 
 
 def union(*parts: Sequence[Point2]) -> ClothState:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import Unrest, unrest
+from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.cloth.must_hold import must_hold
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
@@ -44,7 +44,7 @@ def on_table(hanging: Sequence[Point2]) -> ClothState:
 
 
 def why(cloth: ClothState, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, Pose2(0.0, 0.0, 0.0), TABLE, 1.0, math.radians(support_deg))
+    return unrest(cloth, TableInArticle.seen_from(Pose2(0.0, 0.0, 0.0), TABLE), 1.0, math.radians(support_deg))
 
 
 # Each shape hangs from y = 0, is named by what it looks like, and has its loose vertices with it.

@@ -142,4 +142,4 @@ class Exhaustive:
             if end < work.back_offs and work.unrest(state.done, offset) is None:
                 seconds = work.scene.arm_motion_s + work.drive_s(abs(stand - state.back_off) + end - stand)
                 yield seconds, State(state.done, offset, state.station, end)
-                yield seconds, State(state.done, offset, state.station, end, held, is_dragged=True)
+                yield seconds, State(state.done, offset, state.station, end, held, dragged=1)

@@ -69,11 +69,11 @@ class Problem:
         )
 
     def lean_cost_s(self) -> float:
-        """The same by the edges that planning goes along: without what is no cheaper than from elsewhere."""
+        """The same by the edges that planning goes along: without what is spare, or no cheaper than from elsewhere."""
         work, state = self.work, self.first_state
         if work.unrest(state.done, state.offset) is not None:
             return math.inf
-        edges = Edges(work, lambda _, steps: ((step, step.duration_s) for step in steps))
+        edges = Edges(work, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: False)
         everything = (1 << len(self.garment.folds)) - 1
         bound = HEURISTICS["arm_time"](work)
         found = a_star(state, edges.leaving, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)

@@ -6,7 +6,7 @@ from planner import Plan, load_garment, make_plan
 from planner.plan import plan_search
 from tests.replay.planned import planned
 
-TOO_FEW = 40
+TOO_FEW = 10
 """Not enough states to find the T-shirt's quickest plan."""
 
 
@@ -29,8 +29,8 @@ def test_without_that_it_has_none():
 
 
 def test_the_quickest_plan_takes_its_place_once_it_is_found(found: list[Plan]):
-    answer = make_plan(load_garment("skirt"), on_found=found.append)
-    assert answer.cost_s == pytest.approx(planned("skirt").answer.cost_s) and answer.is_proven
+    answer = make_plan(load_garment("t-shirt"), on_found=found.append)
+    assert answer.cost_s == pytest.approx(planned("t-shirt").answer.cost_s) and answer.is_proven
     assert [plan.cost_s > answer.cost_s for plan in found] == [True]
 
 

@@ -22,7 +22,7 @@ def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dr
     towel = garment(rectangle_points(0.4, 0.3), blue, red)
     bound = arm_time(work(towel))
     assert bound(State(0b00, (0.0, 0.0), 0, 0)) == 9.0 + 6.0
-    assert bound(State(0b00, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), is_dragged=True)) == 6.0 + 6.0
+    assert bound(State(0b00, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), dragged=1)) == 6.0 + 6.0
     assert bound(State(0b01, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.24)),))) == 6.0
     assert bound(State(0b11, (0.0, 0.0), 0, 0)) == 0.0
     assert zero(work(towel))(State(0, (0.0, 0.0), 0, 0)) == 0.0

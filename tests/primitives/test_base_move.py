@@ -72,7 +72,7 @@ def test_there_is_one_move_to_each_other_station_and_it_ends_not_backed_off():
 
 
 def test_the_base_does_not_move_with_cloth_in_its_hands():
-    holding = State(0, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), is_dragged=True)
+    holding = State(0, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), dragged=1)
     assert list(BaseMove(work(TOWEL)).successors(holding)) == []
 
 

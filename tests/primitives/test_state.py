@@ -4,25 +4,25 @@ import pytest
 
 from planner.primitives.state import Held, State
 
-HERE = State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3, 0.4)),), is_dragged=True)
+HERE = State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3, 0.4)),), dragged=1)
 
 
 def test_sums_in_another_order_are_the_same_state():
-    other = State(0b01, (0.3 - 0.1 - 0.1, 0.1 + 0.1), 1, 3, (Held(0, (0.1 + 0.2, 0.4)),), is_dragged=True)
+    other = State(0b01, (0.3 - 0.1 - 0.1, 0.1 + 0.1), 1, 3, (Held(0, (0.1 + 0.2, 0.4)),), dragged=1)
     assert other == HERE and hash(other) == hash(HERE)
 
 
 @pytest.mark.parametrize(
     "other",
     [
-        State(0b11, (0.1, 0.2), 1, 3, HERE.held, is_dragged=True),
-        State(0b01, (0.1001, 0.2), 1, 3, HERE.held, is_dragged=True),
-        State(0b01, (0.1, 0.2), 0, 3, HERE.held, is_dragged=True),
-        State(0b01, (0.1, 0.2), 1, 2, HERE.held, is_dragged=True),
-        State(0b01, (0.1, 0.2), 1, 3, (), is_dragged=True),
-        State(0b01, (0.1, 0.2), 1, 3, (Held(1, (0.3, 0.4)),), is_dragged=True),
-        State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3001, 0.4)),), is_dragged=True),
-        State(0b01, (0.1, 0.2), 1, 3, HERE.held, is_dragged=False),
+        State(0b11, (0.1, 0.2), 1, 3, HERE.held, dragged=1),
+        State(0b01, (0.1001, 0.2), 1, 3, HERE.held, dragged=1),
+        State(0b01, (0.1, 0.2), 0, 3, HERE.held, dragged=1),
+        State(0b01, (0.1, 0.2), 1, 2, HERE.held, dragged=1),
+        State(0b01, (0.1, 0.2), 1, 3, (), dragged=1),
+        State(0b01, (0.1, 0.2), 1, 3, (Held(1, (0.3, 0.4)),), dragged=1),
+        State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3001, 0.4)),), dragged=1),
+        State(0b01, (0.1, 0.2), 1, 3, HERE.held, dragged=2),
     ],
     ids=["folds", "placement", "station", "back-off", "free hands", "other arm", "other grip", "held from a fold"],
 )

@@ -4,7 +4,7 @@ import pytest
 from app.overlays.moment import Moment
 from app.overlays.slip import CutCloth, limit_m, slip_overlay
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import unrest
+from planner.cloth.g_state import TableInArticle, unrest
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.segment import Segment
@@ -62,7 +62,8 @@ def test_the_lines_are_where_the_planner_says_that_the_cloth_slips():
         # Laid so that the line is on its edge, the cloth is about to slip: 4 mm further out it does.
         for further, is_at_rest in ((-0.004, True), (0.004, False)):
             placement = laid(limit["edge"], limit["line"], further, scene)
-            found = unrest(cloth, placement, scene.table, scene.friction, scene.support_angle_rad)
+            top = TableInArticle.seen_from(placement, scene.table)
+            found = unrest(cloth, top, scene.friction, scene.support_angle_rad)
             assert (found is None) == is_at_rest, limit["edge"]
             assert found is None or found.code == "slips"
 

@@ -1,0 +1,119 @@
+"""Drags after which the hands hold on.
+
+To hold on is of use only for a fold, and where the base stands in between matters to nothing else. So it is asked of
+the drag and the fold together where that had best be, once; all other places are spare.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import Point2
+from planner.primitives.drag_grips import DRAGS_PER_M
+from planner.primitives.drag_step import DragStep
+from planner.primitives.drag_way import DragWay
+from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_trial import held_covers
+from planner.primitives.primitive import Later
+from planner.primitives.state import Held, State
+from planner.primitives.work import BACK_OFFS_PER_M, Work
+
+STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
+"""So many steps of the back-off grid has one of the grid of drags."""
+
+
+class _Drag(NamedTuple):
+    """One drag by the same hands, wherever the base stands when it begins.
+
+    Attributes:
+        before: the state it starts in.
+        way: grips and arms.
+        driven: the steps of the back-off grid that the base drives with the cloth.
+        afters: the states it may lead to.
+    """
+
+    before: State
+    way: DragWay
+    driven: int
+    afters: tuple[State, ...]
+
+
+class HoldingDrags:
+    """The drags of one planning problem after which the hands hold on."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._questions = work.kept(FoldQuestions)
+        self._useful: dict[tuple[object, ...], bool] = {}
+
+    def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
+        """The drags to an offset, so many steps of the grid of drags away, that leave grips of use to some fold."""
+        drag = self._drag(state, way, count, offset)
+        if self._served(drag):
+            yield from (self._step(drag, after) for after in drag.afters)
+
+    def successors(
+        self, state: State, way: DragWay, count: int, offset: Point2
+    ) -> Iterator[DragStep | Later[DragStep]]:
+        """The same, those first that together with a fold take least; what serves no fold better is spare."""
+        drag = self._drag(state, way, count, offset)
+        folds = self._served(drag)
+        if any(self._work.sequence.dag.follows_at_once(fold) for fold in folds):
+            yield from (self._step(drag, after) for after in drag.afters)
+        elif folds:
+            for fold in folds:
+                yield from self._serving(drag, fold, drag.driven)
+            yield self._later(drag, drag.driven, lambda: (self._step(drag, a) for a in drag.afters), is_spare=True)
+
+    def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
+        held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
+        driven = count * STEPS_PER_DRAG
+        ends = (stand + driven for stand in way.stands if stand + driven < self._work.back_offs)
+        afters = tuple(State(state.done, offset, state.station, end, held, count) for end in ends)
+        return _Drag(state, way, driven, afters)
+
+    def _step(self, drag: _Drag, after: State) -> DragStep:
+        return DragStep(self._work, drag.way, drag.before, after, after.back_off - drag.driven)
+
+    def _served(self, drag: _Drag) -> list[int]:
+        """The folds that can be done with the grips."""
+        if not drag.afters:
+            return []
+        folds = self._work.sequence.folds
+        available = self._work.sequence.dag.available(drag.before.done)
+        return [fold for fold in available if not folds[fold].is_red and self._serves(drag.afters[0], fold)]
+
+    def _serves(self, after: State, fold: int) -> bool:
+        key = (after.done, fold, tuple(h.key for h in after.held))
+        if key not in self._useful:
+            self._useful[key] = bool(held_covers(self._work, after.done, fold, after.held))
+        return self._useful[key]
+
+    def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Later[DragStep]]:
+        """The drags that serve a fold best, drag and fold together taking so many steps of driving or more."""
+        begun = np.full(self._work.back_offs, IMPOSSIBLE)
+        for after in drag.afters:
+            stand = after.back_off - drag.driven
+            begun[after.back_off] = abs(drag.before.back_off - stand) + drag.driven
+        most = drag.driven + 3 * (least - drag.driven)
+        ends, more = self._questions.of(drag.afters[0], fold).ends(begun, least, most)
+        after_at = {after.back_off: after for after in drag.afters}
+        for end in ends:
+            step = self._step(drag, after_at[end.first])
+            yield self._later(drag, end.steps, partial(iter, (step,)))
+        if more < IMPOSSIBLE:
+            yield self._later(drag, more, partial(self._serving, drag, fold, more))
+
+    def _later(
+        self,
+        drag: _Drag,
+        driven: int,
+        steps: Callable[[], Iterator[DragStep | Later[DragStep]]],
+        is_spare: bool = False,
+    ) -> Later[DragStep]:
+        """What drives so much in all, before, with and after the drag."""
+        duration_s = self._work.scene.arm_motion_s + self._work.drive_s(driven)
+        return Later(duration_s, drag.afters[0], steps, is_spare)
