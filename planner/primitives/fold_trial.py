@@ -136,11 +136,29 @@ def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tup
 
     Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
-    arms = len(work.reach.arm_names)
-    vertices = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices
-    points = lifted_points(work, done, fold, held)
-    radius = work.sequence.folds[fold].grip_radius_m
-    return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
+    return work.kept(_HeldCovers).of(done, fold, held)
+
+
+class _HeldCovers:
+    """What grips already held hold of what folds need: many states hold the same, so answers are kept."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._known: dict[tuple[object, ...], tuple[Cover, ...]] = {}
+
+    def of(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
+        key = (done, fold, *(h.key for h in held))
+        if key not in self._known:
+            self._known[key] = self._search(done, fold, held)
+        return self._known[key]
+
+    def _search(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
+        work = self._work
+        arms = len(work.reach.arm_names)
+        vertices = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices
+        points = lifted_points(work, done, fold, held)
+        radius = work.sequence.folds[fold].grip_radius_m
+        return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
 
 
 def lifted_points(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> list[Point2]:

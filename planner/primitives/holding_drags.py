@@ -47,7 +47,6 @@ class HoldingDrags:
     def __init__(self, work: Work) -> None:
         self._work = work
         self._questions = work.kept(FoldQuestions)
-        self._useful: dict[tuple[object, ...], bool] = {}
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
         """The drags to an offset, so many steps of the grid of drags away, that leave grips of use to some fold."""
@@ -82,15 +81,10 @@ class HoldingDrags:
         """The folds that can be done with the grips."""
         if not drag.afters:
             return []
-        folds = self._work.sequence.folds
-        available = self._work.sequence.dag.available(drag.before.done)
-        return [fold for fold in available if not folds[fold].is_red and self._serves(drag.afters[0], fold)]
-
-    def _serves(self, after: State, fold: int) -> bool:
-        key = (after.done, fold, tuple(h.key for h in after.held))
-        if key not in self._useful:
-            self._useful[key] = bool(held_covers(self._work, after.done, fold, after.held))
-        return self._useful[key]
+        done, held = drag.before.done, drag.afters[0].held
+        sequence = self._work.sequence
+        blue = (fold for fold in sequence.dag.available(done) if not sequence.folds[fold].is_red)
+        return [fold for fold in blue if held_covers(self._work, done, fold, held)]
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Later[DragStep]]:
         """The drags that serve a fold best, drag and fold together taking so many steps of driving or more."""
