@@ -90,8 +90,8 @@ class Carrier:
         joints, guides = self._at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
         for lead, is_free in zip(leads.each, self._are_free(leads), strict=True):
             near = guides[:, lead.arm]
-            found = self._machine.guided_arm_path(lead.arm, lead.path, self._torso_m, is_free, near)
-            if found is None:
+            found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, is_free, near)
+            if isinstance(found, NoPath):
                 return None
             joints[:, lead.arm] = found
         if len(leads.each) > 1 and not self._collisions.arms_apart(joints).all():

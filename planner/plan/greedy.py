@@ -48,9 +48,10 @@ class _Greedy:
         self._problem = problem
         self._is_over = is_over
         self._remaining = arm_time(problem.work)
-        self._edges = Edges(problem.work, self._possible, lambda _: bool(self._struck))
+        self._edges = Edges(problem.work, self._possible, lambda held: held.grasp in self._doubted)
         self._made: dict[tuple[StateKey, ...], RealRun | None] = {}
         self._struck: set[tuple[StateKey, StateKey]] = set()
+        self._doubted: set[tuple[object, ...]] = set()
 
     def acts(self, start: State) -> tuple[Act, ...] | None:
         expanded_max = _EXPANDED_MAX + _EXPANDED_PER_FOLD * len(self._problem.work.sequence.folds)
@@ -82,6 +83,7 @@ class _Greedy:
             act = None if self._is_over() else self._act(first, run)
             if act is None:
                 self._struck.add(_ends(run[-1]))
+                self._doubted.update(step.after.grasp for step in run if step.after.held)
                 return None
             acts.append(act)
         return tuple(acts)

@@ -74,7 +74,13 @@ class Machine(Hashable, Protocol):
         ...
 
     def arm_path(
-        self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+        self,
+        arm: int,
+        path: ToolPath,
+        torso_m: float,
+        floor_m: float,
+        is_free: IsFree,
+        near: FloatArray | None = None,
     ) -> FloatArray | NoPath:
         """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; or that there are none.
 
@@ -84,6 +90,7 @@ class Machine(Hashable, Protocol):
             torso_m: how far the lift is raised (m).
             floor_m: the height over which elbows had better stay, base frame (m).
             is_free: which joints do not collide.
+            near: joints that are known, shape (n, 7), to which others near are looked for first, much sooner found.
         """
         ...
 
@@ -104,12 +111,6 @@ class Machine(Hashable, Protocol):
             are_free: of each arm which joints do not collide, whatever the other does.
             both_arms: knows whether the arms are in each other's way.
         """
-        ...
-
-    def guided_arm_path(
-        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
-    ) -> FloatArray | None:
-        """The same near to joints that are known, shape (n, 7); None if there are none, much sooner."""
         ...
 
     def free_postures(

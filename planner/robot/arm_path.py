@@ -66,26 +66,6 @@ class NoPath:
     is_core: bool
 
 
-def guided_arm_path(
-    arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
-) -> FloatArray | None:
-    """Joints that keep the tool on a path and are near to others that are known; much quicker than to look for any.
-
-    Args:
-        arm: the arm.
-        path: where the tool must be.
-        torso_m: how far the torso is raised (m).
-        is_free: which joints do not collide.
-        guides: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
-
-    Returns:
-        Joints (rad), shape (n, 7); None if there are none so near that a collision or a jump does not spoil.
-    """
-    positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
-    joints, bad = _along(arm, positions, arm.mirrored_rotations(path.rotations), arm.mirrored_joints(guides), is_free)
-    return None if len(bad) else joints
-
-
 def free_postures(
     arm: SidedArm,
     position: FloatArray,
@@ -124,7 +104,7 @@ class ArmSearch:
     def __init__(
         self, arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
     ) -> None:
-        """Nothing is struck out yet.
+        """Nothing has been looked for yet.
 
         Args:
             arm: the arm.
@@ -143,18 +123,39 @@ class ArmSearch:
         count = len(self._positions)
         self.speeds = speeds
         self.links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
-        self.samples, self.costs = solutions(
-            arm.shape, self._positions[self.links], self._rotations[self.links], floor_m - float(shoulder[2])
-        )
+        self._floor = floor_m - float(shoulder[2])
+        self.samples, self.costs = np.empty((len(self.links), 0, 7)), np.empty((len(self.links), 0))
         self.spans = np.add.reduceat(np.append(path.spans_s, 0.0), self.links)[:-1]
         self._is_asked = np.zeros(len(self.links), dtype=bool)
         self.has_dropped = False
+
+    def near_to(self, known: FloatArray) -> FloatArray | NoPath:
+        """Joints near to others that are known, or with them where that is possible; much quicker than `found`.
+
+        Args:
+            known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
+
+        Returns:
+            As `found`.
+        """
+        joints, bad = _along(
+            self._arm, self._positions, self._rotations, self._arm.mirrored_joints(known), self._is_free
+        )
+        if not len(bad):
+            return joints
+        self._add(
+            self._arm.mirrored_joints(joints[self.links])[:, None],
+            np.where(np.isin(self.links, bad), np.inf, 0.0)[:, None],
+        )
+        return self.found()
 
     def found(self) -> FloatArray | NoPath:
         """The calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
 
         Forearm and wrist roll are unwound.
         """
+        places, axes = self._positions[self.links], self._rotations[self.links]
+        self._add(*solutions(self._arm.shape, places, axes, self._floor))
         for number in range(_TRIES_MAX):
             chain = cheapest_chain(self.samples, self.costs, self.speeds, self.spans)
             if not len(chain):
@@ -167,6 +168,11 @@ class ArmSearch:
                 return self.smoothed(guides, joints)
             self._strike(chain, bad, number)
         return self._none()
+
+    def _add(self, samples: FloatArray, costs: FloatArray) -> None:
+        """Add samples at the links, shape (l, k, 7), and what each costs, shape (l, k)."""
+        self.samples = np.concatenate([self.samples, samples], axis=1)
+        self.costs = np.concatenate([self.costs, costs], axis=1)
 
     def guides(self, chain: NDArray[np.int64]) -> FloatArray:
         """The chain's joints, continuous ones unwound, shape (l, 7)."""
@@ -251,7 +257,7 @@ def _along(
     joints, is_found = filled(arm.shape, positions, rotations, guides)
     leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)
+    named = arm.mirrored_joints(joints)
     if not is_bad.any():
-        joints = arm.mirrored_joints(joints)
-        is_bad = ~is_free(np.arange(len(positions)), joints, False)
-    return joints, np.flatnonzero(is_bad)
+        is_bad = ~is_free(np.arange(len(positions)), named, False)
+    return named, np.flatnonzero(is_bad)

@@ -11,7 +11,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
 from planner.robot.arm_pair_path import BothArms, arm_pair_path
-from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures, guided_arm_path
+from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -121,7 +121,13 @@ class Pr2:
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 
     def arm_path(
-        self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
+        self,
+        arm: int,
+        path: ToolPath,
+        torso_m: float,
+        floor_m: float,
+        is_free: IsFree,
+        near: FloatArray | None = None,
     ) -> FloatArray | NoPath:
         """The calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
 
@@ -131,11 +137,13 @@ class Pr2:
             torso_m: how far the torso is raised (m).
             floor_m: the height over which elbows had better stay, base frame (m).
             is_free: which joints do not collide.
+            near: joints that are known, shape (n, 7), to which others near are looked for first, much sooner found.
 
         Returns:
             Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
         """
-        return self._search(arm, path, torso_m, floor_m, is_free).found()
+        search = self._search(arm, path, torso_m, floor_m, is_free)
+        return search.found() if near is None else search.near_to(near)
 
     def arm_pair_path(
         self,
@@ -164,12 +172,6 @@ class Pr2:
     def _search(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> ArmSearch:
         speeds = np.array(self._card.arms[arm].speeds_rad_s)
         return ArmSearch(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
-
-    def guided_arm_path(
-        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, guides: FloatArray
-    ) -> FloatArray | None:
-        """Joints near to others that keep an arm's tool on a path, if there are any (see `guided_arm_path`)."""
-        return guided_arm_path(self._arms[arm], path, float(torso_m), is_free, guides)
 
     def free_postures(
         self,

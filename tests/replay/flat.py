@@ -45,7 +45,7 @@ def mirror(line: Line, point: Place) -> Place:
 def mirrored(line: Line, shape: BaseGeometry) -> BaseGeometry:
     flipped = shapely.transform(shape, lambda rows: np.array([mirror(line, tuple(row)) for row in rows]))
     # Coordinates on the micrometre, but not bound to a grid: a narrow buffer of a bound shape may lose all of it.
-    return shapely.set_precision(shapely.set_precision(flipped, 1e-6), 0)
+    return shapely.set_precision(shapely.set_precision(shapely.make_valid(flipped), 1e-6), 0)
 
 
 def polygons(shape: BaseGeometry) -> list[Polygon]:

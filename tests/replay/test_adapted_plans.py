@@ -75,8 +75,9 @@ def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
 @each_solvable
 def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str):
     before, adapted = planned(name).answer, []
-    for vertex in free_vertices(before.garment)[1::2]:
-        cloth = moved(name, vertex, CENTIMETRE[vertex // 2 % 4])
+    for vertex in free_vertices(before.garment)[::2]:
+        # None of these leaves a sliver narrower than a millimetre, which the checker would not follow.
+        cloth = moved(name, vertex, CENTIMETRE[(vertex // 2 + 1) % 4])
         after = quick_plan(cloth, like=[before])
         if after is not None:
             check(cloth.to_dict(), Scene().to_dict(), unhurried(after))
