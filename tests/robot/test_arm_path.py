@@ -54,8 +54,8 @@ def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
     return np.zeros(len(joints), dtype=bool)
 
 
-def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | NoPath:
-    return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free)
+def found(path: ToolPath, is_free=everywhere, arm: int = 0, near: FloatArray | None = None) -> FloatArray | NoPath:
+    return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free, near)
 
 
 def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
@@ -173,3 +173,34 @@ def test_elbows_stay_above_the_table_where_they_can():
     for pitch_deg in PITCHES_DEG:
         joints = found(across(pitch_deg))
         assert min(ROBOT.elbow_height(0, at, TORSO_M) for at in joints) > TABLE_M
+
+
+def test_where_known_joints_still_do_they_are_kept():
+    path = across(45)
+    known = found(path)
+    shifted = replace(path, positions=path.positions + [0.004, 0.003, 0.002])
+    near = found(shifted, near=known)
+    require_followed(shifted, near)
+    np.testing.assert_allclose(near, known, atol=0.05)
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_known_joints_are_left_only_where_they_no_longer_do(arm):
+    path = across(45) if arm == 0 else mirrored(across(45))
+    known = found(path, arm=arm)
+    barred = known[-1, 0]
+
+    def is_free(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        """At the last five poses the pan must not be what it was."""
+        return (np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1)
+
+    near = found(path, is_free, arm, known)
+    require_followed(path, near, arm)
+    assert (np.abs(near[-5:, 0] - barred) > 0.1).all()
+    third = len(known) // 3
+    assert np.abs(near[:third, 0] - known[:third, 0]).max() < 0.05
+
+
+def test_where_nothing_does_known_joints_do_not_either():
+    path = across(45)
+    assert isinstance(found(path, nowhere, near=found(path)), NoPath)
