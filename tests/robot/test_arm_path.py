@@ -178,7 +178,7 @@ def test_elbows_stay_above_the_table_where_they_can():
 def test_where_known_joints_still_do_they_are_kept():
     path = across(45)
     known = found(path)
-    shifted = replace(path, positions=path.positions + [0.004, 0.003, 0.002])
+    shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
     near = found(shifted, near=known)
     require_followed(shifted, near)
     np.testing.assert_allclose(near, known, atol=0.05)
