@@ -14,6 +14,10 @@ from planner.plan.plan import Plan
 
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25
+PATIENCE_S = 0.15
+"""So long the stage waits with a drawing that has changed for its plan, and then shows both at once: to draw costs a
+browser most of all, and the board comes first."""
+
 _CLOSING_S = 1.0
 
 _log = logging.getLogger(__name__)
@@ -39,6 +43,7 @@ class Player:
         self._changed = threading.Event()
         self._is_closed = False
         self._due_s = 0.0
+        self._waits_until_s: float | None = None
         self._shown: DocumentState | None = None
         self._plan: Plan | None = None
         self._spread: Garment | None = None
@@ -77,9 +82,9 @@ class Player:
 
     def _period_s(self) -> float | None:
         """How long to wait when nothing changes (s); None: for ever."""
-        if not self._document.state.playback.is_playing:
-            return None
         now_s = time.monotonic()
+        if not self._document.state.playback.is_playing:
+            return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
         period_s = 1.0 / UPDATES_PER_S if self._stage.has_watchers else _UNWATCHED_PERIOD_S
         self._due_s = max(self._due_s + period_s, now_s)
         return self._due_s - now_s
@@ -103,7 +108,7 @@ class Player:
             self._plan = state.film.plan
             self._stage.show_scene(state.film.plan.scene)
             self._stage.show_plan(state.film.plan)
-        self._spread = None
+        self._spread = self._waits_until_s = None
         self._stage.show(state.film.timeline.at(self._document.t_s))
         self._document.stop_at_end()
 
@@ -114,10 +119,20 @@ class Player:
     def _show_spread(self, state: DocumentState) -> None:
         """Show the garment spread out; while the drawing is none, what was shown before stays."""
         spread, scene = state.solution.spread, state.drawing.scene
-        if spread is None or spread is self._spread:
+        if spread is None or spread is self._spread or self._is_to_wait(state):
             return
-        self._spread, self._plan = spread, None
+        self._spread, self._plan, self._waits_until_s = spread, None, None
         self._stage.show_scene(scene)
         stations = dict(scene.stations)
         base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
         self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)
+
+    def _is_to_wait(self, state: DocumentState) -> bool:
+        """Whether a film of what is drawn is soon to be had, and there is something to look at meanwhile."""
+        answer = state.answer if state.is_answered else None
+        is_filmed_soon = state.is_planning or (answer is not None and answer.plan.is_solved)
+        if not is_filmed_soon or (self._spread is None and self._plan is None):
+            return False
+        now_s = time.monotonic()
+        self._waits_until_s = self._waits_until_s or now_s + PATIENCE_S
+        return now_s < self._waits_until_s

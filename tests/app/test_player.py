@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import pytest
 
+import app.player as player_module
 from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
@@ -141,6 +142,35 @@ def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_begi
         until(lambda: stage.lying == 2)
         document.undo()
         until(lambda: len(stage.times) == 2)
+    finally:
+        player.close()
+
+
+def test_a_plan_that_comes_soon_is_shown_with_its_drawing_at_once(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
+        answer(document, plan)
+        until(lambda: stage.times == [0.0])
+        assert (stage.lying, stage.plans) == (1, 1)
+    finally:
+        player.close()
+
+
+def test_where_there_is_no_plan_the_stage_waits_for_none(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
+        question = document.state.question
+        assert question is not None
+        document.settle(document.state.version, question, replace(plan, status="infeasible"), "id")
+        until(lambda: stage.lying == 2)
     finally:
         player.close()
 
