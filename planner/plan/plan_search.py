@@ -22,8 +22,8 @@ from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.search.a_star import Outcome, SearchResult, a_star
 
-LOOK_ALONE_AFTER = 30
-"""Most plans are found within so many expansions; after them each fold not done yet is looked at alone."""
+LOOK_ALONE_AFTER = 180
+"""Most plans are found with so few looks at a state or at what may leave it; after them folds are looked at alone."""
 
 GREEDY_AFTER_S = 1.0
 """A search that has found nothing for so long looks for some plan to fall back on."""
@@ -76,6 +76,7 @@ class PlanSearch:
         self._edges = Edges(problem.work, self._possible, self._is_wanted)
         self._explored = 0
         self._joint_time_s = 0.0
+        self._looks = 0
         self._is_looked_at_alone = False
 
     def plan(self) -> Plan:
@@ -144,7 +145,8 @@ class PlanSearch:
         return self._realizer.is_in_doubt(held)
 
     def _is_over(self) -> bool:
-        if self._edges.expanded >= LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
+        self._looks += 1
+        if self._looks > LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]

@@ -58,7 +58,7 @@ class Realizer:
         self._real_steps: set[object] = set()
         self._failures: Counter[tuple[object, ...]] = Counter()
         self._succeeded: set[tuple[object, ...]] = set()
-        self._given_up: set[tuple[object, ...]] = set()
+        self._given_up: dict[tuple[object, ...], int] = {}
         self._doubted: set[tuple[object, ...]] = set()
         self.struck: list[tuple[Step, ...]] = []
 
@@ -86,7 +86,7 @@ class Realizer:
 
     def is_in_doubt(self, held: State) -> bool:
         """Whether ways to or from a grasp have turned out not to be real, or to take longer than they seemed."""
-        return bool(self._given_up) or held.grasp in self._doubted
+        return held.grasp in self._doubted or held.station in self._given_up.values()
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
@@ -136,7 +136,7 @@ class Realizer:
             self._succeeded.add(culprit.task)
         self._failures[culprit.task] += 1
         if self._failures[culprit.task] >= _FAILURES_MAX and culprit.task not in self._succeeded:
-            self._given_up.add(culprit.task)
+            self._given_up[culprit.task] = culprit.before.station
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:
@@ -156,7 +156,7 @@ class Realizer:
             self._least_s[_key(step)] = max(duration_s, known)
             self._real_steps.add(_key(step))
             self._succeeded.add(step.task)
-            self._given_up.discard(step.task)
+            self._given_up.pop(step.task, None)
         if not is_known:
             self._doubt(run)
         return is_known
