@@ -1,4 +1,4 @@
-/** What part of the plane is seen: the whole cloth at first, then what the reader chooses; no edit ever moves it. */
+/** What part of the plane is seen: the whole garment at first, then what the reader chooses; no edit ever moves it. */
 
 import { boxOf } from "./geometry.js";
 
@@ -19,6 +19,10 @@ export class Framing {
   constructor(board) {
     this.board = board;
     this.isFitted = false;
+    /** The name of the garment that was fitted; whoever opens another, here or elsewhere, sees that whole. */
+    this.name = "";
+    /** What was seen when it was fitted last, and of what. @type {string|null} */
+    this.fitted = null;
     /** The view of the large board while it is an inset. @type {any} */
     this.full = null;
   }
@@ -26,13 +30,23 @@ export class Framing {
   fit() {
     const { board } = this;
     board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: 0, bottom: HINT_PX });
+    this.fitted = this.seen();
     board.render();
   }
 
-  /** Fit once, when there is something to be fitted to a board that has a size. */
+  /** What is seen, and of what: the same as long as nobody has moved the view or pulled the cloth. */
+  seen() {
+    const { scale, origin } = this.board.view;
+    return JSON.stringify([scale, origin, this.clothBox()]);
+  }
+
+  /** Fit once for each garment, when there is something to be fitted to a board that has a size. */
   fitFirst() {
-    if (this.isFitted || !this.board.state || this.board.view.width <= 1) return;
+    if (!this.board.state || this.board.view.width <= 1) return;
+    const { name } = this.board.drawing;
+    if (this.isFitted && this.name === name) return;
     this.isFitted = true;
+    this.name = name;
     this.fit();
   }
 
@@ -64,18 +78,19 @@ export class Framing {
     };
   }
 
-  /** The middle stays in the middle. */
+  /** The middle stays in the middle; what was seen whole and has not been touched since is seen whole again. */
   resize() {
-    const { svg, view } = this.board;
+    const { svg, view, tool, state } = this.board;
     const { clientWidth: width, clientHeight: height } = svg;
     if (!width || !height) return;
+    const isUntouched = state !== null && this.isFitted && !tool.isBusy && this.fitted === this.seen();
     const isInset = width < INSET_PX;
     if (isInset && !this.full) this.full = { ...view };
     if (!isInset && this.full) Object.assign(view, this.full, { pose: view.pose });
     if (!isInset) this.full = null;
     view.pan([(width - view.width) / 2, (height - view.height) / 2]);
     Object.assign(view, { width, height });
-    if (isInset) this.fit();
+    if (isInset || isUntouched) this.fit();
     else this.fitFirst();
     this.board.render();
   }

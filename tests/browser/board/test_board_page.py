@@ -4,10 +4,11 @@ import struct
 import zlib
 from collections.abc import Callable, Iterator
 
+import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.board_desk import Desk
+from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.status_pill import expect_planned
@@ -148,3 +149,53 @@ def test_every_name_that_others_look_for_is_there_once(page: Page, desk: Desk) -
     for name in ("Folds", "Plan"):
         expect(page.get_by_role("list", name=name)).to_have_count(1)
     expect(page.get_by_role("application", name="Drafting board")).to_have_count(1)
+
+
+def scale(page: Page) -> str | None:
+    return page.get_by_role("application", name="Drafting board").get_attribute("data-px-per-m")
+
+
+def is_all_seen(page: Page, garment: Garment) -> bool:
+    """Whether a garment lies within the board."""
+    board, hand = page.get_by_role("application", name="Drafting board").bounding_box(), Hand(page)
+    assert board is not None
+    return all(
+        board["x"] < x < board["x"] + board["width"] and board["y"] < y < board["y"] + board["height"]
+        for x, y in map(hand.px, garment["outline"])
+    )
+
+
+def test_what_was_seen_whole_is_so_on_a_smaller_board_unless_the_view_was_chosen(page: Page, towel: Desk) -> None:
+    board = page.get_by_role("application", name="Drafting board")
+    garment = towel.garment("t-shirt")
+    towel.lay(garment)
+    fitted = scale(page)
+    try:
+        page.set_viewport_size({"width": 900, "height": 560})
+        expect(board).not_to_have_attribute("data-px-per-m", str(fitted))
+        assert is_all_seen(page, garment)
+        small = scale(page)
+        page.mouse.move(*Hand(page).px((0.2, 0.2)))
+        page.mouse.wheel(0, -300)
+        expect(board).not_to_have_attribute("data-px-per-m", str(small))
+        chosen = scale(page)
+    finally:
+        page.set_viewport_size({"width": 1280, "height": 800})
+    page.evaluate("new Promise(requestAnimationFrame)")
+    assert scale(page) == chosen
+
+
+def test_a_garment_opened_elsewhere_is_seen_whole_and_what_is_pulled_elsewhere_moves_no_view(
+    page: Page, towel: Desk
+) -> None:
+    before = scale(page)
+    shirt = towel.garment("t-shirt")
+    httpx.put(f"{towel.path}/garment", json={"garment": shirt, "label": "Begin"}).raise_for_status()
+    expect(page.locator(".corner")).to_have_count(len(shirt["outline"]))
+    expect(page.get_by_role("application", name="Drafting board")).not_to_have_attribute("data-px-per-m", str(before))
+    assert is_all_seen(page, shirt)
+    fitted, wide = scale(page), {**shirt, "outline": [[2 * x, 2 * y] for x, y in shirt["outline"]], "folds": []}
+    httpx.put(f"{towel.path}/garment", json={"garment": wide, "label": "Widen"}).raise_for_status()
+    expect_step(page, "Widen")
+    page.evaluate("new Promise(requestAnimationFrame)")
+    assert scale(page) == fitted
