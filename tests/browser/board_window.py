@@ -10,6 +10,7 @@ from tests.browser.conftest import Sheet
 DRAWN = "new Promise(requestAnimationFrame)"
 SPREAD_OUT = f"""() => {{
   for (const name of ["outline", "select"]) document.querySelector(`[data-tool=${{name}}]`).click();
+  document.querySelector("[aria-label=Fit]").click();
   return {DRAWN};
 }}"""
 NUMBERS = "[board, pill].map((part) => Number(part.dataset.version))"
@@ -79,7 +80,7 @@ class Window:
         return shown
 
     def clear(self) -> None:
-        """The cloth spread out, nothing selected or begun, the mouse elsewhere."""
+        """The cloth spread out and all in view, nothing selected or begun, the mouse elsewhere."""
         self.page.mouse.move(0, 0)
         self.page.evaluate(SPREAD_OUT)
 
