@@ -146,21 +146,10 @@ def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_begi
         player.close()
 
 
-def test_a_plan_that_comes_soon_is_shown_with_its_drawing_at_once(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
-    try:
-        until(lambda: stage.lying == 1)
-        document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
-        answer(document, plan)
-        until(lambda: stage.times == [0.0])
-        assert (stage.lying, stage.plans) == (1, 1)
-    finally:
-        player.close()
-
-
-def test_where_there_is_no_plan_the_stage_waits_for_none(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("status", "drawn"), [("solved", (1, 1)), ("infeasible", (2, 0))])
+def test_the_stage_waits_with_a_drawing_for_its_plan_if_there_is_one(
+    status: str, drawn: tuple[int, int], plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
     document, stage = towel_document(), CountingStage(True)
     player = Player(document, stage)
@@ -169,8 +158,11 @@ def test_where_there_is_no_plan_the_stage_waits_for_none(plan: Plan, monkeypatch
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
         question = document.state.question
         assert question is not None
-        document.settle(document.state.version, question, replace(plan, status="infeasible"), "id")
-        until(lambda: stage.lying == 2)
+        found = replace(plan, status=status)
+        document.settle(document.state.version, question, found, "id")
+        if found.is_solved:
+            document.show_film(found, found.timeline())
+        until(lambda: (stage.lying, stage.plans) == drawn)
     finally:
         player.close()
 
