@@ -83,11 +83,7 @@ export class Store extends EventTarget {
   listen() {
     const live = new Live(this.id);
     let isFirst = true; // after a restart the server's versions may begin lower
-    live.addEventListener("open", () => {
-      isFirst = true;
-      this.isLive = true;
-      this.tell("connection");
-    });
+    live.addEventListener("open", () => (isFirst = true));
     live.addEventListener("lost", () => {
       this.isLive = false;
       this.tell("connection");
@@ -102,6 +98,9 @@ export class Store extends EventTarget {
     live.addEventListener("plan", (event) => {
       this.plan = told(event);
       this.tell("plan");
+      if (this.isLive) return;
+      this.isLive = true; // not before: until the server has said all, what is known is of before
+      this.tell("connection");
     });
     live.addEventListener("playback", (event) => {
       this.playback = told(event);

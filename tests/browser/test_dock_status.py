@@ -135,3 +135,33 @@ def test_a_lost_connection_is_told_and_the_player_rests(
     expect(page.get_by_role("status")).to_have_text("Connection lost, trying again...")
     expect(page.get_by_role("button", name="Play")).to_be_disabled()
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).not_to_have_count(0)
+
+
+def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_before(
+    context: BrowserContext, page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(napkin())
+    sockets = []
+    page.route_web_socket("**/live", lambda route: sockets.append((route, route.connect_to_server())))
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    held: list[str] = []
+    again: list[WebSocketRoute] = []
+
+    def all_but_the_plan(route: WebSocketRoute) -> None:
+        again.append(route)
+
+        def tell(text: str) -> None:
+            (held.append if json.loads(text)["kind"] == "plan" else route.send)(text)
+
+        route.connect_to_server().on_message(tell)
+
+    page.route_web_socket("**/live", all_but_the_plan)
+    sockets[0][0].close()
+    status = page.get_by_role("status")
+    expect(status).to_have_text("Connection lost, trying again...")
+    sheet.edit(lambda drawing: drawing.update(title="Seen again"))
+    expect(page).to_have_title("Seen again - Pleat")
+    assert status.inner_text() == "Connection lost, trying again..."
+    again[-1].send(held[-1])
+    expect(status).not_to_contain_text("Connection lost")

@@ -11,14 +11,32 @@ export async function showExport(store) {
   const list = element("ul", "exports");
   list.setAttribute("aria-label", "Formats");
   const stopped = new AbortController();
+  const { signal } = stopped;
   const dialog = openDialog("Export", "", list);
   dialog.addEventListener("close", () => stopped.abort());
-  const answer = await fetch(`${store.path}/files`).catch(() => null);
-  if (!answer?.ok) {
-    list.append(element("li", "dialog-problem", answer ? sentenceOf(await answer.json()) : OFFLINE));
-    return;
+  /** @type {Map<string, HTMLElement>} by what the server said: what it still says keeps its row, and the focus in it */
+  let rows = new Map();
+  let asked = 0;
+
+  async function look() {
+    const mine = ++asked;
+    const [files, problem] = await filesOf(store);
+    if (mine !== asked || signal.aborted) return;
+    const said = files.map((file) => [JSON.stringify(file), file]);
+    rows = new Map(said.map(([text, file]) => [text, rows.get(text) ?? row(store, file, signal)]));
+    list.replaceChildren(...rows.values());
+    if (problem) list.append(element("li", "dialog-problem", problem));
   }
-  list.append(...(await answer.json()).map((file) => row(store, file, stopped.signal)));
+
+  for (const name of ["document", "plan", "connection"]) store.addEventListener(name, look, { signal });
+  await look();
+}
+
+/** What the document can be made into now, and why that is not known. @returns {Promise<[any[], string]>} */
+async function filesOf(store) {
+  const answer = await fetch(`${store.path}/files`).catch(() => null);
+  if (!answer) return [[], OFFLINE];
+  return answer.ok ? [await answer.json(), ""] : [[], sentenceOf(await answer.json())];
 }
 
 function row(store, file, signal) {

@@ -2,6 +2,7 @@
 
 import io
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import ezdxf
@@ -10,7 +11,8 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import Sheet
+from tests.browser.conftest import REST, Garment, Sheet
+from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
 SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" viewBox="0 0 400 300">
@@ -114,6 +116,26 @@ def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
     assert len(json.loads(saved["t-shirt.json"])["outline"]) == 10
     assert json.loads(saved["t-shirt-plan.json"])["status"] == "solved"
     expect(page.get_by_role("button", name="Save Recording (HTML)")).to_be_enabled()
+
+
+def test_what_becomes_available_while_the_dialog_is_open_can_be_saved_there(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(None)
+    page.goto(sheet.page_url)
+    page.get_by_role("button", name="Export", exact=True).click()
+    dialog = page.get_by_role("dialog", name="Export")
+    verbs = [dialog.get_by_label(f"Save {title}") for title in ("Plan (JSON)", "Plan (CSV)", "Recording (HTML)")]
+    for verb in verbs:
+        expect(verb).to_be_disabled()
+    REST.put(f"{sheet.path}/garment", json={"garment": napkin()}).raise_for_status()
+    for verb in verbs:
+        expect(verb).to_be_enabled()
+    kept = dialog.get_by_label("Save Garment (JSON)").element_handle()
+    with page.expect_response("**/files"):
+        sheet.edit(lambda drawing: drawing.update(title="Another"))
+    expect(page).to_have_title("Another - Pleat")
+    assert kept.evaluate("(verb) => verb.isConnected"), "what has not changed keeps its row"
 
 
 def test_control_s_saves_the_garment_as_it_is_drawn(page: Page, shirt: Desk, tmp_path: Path) -> None:
