@@ -18,7 +18,7 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
     searched = make_plan(load_garment(name), time_limit_s=60.0)
     assert looked_at.status == searched.status == "solved"
-    assert looked_at.cost_s == searched.cost_s
+    assert looked_at.cost_s == pytest.approx(searched.cost_s, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", HALVED)
