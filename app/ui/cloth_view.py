@@ -6,7 +6,6 @@ the front, once where it is seen from behind. It casts no shadow: it would fall 
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from app.ui.colours import Palette
 from app.ui.lighting import ink, paint
@@ -37,7 +36,7 @@ class ClothView:
             thickness=_EDGE_PX,
             thickness_units="screen",
         )
-        self._triangles: NDArray[np.int64] = _NO_TRIANGLES
+        self._shown: ClothSurface | None = None
 
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
@@ -51,8 +50,10 @@ class ClothView:
 
     def show(self, cloth: ClothSurface) -> None:
         """Put this surface in place of the one before."""
-        is_recut = not np.array_equal(cloth.triangles, self._triangles)
-        self._triangles = cloth.triangles
+        before, self._shown = self._shown, cloth
+        if cloth is before:
+            return
+        is_recut = before is None or not np.array_equal(cloth.triangles, before.triangles)
         vertices = cloth.vertices.astype(np.float32)
         for mesh in (self._front, self._back):
             mesh.vertices = vertices

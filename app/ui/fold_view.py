@@ -1,5 +1,7 @@
 """The fold lines that are still to be folded, drawn on the cloth where it lies."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -20,6 +22,9 @@ _LINE_PX = 3.0
 _CURRENT_PX = 5.0
 _NOTHING = np.zeros((0, 2, 3))
 
+_Seen = tuple[Pose2, ClothSurface, TableTop, frozenset[int], int | None]
+"""All that the lines depend on: where the garment is, its cloth, over which top; folds done and the one under way."""
+
 
 class FoldView:
     """Blue lines solid, red ones dash-dot; nodes ``/folds/0``, ``/folds/1``, ... as in the garment."""
@@ -30,6 +35,8 @@ class FoldView:
         self._palette = LIGHT
         self._folds: tuple[DrawnFold, ...] = ()
         self._lines: list[viser.LineSegmentsHandle] = []
+        self._seen: _Seen | None = None
+        self._steps: list[FloatArray] = []
 
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
@@ -39,7 +46,7 @@ class FoldView:
 
     def show_garment(self, garment: Garment) -> None:
         """Take the folds of another garment; `place` then says where they are."""
-        before, self._folds = self._folds, garment.folds
+        before, self._folds, self._seen = self._folds, garment.folds, None
         if [fold.is_red for fold in before] == [fold.is_red for fold in garment.folds]:
             return  # a fold that is being moved does not flicker
         for line in self._lines:
@@ -50,9 +57,16 @@ class FoldView:
         self, placement: Pose2, cloth: ClothSurface, top: TableTop, done: frozenset[int], current: int | None
     ) -> None:
         """Draw the folds that are not done on a cloth that lies on a top and hangs beside it."""
-        relief = Relief.of(cloth, top)
-        for index, (line, fold) in enumerate(zip(self._lines, self._folds, strict=True)):
-            points = _in_space(fold, placement, relief, top) if index not in done else _NOTHING
+        seen = (placement, cloth, top, done, current)
+        if seen == self._seen:
+            return
+        if self._seen is None or (placement, top) != (self._seen[0], self._seen[2]):
+            self._steps = [_steps(fold, placement, top) for fold in self._folds]
+        self._seen = seen
+        waiting = [index for index in range(len(self._folds)) if index not in done]
+        drawn = dict(zip(waiting, _in_space([self._steps[index] for index in waiting], cloth, top), strict=True))
+        for index, line in enumerate(self._lines):
+            points = drawn.get(index, _NOTHING)
             line.visible = len(points) > 0
             line.thickness = _CURRENT_PX if index == current else _LINE_PX
             if len(points) > 0:
@@ -72,8 +86,8 @@ class FoldView:
         return ink(self._palette.fold_red if fold.is_red else self._palette.fold_blue)
 
 
-def _in_space(fold: DrawnFold, placement: Pose2, relief: Relief, top: TableTop) -> FloatArray:
-    """The line in steps, shape (n, 2, 3), each as high as the highest cloth under it; none where no cloth lies."""
+def _steps(fold: DrawnFold, placement: Pose2, top: TableTop) -> FloatArray:
+    """The line in steps in the unrolled plane, table frame, shape (n, 2, 2), m; none goes over an edge."""
     cut = dash_dot if fold.is_red else solid
     drawn = cut(np.array(fold.start), np.array(fold.end)).reshape(-1, 2)
     steps = placement.to_outer(drawn).reshape(-1, 2, 2)
@@ -81,11 +95,17 @@ def _in_space(fold: DrawnFold, placement: Pose2, relief: Relief, top: TableTop) 
         for axis, place in enumerate(corner):
             if np.isfinite(place):
                 steps = split_at(steps, axis, place)
+    return steps
+
+
+def _in_space(lines: Sequence[FloatArray], cloth: ClothSurface, top: TableTop) -> list[FloatArray]:
+    """Lines in steps, each as high as the highest cloth under it, shapes (n, 2, 3), m; where none lies, no step."""
+    steps = np.concatenate([_NOTHING[..., :2], *lines])
+    owners = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
     asked = np.stack([steps[:, 0], steps.mean(axis=1), steps[:, 1]], axis=1)
-    heights = relief.heights_at(asked.reshape(-1, 2)).reshape(-1, 3)
+    heights = Relief.of(cloth, top).heights_at(asked.reshape(-1, 2)).reshape(-1, 3)
     is_on_cloth = np.isfinite(heights[:, 1])
-    steps, gaps = steps[is_on_cloth], heights[is_on_cloth].max(axis=1) + _ABOVE_CLOTH_M
+    steps, owners, gaps = steps[is_on_cloth], owners[is_on_cloth], heights[is_on_cloth].max(axis=1) + _ABOVE_CLOTH_M
     unrolled = np.concatenate([steps, np.zeros((len(steps), 2, 1))], axis=2)
-    for gap in np.unique(gaps):
-        unrolled[gaps == gap] = top.over_edge(unrolled[gaps == gap], float(gap))
-    return unrolled
+    points = top.over_edge(unrolled, gaps[:, None])
+    return [points[owners == number] for number in range(len(lines))]

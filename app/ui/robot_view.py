@@ -32,6 +32,7 @@ class RobotView:
         """
         self._floor_z_m = floor_z_m
         self._root = server.scene.add_frame(ROOT, show_axes=False, position=(0.0, 0.0, floor_z_m))
+        self._base: tuple[Pose2, float] | None = None
         self._shown: dict[str, float] = {}
         self._moved: dict[str, list[tuple[Link, viser.FrameHandle]]] = {}
         self._painted: list[tuple[str, viser.MeshHandle]] = []
@@ -55,8 +56,10 @@ class RobotView:
 
     def pose(self, base: Pose2, joints: dict[str, float]) -> None:
         """Put the base somewhere (table frame) and the joints (rad, m) too; unknown names are passed over."""
-        self._root.position = (base.x_m, base.y_m, self._floor_z_m)
-        self._root.wxyz = yaw(base.yaw_rad)
+        if self._base != (base, self._floor_z_m):
+            self._base = (base, self._floor_z_m)
+            self._root.position = (base.x_m, base.y_m, self._floor_z_m)
+            self._root.wxyz = yaw(base.yaw_rad)
         for name, value in joints.items():
             if name in self._moved and self._shown.get(name) != value:
                 self._shown[name] = value

@@ -76,18 +76,19 @@ class TableTop:
         out = points[..., :2] - np.minimum(np.maximum(points[..., :2], self.low), self.high)
         return np.asarray(np.hypot(out[..., 0], out[..., 1]))
 
-    def over_edge(self, points: FloatArray, gap_m: float = 0.0, droop: float = 1.0) -> FloatArray:
+    def over_edge(self, points: FloatArray, gap_m: float | FloatArray = 0.0, droop: float = 1.0) -> FloatArray:
         """Points of the unrolled plane with their heights, shape (..., 3), taken over the edge.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it (m).
-            gap_m: set off by so much: upwards on the top, outwards beside it.
+            gap_m: set off by so much, all or each (then of a shape that fits theirs): upwards on the top, outwards
+                beside it.
             droop: how far what is beyond the edge has turned down: 0 level, 1 hanging.
 
         Returns:
             The same points in space, table frame (m).
         """
-        if gap_m == 0.0 and self.covers(points):
+        if isinstance(gap_m, float) and gap_m == 0.0 and self.covers(points):
             return points.copy()
         nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
         out = points[..., :2] - nearest

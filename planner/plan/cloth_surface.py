@@ -6,17 +6,19 @@ are cut by the table's edges, beyond which they hang. Layers are drawn a little 
 of cloth, and standing cloth a little longer than it is, up to the tool frame that holds it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer
 from planner.folds.fold_path import REST_HEIGHT_M, FoldPath
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.region import Region
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
+from planner.geometry.triangles import creased, parted
 from planner.plan.frame import ClothSurface
 from planner.primitives.phase import ClothMotion
 from planner.primitives.work import Work
@@ -24,50 +26,93 @@ from planner.primitives.work import Work
 LAYER_GAP_M = 0.0015
 """How far apart neighbouring layers are drawn (m)."""
 
+_Seen = tuple[int, int | None, float, Pose2, TableTop, float]
+"""All that the look of the cloth depends on: folds done, the fold under way and its sweep, where, over what, droop."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Pieces:
+    """Flat cloth.
+
+    Attributes:
+        triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
+        numbers: the layer in which each is, shape (n,).
+        is_back: whether it shows its back, shape (n,).
+    """
+
+    triangles: FloatArray
+    numbers: NDArray[np.int64]
+    is_back: BoolArray
+
+    @staticmethod
+    def of(layers: Sequence[Layer], numbers: Sequence[int]) -> "_Pieces":
+        """Layers with their numbers."""
+        meshes = [layer.region.triangles for layer in layers]
+        counts = [len(mesh) for mesh in meshes]
+        is_back = np.repeat(np.array([layer.face == "back" for layer in layers], dtype=np.bool_), counts)
+        triangles = np.concatenate([np.empty((0, 3, 2)), *meshes])
+        return _Pieces(triangles, np.repeat(np.array(numbers, dtype=np.int64), counts), is_back)
+
+    def parts(self, triangles: FloatArray, sources: NDArray[np.int64]) -> "_Pieces":
+        """What they are cut into, each of which is a part of one of them."""
+        return _Pieces(triangles, self.numbers[sources], self.is_back[sources])
+
+    def parted(self, line: Segment) -> tuple["_Pieces", "_Pieces"]:
+        """What lies to the left and what to the right of the whole line through a segment."""
+        left, right = parted(self.triangles, line)
+        return self.parts(*left), self.parts(*right)
+
+    def turned(self, line: Segment) -> "_Pieces":
+        """Turned over a line; each keeps its number."""
+        return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
+
+    @property
+    def gaps(self) -> FloatArray:
+        """How far each is drawn off the table (m), shape (n, 1)."""
+        return np.asarray((self.numbers[:, None] + 1) * LAYER_GAP_M)
+
 
 @dataclass(slots=True)
 class _Mesh:
-    """Triangles gathered so far."""
+    """What is seen of cloth that lies somewhere: flat on the table and over its edges, or standing.
 
+    Attributes:
+        placement: the article frame in the table frame.
+        top: the table top over which cloth does not hang.
+        droop: how far cloth beyond its edges has turned down.
+    """
+
+    placement: Pose2
+    top: TableTop
+    droop: float
     corners: list[FloatArray] = field(default_factory=list)
-    layers: list[int] = field(default_factory=list)
+    layers: list[NDArray[np.int64]] = field(default_factory=list)
 
-    def add(self, triangles: FloatArray, layer: int, *, is_back: bool) -> None:
-        """Add triangles, shape (n, 3, 3); those of a layer that shows its back are turned over."""
-        self.corners.append(triangles[:, ::-1] if is_back else triangles)
-        self.layers.extend([layer] * len(triangles))
+    def lay(self, pieces: _Pieces) -> None:
+        """Add cloth that lies."""
+        flat = self.placement.to_outer(pieces.triangles)
+        if not self.top.covers(flat):
+            flat, sources = creased(flat, self.top.edges)
+            pieces = pieces.parts(flat, sources)
+        unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
+        self._add(pieces, self.top.over_edge(unrolled, pieces.gaps, self.droop))
+
+    def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
+        """Add cloth that a fold has lifted."""
+        swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
+        swept[:, 2] += np.minimum(swept[:, 2], REST_HEIGHT_M)
+        lean = pieces.gaps[..., None] * np.array([*path.line.left, 0.0])
+        self._add(pieces, self.top.over_edge(swept).reshape(-1, 3, 3) - lean)
+
+    def _add(self, pieces: _Pieces, corners: FloatArray) -> None:
+        """Add triangles, shape (n, 3, 3); those that show their backs are turned over."""
+        self.corners.append(np.where(pieces.is_back[:, None, None], corners[:, ::-1], corners))
+        self.layers.append(pieces.numbers)
 
     def surface(self) -> ClothSurface:
         vertices = np.concatenate(self.corners).reshape(-1, 3)
         triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
-        return ClothSurface(vertices, triangles, np.array(self.layers, dtype=np.int64))
-
-
-@dataclass(frozen=True, slots=True)
-class _Laying:
-    """Puts flat regions of the article frame onto the table and over its edges."""
-
-    mesh: _Mesh
-    placement: Pose2
-    top: TableTop
-    droop: float
-
-    def lay(self, region: Region, number: int, *, is_back: bool) -> None:
-        """Add a flat region as layer `number`."""
-        for piece in self._cut_at_edges(region):
-            flat = self.placement.to_outer(piece.triangles)
-            unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
-            self.mesh.add(self.top.over_edge(unrolled, _gap(number), self.droop), number, is_back=is_back)
-
-    def _cut_at_edges(self, region: Region) -> tuple[Region, ...]:
-        if not np.any(self.top.beyond(self.placement.to_outer(region.coordinates)) > 0.0):
-            return (region,)
-        pieces: tuple[Region, ...] = (region,)
-        for edge in self.top.edges:
-            ends = self.placement.to_inner(np.array([edge.start, edge.end]))
-            here = _segment(ends)
-            pieces = tuple(part for p in pieces for s in (here, here.reversed) for part in p.left_of(s).pieces)
-        return pieces
+        return ClothSurface(vertices, triangles, np.concatenate(self.layers))
 
 
 class ClothSurfaces:
@@ -75,63 +120,54 @@ class ClothSurfaces:
 
     def __init__(self, work: Work) -> None:
         self._work = work
+        self._last: tuple[_Seen, ClothSurface] | None = None
 
     def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
-        """The cloth a fraction of the way through a phase's motion; `droop` as in `TableTop.over_edge`."""
-        laying = _Laying(_Mesh(), motion.start.between(motion.end, fraction), motion.top, droop)
-        first, last = motion.sweep
-        sweep = first + fraction * (last - first)
-        if motion.fold is None or sweep <= 0.0:
-            for number, layer in enumerate(self._work.sequence.cloth(motion.done).layers):
-                laying.lay(layer.region, number, is_back=layer.face == "back")
-        else:
-            self._fold(laying, motion.done, motion.fold, sweep)
-        return laying.mesh.surface()
+        """The cloth a fraction of the way through a phase's motion; `droop` as in `TableTop.over_edge`.
 
-    def _fold(self, laying: _Laying, done: int, fold: int, sweep: float) -> None:
+        As long as nothing of it moves it is the same object.
+        """
+        first, last = motion.sweep
+        sweep = 0.0 if motion.fold is None else max(first + fraction * (last - first), 0.0)
+        fold = motion.fold if sweep > 0.0 else None
+        seen = (motion.done, fold, sweep, motion.start.between(motion.end, fraction), motion.top, droop)
+        known = self._last
+        if known is None or known[0] != seen:
+            self._last = known = (seen, self._surface(*seen))
+        return known[1]
+
+    def _surface(
+        self, done: int, fold: int | None, sweep: float, placement: Pose2, top: TableTop, droop: float
+    ) -> ClothSurface:
+        mesh = _Mesh(placement, top, droop)
+        if fold is None:
+            layers = self._work.sequence.cloth(done).layers
+            mesh.lay(_Pieces.of(layers, range(len(layers))))
+        else:
+            self._fold(mesh, done, fold, sweep)
+        return mesh.surface()
+
+    def _fold(self, mesh: _Mesh, done: int, fold: int, sweep: float) -> None:
         folded = self._work.sequence.folded(done, fold)
         line = self._work.sequence.folds[fold].line
         staying = len(folded.cloth.layers) - folded.cloth.moved
-        for number, layer in enumerate(folded.cloth.layers[:staying]):
-            laying.lay(layer.region, number, is_back=layer.face == "back")
+        numbers = range(staying, len(folded.cloth.layers))
+        is_falling = sweep > 1.0
+        moving = _Pieces.of(folded.layers, numbers[::-1] if is_falling else numbers)
         depth = float(line.left_distances(folded.moving.coordinates).max())
-        path = FoldPath(_placed(line, laying.placement), depth, laying.top, laying.top)
-        for number, layer in enumerate(folded.layers):
-            above = number if sweep <= 1.0 else len(folded.layers) - 1 - number
-            _bend(laying, layer, staying + above, line, path, sweep)
+        standing, lying = moving.parted(_baseline(line, depth * abs(1.0 - sweep)))
+        mesh.lay(_Pieces.of(folded.cloth.layers[:staying], range(staying)))
+        mesh.lay(lying.turned(line) if is_falling else lying)
+        mesh.erect(standing, FoldPath(_placed(line, mesh.placement), depth, mesh.top, mesh.top), sweep)
 
 
-def _bend(laying: _Laying, layer: Layer, number: int, line: Segment, path: FoldPath, sweep: float) -> None:
-    """Add a layer of the moving part: flat up to the baseline or laid down already, standing beyond it."""
-    offset = path.depth_m * abs(1.0 - sweep)
-    baseline = Segment(_shifted(line, line.start, offset), _shifted(line, line.end, offset))
-    is_back = layer.face == "back"
-    for part in layer.region.left_of(baseline.reversed).pieces:
-        if sweep <= 1.0:
-            laying.lay(part, number, is_back=is_back)
-        else:
-            laying.lay(part.moved(Isometry.reflection(line)), number, is_back=not is_back)
-    lean = np.array([*path.line.left, 0.0]) * _gap(number)
-    for part in layer.region.left_of(baseline).pieces:
-        flat = laying.placement.to_outer(part.triangles).reshape(-1, 2)
-        swept = path.swept(flat, sweep)
-        swept[:, 2] += np.minimum(swept[:, 2], REST_HEIGHT_M)
-        standing = laying.top.over_edge(swept) - lean
-        laying.mesh.add(standing.reshape(-1, 3, 3), number, is_back=is_back)
-
-
-def _gap(number: int) -> float:
-    return (number + 1) * LAYER_GAP_M
-
-
-def _segment(ends: FloatArray) -> Segment:
-    return Segment((float(ends[0][0]), float(ends[0][1])), (float(ends[1][0]), float(ends[1][1])))
+def _baseline(line: Segment, distance: float) -> Segment:
+    """Where cloth stops lying: beside the fold line, to the left (m)."""
+    nx, ny = line.left
+    (ax, ay), (bx, by) = line.start, line.end
+    return Segment((ax + distance * nx, ay + distance * ny), (bx + distance * nx, by + distance * ny))
 
 
 def _placed(line: Segment, placement: Pose2) -> Segment:
-    return _segment(placement.to_outer(np.array([line.start, line.end])))
-
-
-def _shifted(line: Segment, point: tuple[float, float], distance: float) -> tuple[float, float]:
-    nx, ny = line.left
-    return (point[0] + distance * nx, point[1] + distance * ny)
+    start, end = placement.to_outer(np.array([line.start, line.end])).tolist()
+    return Segment(tuple(start), tuple(end))

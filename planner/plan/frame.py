@@ -10,7 +10,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table_top import TableTop
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ClothSurface:
     """The cloth as a triangle mesh in the table frame.
 

@@ -129,3 +129,13 @@ def test_fingers_take_a_fifth_of_a_second_to_close_and_to_open():
     middle = (OPEN_M + CLOSED_M) / 2
     assert found == pytest.approx([OPEN_M, middle, CLOSED_M, CLOSED_M, middle, OPEN_M])
     assert track.opening_at(0, 2.5) == OPEN_M
+
+
+def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
+    plan = planned("hand-towel").answer
+    timeline = plan.timeline()
+    moving = [primitive.start_s + 0.5 * primitive.duration_s for primitive in plan.primitives]
+    still = timeline.at(0.0).cloth
+    assert timeline.at(0.1).cloth is still
+    surfaces = [timeline.at(t_s).cloth for t_s in moving]
+    assert len({id(surface) for surface in [still, *surfaces]}) == len(moving) + 1
