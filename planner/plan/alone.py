@@ -220,14 +220,16 @@ def drag_offsets(work: Work) -> FloatArray:
     corners = work.placement.to_outer(np.array([(size[i], size[j]) for i in (0, 2) for j in (1, 3)]))
     low, high = corners.min(axis=0), corners.max(axis=0)
     half = np.array([table.depth_m / 2, table.width_m / 2])
+    (x0, y0), (x1, y1) = (-half - high).tolist(), (half - low).tolist()
+    steps = [dragged(work, (0.0, 0.0), station, 1) for station in range(len(work.scene.stations))]
     found: dict[tuple[int, int], Point2] = {(0, 0): (0.0, 0.0)}
     front = [(0.0, 0.0)]
     while front and len(found) <= _OFFSETS_MAX:
-        offset = front.pop()
-        for station in range(len(work.scene.stations)):
-            after = dragged(work, offset, station, 1)
+        x, y = front.pop()
+        for dx, dy in steps:
+            after = (x + dx, y + dy)
             key = (grid_key(after[0]), grid_key(after[1]))
-            if key not in found and np.all(low + after < half) and np.all(high + after > -half):
+            if key not in found and x0 < after[0] < x1 and y0 < after[1] < y1:
                 found[key] = after
                 front.append(after)
     return np.array(list(found.values()))
