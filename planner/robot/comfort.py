@@ -177,11 +177,13 @@ def aim_from(ask: Question, place: Place, back_off: int) -> Aim:
     return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def is_comfortable_at(
     ask: Question, memory: Memory, room: Room, arcs: FloatArray, slot: int, place: Place, back_off: int
 ) -> bool:
     """Whether a tool is comfortable at a place, the base having backed off, from memory if it is known there.
+
+    Compiled into what calls it: to hand on so many arrays costs as much as many an answer.
 
     `arcs`, shape (MOST_ARCS, 2), is space to work in.
     """

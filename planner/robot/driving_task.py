@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robot.comfort import (
+    FORGETFUL,
     GOOD,
     KNOWN,
     ROW_CELLS,
@@ -72,6 +73,10 @@ def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: i
     slot, found, back_off = row_slot(ask, task.memory.keys, task.memory.counts, place), 0, 0
     if task.step == ROW_STEP:
         task.slots[hand, approach, waypoint] = slot
+        if slot != FORGETFUL:
+            bits, cell = task.memory.bits[slot], task.cells[hand, waypoint]
+            found = wanted & from_cell(bits[GOOD], cell)
+            wanted &= ~from_cell(bits[KNOWN], cell)
     while wanted >> back_off:
         is_wanted = (wanted >> back_off) & 1 == 1
         if is_wanted and is_comfortable_at(ask, task.memory, task.room, arcs, slot, place, back_off):
