@@ -8,7 +8,6 @@ a tool turns but a little from one to the next.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -139,7 +138,7 @@ class _Sampler:
                 for turn in turns
             ]
             yield _Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
-        yield _Stretch(number, np.linspace(0.0, 1.0, _count(phase) + 1)[1 if number else 0 :], rolls, None)
+        yield _Stretch(number, _shares(phase)[1 if number else 0 :], rolls, None)
         for arm, hand in enumerate(phase.hands):
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + _rolls(hand)[-1])
 
@@ -231,17 +230,31 @@ def _rotations(angles_rad: FloatArray) -> FloatArray:
     return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
 
 
-def _count(phase: Phase) -> int:
-    """Into how many steps a phase is cut: a whole multiple of the steps of its hands' polylines."""
+def _shares(phase: Phase) -> FloatArray:
+    """How much of a phase is done at each of its moments, the start included: each piece of the ways in even steps.
+
+    Some pieces need more than others: a hand near the fold line's end rolls there within a few centimetres.
+    """
     hands = [hand for hand in phase.hands if hand is not None]
-    corners = max((len(hand.points) - 1 for hand in hands), default=1) or 1
+    pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
     drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
-    wanted = [drive / STEP_M, 1.0]
+    wanted = np.full(pieces, drive / pieces / STEP_M)
     for hand in hands:
-        steps = len(hand.points) - 1
-        wanted.append(max((math.dist(a, b) for a, b in pairwise(hand.points)), default=0.0) * steps / STEP_M)
-        wanted.append(max((abs(b - a) for a, b in pairwise(hand.rolls_rad)), default=0.0) * steps / STEP_RAD)
-    return corners * math.ceil(max(wanted) / corners - ANGLE_RAD)
+        if len(hand.points) > 1:
+            _need(wanted, np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) / STEP_M)
+        if len(hand.rolls_rad) > 1:
+            _need(wanted, np.abs(np.diff(hand.rolls_rad)) / STEP_RAD)
+    steps = np.maximum(np.ceil(wanted - ANGLE_RAD), 1.0).astype(np.int64)
+    ends = np.cumsum(steps)
+    within = (np.arange(ends[-1]) - np.repeat(ends - steps, steps) + 1) / np.repeat(steps, steps)
+    return np.append(0.0, (np.repeat(np.arange(pieces), steps) + within) / pieces)
+
+
+def _need(wanted: FloatArray, steps: FloatArray) -> None:
+    """Raise the steps wanted in each of some pieces of a phase to those that a hand needs in each piece of its way."""
+    shared, rest = divmod(len(wanted), len(steps))
+    each = np.repeat(steps, shared) / shared if rest == 0 else np.full(len(wanted), steps.max())
+    np.maximum(wanted, each, out=wanted)
 
 
 def _rolls(hand: Hand) -> tuple[float, ...]:

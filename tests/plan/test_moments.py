@@ -45,15 +45,31 @@ def lean(rotation: FloatArray) -> float:
 
 
 def test_a_way_is_cut_into_steps_of_a_centimetre_that_meet_its_corner():
-    # Two pieces, of 31 and 5 mm, passed in the same time: 4 steps of 7.75 mm for the longer, so 4 for the other too.
+    # Two pieces, of 31 and 5 mm, passed in the same time: 4 steps of 7.75 mm for the longer, one for the other.
     corner, goal = (-0.35, 0.2, 0.051), (-0.35, 0.2, 0.056)
     moments = moments_of([phase(holding(HERE, corner, goal))], HEIGHT_M)
-    assert len(moments) == 9
-    assert moments.fractions == pytest.approx(np.arange(9) / 8)
+    assert len(moments) == 6
+    assert moments.fractions == pytest.approx([0.0, 0.125, 0.25, 0.375, 0.5, 1.0])
+    assert moments.nominal_s == pytest.approx([0.0, 0.375, 0.375, 0.375, 0.375, 1.5])
     # The base stands at x = -0.95, looking along x: the hand is 0.6 m ahead, 0.2 m to the left; z is over the floor.
     assert moments.positions[0, 0] == pytest.approx((0.6, 0.2, HEIGHT_M + 0.02))
     assert moments.positions[0, 4] == pytest.approx((0.6, 0.2, HEIGHT_M + 0.051))
-    assert moments.positions[0, 8] == pytest.approx((0.6, 0.2, HEIGHT_M + 0.056))
+    assert moments.positions[0, 5] == pytest.approx((0.6, 0.2, HEIGHT_M + 0.056))
+
+
+def test_only_where_a_hand_rolls_are_there_more_moments():
+    # 20 mm, of which the last 5 are passed with a roll of 0.2 rad: 4 steps of 0.05 there, one in the other 15 mm.
+    points = tuple((-0.35, 0.2, 0.02 + 0.005 * i) for i in range(5))
+    moments = moments_of([phase(holding(*points, rolls_rad=(0.0, 0.0, 0.0, 0.0, 0.2)))], HEIGHT_M)
+    assert moments.fractions == pytest.approx([0.0, 0.25, 0.5, 0.75, 0.8125, 0.875, 0.9375, 1.0])
+
+
+def test_a_hand_that_goes_straight_has_the_moments_of_one_that_does_not():
+    # One hand passes 30 mm and then 10 mm, the other 50 mm at the same time: 25 mm in each half.
+    bent = holding(HERE, (-0.35, 0.2, 0.05), (-0.35, 0.2, 0.06))
+    straight = holding((-0.35, -0.2, 0.02), (-0.3, -0.2, 0.02))
+    moments = moments_of([phase(bent, straight)], HEIGHT_M)
+    assert moments.fractions == pytest.approx([*np.arange(7) / 6])
 
 
 def test_a_free_hand_is_nowhere():
