@@ -28,7 +28,8 @@ from tests.browser.two_windows import SLACK_PX, TwoWindows, assert_shown, beginn
 CORNERS_MAX = 7
 FOLDS_MAX = 3
 ROOM_M = 0.03
-"""Beside a point on an edge nothing else may be within so much, or the hand takes that."""
+HANDLE_PX = 14.0
+"""Beside a point on an edge nothing else may be within so much, in the plane and on the screen: the hand takes that."""
 
 COLOURS = {"blue": "Blue: all layers", "red": "Red: last flap"}
 
@@ -106,9 +107,11 @@ class PageMachine(TwoWindows):
         a, b = self.outline[index], self.outline[(index + 1) % len(self.outline)]
         at = (a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]))
         others = [end["point"] for fold in self.folds for end in (fold["start"], fold["end"])]
-        if min(math.dist(at, other) for other in [*self.outline, *others]) < ROOM_M or self.state["problems"]:
-            return
         window = self.hand(who)
+        window.clear()
+        room_m = max(ROOM_M, HANDLE_PX * window.pixel_m())
+        if min(math.dist(at, other) for other in [*self.outline, *others]) < room_m or self.state["problems"]:
+            return
         window.add_corner(at)
         before = self.outline
         self.done("Add vertex")
