@@ -14,7 +14,7 @@ export async function showExport(store) {
   const { signal } = stopped;
   const dialog = openDialog("Export", "", list);
   dialog.addEventListener("close", () => stopped.abort());
-  /** @type {Map<string, HTMLElement>} by what the server said: what it still says keeps its row, and the focus in it */
+  /** @type {Map<string, Element>} by what the server said: what it still says keeps its row, and the focus in it */
   let rows = new Map();
   let asked = 0;
 
@@ -24,8 +24,10 @@ export async function showExport(store) {
     if (mine !== asked || signal.aborted) return;
     const said = files.map((file) => [JSON.stringify(file), file]);
     rows = new Map(said.map(([text, file]) => [text, rows.get(text) ?? row(store, file, signal)]));
-    list.replaceChildren(...rows.values());
-    if (problem) list.append(element("li", "dialog-problem", problem));
+    const shown = [...rows.values(), ...(problem ? [element("li", "dialog-problem", problem)] : [])];
+    for (const item of [...list.children]) if (!shown.includes(item)) item.remove();
+    for (const [place, item] of shown.entries())
+      if (list.children[place] !== item) list.insertBefore(item, list.children[place] ?? null);
   }
 
   for (const name of ["document", "plan", "connection"]) store.addEventListener(name, look, { signal });
