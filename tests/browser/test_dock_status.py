@@ -121,18 +121,22 @@ def still_looking(page: WebSocketRoute) -> None:
     page.on_message(hear)
 
 
-def test_a_lost_connection_is_told_and_the_player_rests(
-    context: BrowserContext, page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
-    sheet = new_sheet(napkin())
+def cut_off(page: Page, sheet: Sheet, then: Callable[[WebSocketRoute], None]) -> None:
+    """Open a page and cut its connection once it has a plan; those that it opens then are handed on."""
     sockets = []
     page.route_web_socket("**/live", lambda route: sockets.append((route, route.connect_to_server())))
     page.goto(sheet.page_url)
     expect_planned(page)
     expect(page.get_by_role("button", name="Play")).to_be_enabled()
-    page.route_web_socket("**/live", lambda route: route.close())
+    page.route_web_socket("**/live", then)
     sockets[0][0].close()
     expect(page.get_by_role("status")).to_have_text("Connection lost, trying again...")
+
+
+def test_a_lost_connection_is_told_and_the_player_rests(
+    context: BrowserContext, page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    cut_off(page, new_sheet(napkin()), lambda route: route.close())
     expect(page.get_by_role("button", name="Play")).to_be_disabled()
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).not_to_have_count(0)
 
@@ -141,10 +145,6 @@ def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_befor
     context: BrowserContext, page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
     sheet = new_sheet(napkin())
-    sockets = []
-    page.route_web_socket("**/live", lambda route: sockets.append((route, route.connect_to_server())))
-    page.goto(sheet.page_url)
-    expect_planned(page)
     held: list[str] = []
     again: list[WebSocketRoute] = []
 
@@ -156,10 +156,8 @@ def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_befor
 
         route.connect_to_server().on_message(tell)
 
-    page.route_web_socket("**/live", all_but_the_plan)
-    sockets[0][0].close()
+    cut_off(page, sheet, all_but_the_plan)
     status = page.get_by_role("status")
-    expect(status).to_have_text("Connection lost, trying again...")
     sheet.edit(lambda drawing: drawing.update(title="Seen again"))
     expect(page).to_have_title("Seen again - Pleat")
     for _ in range(PATIENCE_MS // 10):
