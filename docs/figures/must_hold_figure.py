@@ -59,7 +59,7 @@ def _fold(view: View) -> None:
 def _hanging(view: View, cloth: Region, edge_y: float) -> None:
     """Cloth over a table's edge, unrolled: what is below the edge hangs."""
     edge = Segment((-0.2, edge_y), (0.66, edge_y))
-    hanging = cloth.left_of(edge.reversed)
+    hanging = cloth.parted_by(edge)[1]
     top = ((-0.16, edge_y), (0.617, edge_y), (0.617, edge_y + 0.4), (-0.16, edge_y + 0.4))
     view.polygon("table", top, Style(NONE, TABLE))
     view.polygon("cloth", cloth.ring, _CLOTH)

@@ -232,10 +232,6 @@ class Region:
         shape = shapely.transform(self.shape, isometry.apply)
         return Region(shapely.set_precision(shape, GRID_M))
 
-    def left_of(self, line: Segment) -> "Region":
-        """The part to the left of the whole line through a segment."""
-        return Region(shapely.intersection(self.shape, half_plane(line), grid_size=GRID_M))
-
     def parted_by(self, line: Segment) -> tuple["Region", "Region"]:
         """The parts to the left and to the right of the whole line through a segment; no area is lost."""
         half = half_plane(line)

@@ -15,13 +15,8 @@ from scipy.spatial.transform import Rotation
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD
+from planner.plan.phase_shares import STEP_RAD, shares_of
 from planner.primitives.phase import Hand, Phase
-
-STEP_M = 0.01
-"""How far a tool or the base goes from one moment to the next at most (m)."""
-
-STEP_RAD = 0.05
-"""How far a tool turns from one moment to the next at most (rad)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,7 +133,7 @@ class _Sampler:
                 for turn in turns
             ]
             yield _Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
-        yield _Stretch(number, _shares(phase)[1 if number else 0 :], rolls, None)
+        yield _Stretch(number, shares_of(phase)[1 if number else 0 :], rolls, None)
         for arm, hand in enumerate(phase.hands):
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + _rolls(hand)[-1])
 
@@ -228,33 +223,6 @@ def about_x(angles_rad: FloatArray) -> FloatArray:
 def _rotations(angles_rad: FloatArray) -> FloatArray:
     """The tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
     return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
-
-
-def _shares(phase: Phase) -> FloatArray:
-    """How much of a phase is done at each of its moments, the start included: each piece of the ways in even steps.
-
-    Some pieces need more than others: a hand near the fold line's end rolls there within a few centimetres.
-    """
-    hands = [hand for hand in phase.hands if hand is not None]
-    pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
-    drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
-    wanted = np.full(pieces, drive / pieces / STEP_M)
-    for hand in hands:
-        if len(hand.points) > 1:
-            _need(wanted, np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) / STEP_M)
-        if len(hand.rolls_rad) > 1:
-            _need(wanted, np.abs(np.diff(hand.rolls_rad)) / STEP_RAD)
-    steps = np.maximum(np.ceil(wanted - ANGLE_RAD), 1.0).astype(np.int64)
-    ends = np.cumsum(steps)
-    within = (np.arange(ends[-1]) - np.repeat(ends - steps, steps) + 1) / np.repeat(steps, steps)
-    return np.append(0.0, (np.repeat(np.arange(pieces), steps) + within) / pieces)
-
-
-def _need(wanted: FloatArray, steps: FloatArray) -> None:
-    """Raise the steps wanted in each of some pieces of a phase to those that a hand needs in each piece of its way."""
-    shared, rest = divmod(len(wanted), len(steps))
-    each = np.repeat(steps, shared) / shared if rest == 0 else np.full(len(wanted), steps.max())
-    np.maximum(wanted, each, out=wanted)
 
 
 def _rolls(hand: Hand) -> tuple[float, ...]:

@@ -115,7 +115,7 @@ def test_a_turned_square_may_hang_by_one_corner_and_not_by_three():
     square = Region.polygon([(0, 0), (c, s), (c - s, s + c), (-s, c)])
     for depth, wanted in ((0.2, set()), (0.3, {(0.433, -0.05)}), (0.5, {(0.433, -0.25), (-0.25, -0.067)})):
         lowered = square.moved(Isometry.rotation(0.0, 0.0, -depth))
-        hanging = lowered.left_of(EDGE.reversed)
+        hanging = lowered.parted_by(EDGE)[1]
         found = must_hold(hanging, UP, (EDGE,), 0.0)
         assert {(round(float(x), 3), round(float(y), 3)) for x, y in found} == wanted
 
@@ -126,7 +126,7 @@ def test_a_disc_may_hang_by_less_than_half_of_it():
     angles = np.linspace(0.0, math.tau, 72, endpoint=False)
     disc = Region.polygon(np.column_stack([0.3 * np.cos(angles), 0.3 * np.sin(angles)]))
     for middle_m, stays in ((0.1, True), (0.02, True), (-0.1, False)):
-        hanging = disc.moved(Isometry.rotation(0.0, 0.0, middle_m)).left_of(EDGE.reversed)
+        hanging = disc.moved(Isometry.rotation(0.0, 0.0, middle_m)).parted_by(EDGE)[1]
         assert (len(must_hold(hanging, UP, (EDGE,), 0.0)) == 0) == stays
 
 

@@ -11,7 +11,8 @@ from scipy.spatial.transform import Rotation
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.plan.moments import STEP_M, STEP_RAD, Moments, moments_of
+from planner.plan.moments import Moments, moments_of
+from planner.plan.phase_shares import STEP_M, STEP_RAD
 from planner.plan.real_run import is_carrying
 from planner.primitives.phase import ClothMotion, Hand, Phase
 from tests.replay.planned import planned

@@ -1,0 +1,45 @@
+"""How finely a phase is cut into moments: where something moves or turns much more finely than elsewhere."""
+
+import math
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.primitives.phase import Phase
+
+STEP_M = 0.01
+"""How far a tool or the base goes from one moment to the next at most (m)."""
+
+STEP_RAD = 0.05
+"""How far a tool turns from one moment to the next at most (rad)."""
+
+
+def shares_of(phase: Phase) -> FloatArray:
+    """How much of a phase is done at each of its moments, the start included: each piece of the ways in even steps.
+
+    Some pieces need more than others: a hand near the fold line's end rolls there within a few centimetres.
+
+    Returns:
+        Shape (n,), rising from 0 to 1.
+    """
+    hands = [hand for hand in phase.hands if hand is not None]
+    pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
+    drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
+    wanted = np.full(pieces, drive / pieces / STEP_M)
+    for hand in hands:
+        if len(hand.points) > 1:
+            _need(wanted, np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) / STEP_M)
+        if len(hand.rolls_rad) > 1:
+            _need(wanted, np.abs(np.diff(hand.rolls_rad)) / STEP_RAD)
+    steps = np.maximum(np.ceil(wanted - ANGLE_RAD), 1.0).astype(np.int64)
+    ends = np.cumsum(steps)
+    within = (np.arange(ends[-1]) - np.repeat(ends - steps, steps) + 1) / np.repeat(steps, steps)
+    return np.append(0.0, (np.repeat(np.arange(pieces), steps) + within) / pieces)
+
+
+def _need(wanted: FloatArray, steps: FloatArray) -> None:
+    """Raise the steps wanted in each of some pieces of a phase to those that a hand needs in each piece of its way."""
+    shared, rest = divmod(len(wanted), len(steps))
+    each = np.repeat(steps, shared) / shared if rest == 0 else np.full(len(wanted), steps.max())
+    np.maximum(wanted, each, out=wanted)
