@@ -6,7 +6,7 @@ instead of a search. So it can be shown at once, and the search may take its tim
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import chain, islice, zip_longest
+from itertools import islice, zip_longest
 
 from planner.plan.act import Act
 from planner.plan.plan import Plan
@@ -43,8 +43,7 @@ def _act(act: Act, problem: Problem, state: State) -> Act | None:
     if likest is None or act.run is None:
         return None if likest is None else Act(act.first, likest, None)
     maker = problem.maker
-    run = maker.made_like(maker.candidate(likest), act.run)
-    run = run or maker.first_real(chain((likest,), ways), _PATIENCE)
+    run = maker.made_like(maker.candidate(likest), act.run) or maker.first_real(ways, _PATIENCE)
     return None if run is None else Act(act.first, run.steps, run)
 
 

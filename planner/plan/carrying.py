@@ -69,29 +69,31 @@ class Carrier:
 
     def _search(self, asked: "_Asked") -> Carried | None:
         moments = asked.moments
-        arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
-        is_steep = all(moments.rotations[arm, 0, 2, 0] < -_STEEP for arm in arms)
-        for roll in (OVER, BESIDE) if is_steep else (BESIDE,):
+        for roll in _rolls(moments):
             for shares in (FAR, NEAR):
                 found = self._with_lines(moments, Lines(roll, shares))
                 if isinstance(found, Carried):
                     return found
-                if len(found.blocked) or found.is_core:
+                if found.is_hopeless:
                     break
         return None
 
     def adapted(self, moments: Moments, like: Carried) -> Carried | None:
-        """The joints of a run that differs a little from one that is known; None if they cannot be much the same."""
+        """The joints of a run that differs a little from one that is known, near to those if they can be."""
+        return self._near(moments, like) or self.carried(moments)
+
+    def _near(self, moments: Moments, like: Carried) -> Carried | None:
         if _Asked.of(moments) == _Asked.of(like.moments):
             return like
-        if not np.array_equal(moments.is_held.any(axis=1), like.is_used):
+        are_same_arms = np.array_equal(moments.is_held.any(axis=1), like.is_used)
+        if not are_same_arms or like.lines.roll_rad not in _rolls(moments):
             return None
         leads = Leads.of(moments, like.lines, self._height_m, self._has_room)
         joints, guides = self._at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
         for lead, is_free in zip(leads.each, self._are_free(leads), strict=True):
-            near = guides[:, lead.arm]
-            found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, is_free, near)
-            if isinstance(found, NoPath):
+            known = guides[:, lead.arm]
+            found = self._machine.arm_path_near(lead.arm, lead.path, self._torso_m, is_free, known)
+            if found is None:
                 return None
             joints[:, lead.arm] = found
         if len(leads.each) > 1 and not self._collisions.arms_apart(joints).all():
@@ -172,3 +174,9 @@ class Carrier:
 
     def _has_room(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> bool:
         return len(self._postures(arm, base, position, rotation)) > 0
+
+
+def _rolls(moments: Moments) -> tuple[float, ...]:
+    """The rolls with which hands may hold cloth in a run (rad), the best first."""
+    starts = (moments.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(moments.is_held.any(axis=1)))
+    return (OVER, BESIDE) if all(start < -_STEEP for start in starts) else (BESIDE,)

@@ -80,7 +80,6 @@ class Machine(Hashable, Protocol):
         torso_m: float,
         floor_m: float,
         is_free: IsFree,
-        near: FloatArray | None = None,
     ) -> FloatArray | NoPath:
         """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; or that there are none.
 
@@ -90,8 +89,13 @@ class Machine(Hashable, Protocol):
             torso_m: how far the lift is raised (m).
             floor_m: the height over which elbows had better stay, base frame (m).
             is_free: which joints do not collide.
-            near: joints that are known, shape (n, 7), to which others near are looked for first, much sooner found.
         """
+        ...
+
+    def arm_path_near(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
+    ) -> FloatArray | None:
+        """Joints that keep a tool on a path near to others that are known, shape (n, 7); None where none so near do."""
         ...
 
     def arm_pair_path(

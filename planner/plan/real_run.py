@@ -188,7 +188,7 @@ class RunMaker:
         return self._run(candidate, self._carrier.carried(candidate.moments))
 
     def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
-        """A candidate made real, its joints near to those of another run; None where that cannot be."""
+        """A candidate made real, its joints near to those of another run if they can be; None without a way."""
         return self._run(candidate, self._carrier.adapted(candidate.moments, like.carried))
 
     def _run(self, candidate: "Candidate", carried: Carried | None) -> RealRun | None:

@@ -65,6 +65,11 @@ class NoPath:
     blocked: NDArray[np.int64]
     is_core: bool
 
+    @property
+    def is_hopeless(self) -> bool:
+        """Whether there is none whatever leads there and away."""
+        return self.is_core or len(self.blocked) > 0
+
 
 def free_postures(
     arm: SidedArm,
@@ -86,6 +91,25 @@ def free_postures(
     joints, costs = solutions(arm.shape, place, arm.mirrored_rotations(rotation)[None], -np.inf)
     able = arm.mirrored_joints(joints[0, np.isfinite(costs[0])])
     return able[is_free(able)] if len(able) else able
+
+
+def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray) -> FloatArray | None:
+    """Joints that keep a tool on a path, near to others that are known: much quicker than `ArmSearch`.
+
+    Args:
+        arm: the arm.
+        path: where its tool must be.
+        torso_m: how far the torso is raised (m).
+        is_free: which joints do not collide.
+        known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
+
+    Returns:
+        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where none so near will do, which says nothing
+        about others.
+    """
+    positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
+    joints, bad = _along(arm, positions, arm.mirrored_rotations(path.rotations), arm.mirrored_joints(known), is_free)
+    return None if len(bad) else joints
 
 
 class ArmSearch:
@@ -129,33 +153,13 @@ class ArmSearch:
         self._is_asked = np.zeros(len(self.links), dtype=bool)
         self.has_dropped = False
 
-    def near_to(self, known: FloatArray) -> FloatArray | NoPath:
-        """Joints near to others that are known, or with them where that is possible; much quicker than `found`.
-
-        Args:
-            known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
-
-        Returns:
-            As `found`.
-        """
-        joints, bad = _along(
-            self._arm, self._positions, self._rotations, self._arm.mirrored_joints(known), self._is_free
-        )
-        if not len(bad):
-            return joints
-        self._add(
-            self._arm.mirrored_joints(joints[self.links])[:, None],
-            np.where(np.isin(self.links, bad), np.inf, 0.0)[:, None],
-        )
-        return self.found()
-
     def found(self) -> FloatArray | NoPath:
         """The calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
 
         Forearm and wrist roll are unwound.
         """
         places, axes = self._positions[self.links], self._rotations[self.links]
-        self._add(*solutions(self._arm.shape, places, axes, self._floor))
+        self.samples, self.costs = solutions(self._arm.shape, places, axes, self._floor)
         for number in range(_TRIES_MAX):
             chain = cheapest_chain(self.samples, self.costs, self.speeds, self.spans)
             if not len(chain):
@@ -168,11 +172,6 @@ class ArmSearch:
                 return self.smoothed(guides, joints)
             self._strike(chain, bad, number)
         return self._none()
-
-    def _add(self, samples: FloatArray, costs: FloatArray) -> None:
-        """Add samples at the links, shape (l, k, 7), and what each costs, shape (l, k)."""
-        self.samples = np.concatenate([self.samples, samples], axis=1)
-        self.costs = np.concatenate([self.costs, costs], axis=1)
 
     def guides(self, chain: NDArray[np.int64]) -> FloatArray:
         """The chain's joints, continuous ones unwound, shape (l, 7)."""

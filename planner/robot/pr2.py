@@ -11,7 +11,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
 from planner.robot.arm_pair_path import BothArms, arm_pair_path
-from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures
+from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures, near_path
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -127,7 +127,6 @@ class Pr2:
         torso_m: float,
         floor_m: float,
         is_free: IsFree,
-        near: FloatArray | None = None,
     ) -> FloatArray | NoPath:
         """The calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
 
@@ -137,13 +136,17 @@ class Pr2:
             torso_m: how far the torso is raised (m).
             floor_m: the height over which elbows had better stay, base frame (m).
             is_free: which joints do not collide.
-            near: joints that are known, shape (n, 7), to which others near are looked for first, much sooner found.
 
         Returns:
             Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
         """
-        search = self._search(arm, path, torso_m, floor_m, is_free)
-        return search.found() if near is None else search.near_to(near)
+        return self._search(arm, path, torso_m, floor_m, is_free).found()
+
+    def arm_path_near(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
+    ) -> FloatArray | None:
+        """Joints that keep an arm's tool on a path, near to others that are known, shape (n, 7) (see `near_path`)."""
+        return near_path(self._arms[arm], path, float(torso_m), is_free, known)
 
     def arm_pair_path(
         self,

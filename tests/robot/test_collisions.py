@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -142,6 +143,30 @@ def test_a_posture_is_answered_alike_alone_and_among_others():
     assert COLLISIONS.free(FRONT, postures).tolist() == alone
     assert len(set(alone)) == 2
     assert COLLISIONS.free(FRONT, postures[:0]).shape == (0,)
+
+
+def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_moving_base():
+    corners, stands = (
+        random_postures(13, 22),
+        np.random.default_rng(23).uniform((-1.4, -0.3, -0.3), (-0.8, 0.3, 0.3), (13, 3)),
+    )
+    shares = np.linspace(0.0, 1.0, 40)
+    ways, bases = (
+        np.concatenate([a + np.multiply.outer(shares, b - a) for a, b in pairwise(ends)]) for ends in (corners, stands)
+    )
+    for is_certain in (False, True):
+        for arm in (0, 1):
+            found = COLLISIONS.arm_free(arm, bases, ways[:, arm], is_certain=is_certain)
+            alone = [
+                COLLISIONS.arm_free(arm, base[None], posture[None, arm], is_certain=is_certain)[0]
+                for base, posture in zip(bases, ways, strict=True)
+            ]
+            assert not np.any(alone & ~found)  # by where they were before, more is certain
+            assert np.count_nonzero(found != alone) <= (1 if is_certain else 0)
+            assert 50 < found.sum() < 450
+    alone = [bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, ways, strict=True)]
+    assert COLLISIONS.free(bases, ways).tolist() == alone
+    assert 10 < sum(alone) < 450
 
 
 def test_each_posture_may_have_a_base_of_its_own():

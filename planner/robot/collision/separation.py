@@ -10,6 +10,9 @@ algorithm. A pair is certainly apart if
   is reflected at p - q, which has every plane that is possible on its further side. Over the middle of a table that
   turns round and round, so the axes of one of the two are tried as well.
 
+Postures mostly follow one another along a path. So it is remembered by how much a pair was apart, and until its two
+parts have gone as far, it is not looked at again.
+
 Arrays are handed on one by one: to take them out of a tuple in the inner loop costs more than the loop does.
 """
 
@@ -106,10 +109,10 @@ def _nearest_along(
 
 
 @njit(cache=True, nogil=True)
-def _is_plane_between(
+def _room_at_plane(
     corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: tuple[float, float, float]
-) -> bool:
-    """Whether a plane is found with part b, a gap (m), and part a behind each other.
+) -> float:
+    """By how much more than a gap parts b and a are apart where a plane is found between them (m); -1 where none is.
 
     It is looked for along a direction like `way` at first, and along the axes of part b in the end.
     """
@@ -125,7 +128,7 @@ def _is_plane_between(
         wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
         along = wx * dx + wy * dy + wz * dz
         if along > 0.0:
-            return True
+            return along
         squared = wx * wx + wy * wy + wz * wz
         if squared == 0.0:
             break
@@ -136,9 +139,27 @@ def _is_plane_between(
         if dx * tx + dy * ty + dz * tz < 0.0:
             dx, dy, dz = -dx, -dy, -dz
         wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
-        if wx * dx + wy * dy + wz * dz > 0.0:
-            return True
-    return False
+        along = wx * dx + wy * dy + wz * dz
+        if along > 0.0:
+            return along
+    return -1.0
+
+
+@njit(cache=True, nogil=True)
+def _room_between(
+    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
+) -> float:
+    """By how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
+    wx, wy, wz = _towards(bounds, poses, a, b)
+    room = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
+    if room > 0.0:
+        return room
+    bx, by, bz = _towards(bounds, poses, b, a)
+    room = math.sqrt(bx * bx + by * by + bz * bz) - bounds[b, RADIUS] - margin
+    if room > 0.0:
+        return room
+    gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
+    return _room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
 
 
 @njit(cache=True, nogil=True)
@@ -147,19 +168,29 @@ def first_close_pair(
 ) -> int:
     """The first pair, from one on, that is not certainly apart by a margin (m); -1 if all are."""
     for pair in range(start, len(pairs)):
-        a, b = pairs[pair, 0], pairs[pair, 1]
-        reach = bounds[a, RADIUS] + margin
-        way = _towards(bounds, poses, a, b)
-        if way[0] * way[0] + way[1] * way[1] + way[2] * way[2] > reach * reach:
-            continue
-        reach = bounds[b, RADIUS] + margin
-        back = _towards(bounds, poses, b, a)
-        if back[0] * back[0] + back[1] * back[1] + back[2] * back[2] > reach * reach:
-            continue
-        gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-        if not _is_plane_between(corners, spans, poses, a, b, gap, way):
+        if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
             return pair
     return -1
+
+
+@njit(cache=True, nogil=True)
+def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
+    """Add to how far any point of each part has gone (m) what it goes from a pose to the next; remember that.
+
+    The middle goes its way, and what is round it no further than the radius times how far the rotation's matrix turns
+    a vector: its Frobenius norm over the square root of two, for the difference of two rotations.
+    """
+    for part in range(len(poses)):
+        turned = moved = 0.0
+        for axis in range(3):
+            for row in range(3):
+                change = poses[part, row, axis] - before[part, row, axis]
+                turned += change * change
+            change = poses[part, MIDDLE, axis] - before[part, MIDDLE, axis]
+            moved += change * change
+        if turned + moved != 0.0:
+            gone[part] += math.sqrt(moved) + bounds[part, RADIUS] * math.sqrt(0.5 * turned)
+            before[part] = poses[part]
 
 
 @njit(cache=True, nogil=True)
@@ -197,6 +228,7 @@ def first_close(
     corners, spans, bounds = parts
     found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
+    before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
     for i in range(len(joints)):
         if i < len(bases):
             pose_table(bases[i], tables, poses[first:])
@@ -205,7 +237,17 @@ def first_close(
             low, high = EACH * arms[k], EACH * (arms[k] + 1)
             pose_arm(shape, lift_m, joints[i, k], 1.0 - 2.0 * arms[k], poses[low:high])
             set_middles(bounds[low:high], poses[low:high])
-        found[i] = first_close_pair(corners, spans, bounds, poses, pairs, start[i], margin)
+        _add_ways(bounds, before, poses, gone)
+        found[i] = -1
+        for pair in range(start[i], len(pairs)):
+            a, b = pairs[pair]
+            if gone[a] + gone[b] < apart_until[pair]:
+                continue
+            room = _room_between(corners, spans, bounds, poses, a, b, margin)
+            if room < 0.0:
+                found[i] = pair
+                break
+            apart_until[pair] = gone[a] + gone[b] + room
         if found[i] >= 0:
             for side in range(2):
                 places[i, side] = poses[pairs[found[i], side]]
