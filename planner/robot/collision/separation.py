@@ -126,7 +126,7 @@ def _room_at_plane(
             break
         dx, dy, dz = dx / length, dy / length, dz / length
         wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
-        along = wx * dx + wy * dy + wz * dz
+        along: float = wx * dx + wy * dy + wz * dz
         if along > 0.0:
             return along
         squared = wx * wx + wy * wy + wz * wz
@@ -151,7 +151,7 @@ def _room_between(
 ) -> float:
     """By how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
     wx, wy, wz = _towards(bounds, poses, a, b)
-    room = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
+    room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
     if room > 0.0:
         return room
     bx, by, bz = _towards(bounds, poses, b, a)
@@ -159,7 +159,8 @@ def _room_between(
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    return _room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
+    room = _room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
+    return room
 
 
 @njit(cache=True, nogil=True)
