@@ -159,8 +159,7 @@ def _room_between(
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    room = _room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
-    return room
+    return float(_room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz)))
 
 
 @njit(cache=True, nogil=True)
