@@ -27,6 +27,9 @@ _LOOKS_PER_STATE = 12
 _FAILURES_MAX = 8
 """So many runs may turn out not to be real."""
 
+_WAYS_ALONE, _WAYS_TOGETHER = 4, 1
+"""So many ways to do the same are looked at with one hand and with both, which mostly fail for good, and slowly."""
+
 
 def greedy(problem: Problem, start: State, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
     """What is left to be done from a state on.
@@ -93,7 +96,8 @@ class _Greedy:
             return Act(first, steps, None)
         key = (steps[0].before.key, *(step.after.key for step in steps))
         if key not in self._made:
-            self._made[key] = self._problem.maker.first_real((steps,))
+            ways = _WAYS_ALONE if all(len(step.grips) == 1 for step in steps) else _WAYS_TOGETHER
+            self._made[key] = self._problem.maker.real(steps, ways, late_max=1)
         run = self._made[key]
         return None if run is None else Act(first, run.steps, run)
 

@@ -26,8 +26,8 @@ from planner.primitives.work import Work
 MARGIN_M = 0.001
 """How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
 
-_CHOICES_MAX = 40
-"""So many choices of orientations are looked at for a run."""
+_WAYS_MAX = 40
+"""So many ways to do what a run does are looked at."""
 
 _TRIED_ALONE_MAX, _TRIED_TOGETHER_MAX = 8, 2
 """So many of those that may do are tried with one arm, and with several: to lead these takes several times as long."""
@@ -136,12 +136,13 @@ class RunMaker:
         self.transits = Transits(machine, collisions)
         self.collisions = collisions
 
-    def real(self, steps: Sequence[Step]) -> RealRun | None:
+    def real(self, steps: Sequence[Step], ways: int = _WAYS_MAX, late_max: int = _LATE_MAX) -> RealRun | None:
         """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow.
 
-        Where it takes longer than they seem to, the quickest of the first few ways.
+        Looked at are so many ways to do what they do. Where it takes longer than they seem to, the quickest of the
+        first `late_max`.
         """
-        return self.first_real(islice(_choices(steps), _CHOICES_MAX), late_max=_LATE_MAX)
+        return self.first_real(islice(_ways(steps), ways), late_max=late_max)
 
     def first_real(self, choices: Iterable[tuple[Step, ...]], patience: int = 1, late_max: int = 1) -> RealRun | None:
         """The first that is real of some choices of steps; it is given up when a few, with patience more, are not.
@@ -224,7 +225,7 @@ class RunMaker:
         return late[0], late[1]
 
 
-def _choices(steps: Sequence[Step]) -> Iterator[tuple[Step, ...]]:
+def _ways(steps: Sequence[Step]) -> Iterator[tuple[Step, ...]]:
     """Steps, then all combinations of their variants, which take time to find."""
     yield tuple(steps)
     yield from islice(product(*(islice(step.variants(), _VARIANTS_MAX) for step in steps)), 1, None)
