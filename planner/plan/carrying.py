@@ -152,7 +152,7 @@ class Carrier:
         left, right = able
         if len(held) < len(arms):
             return len(left) > 0 and len(right) > 0
-        return bool(self._collisions.postures_apart(left, right).any())
+        return self._collisions.are_some_apart(left, right)
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
         """How an arm by itself can take a tool pose without touching body or table. Remembered."""

@@ -42,6 +42,10 @@ class Collisions(Protocol):
         """
         ...
 
+    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
+        """Whether some posture of the left arm and some of the right certainly do not touch; see `postures_apart`."""
+        ...
+
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
         """Of all that touches in one configuration, shape (arms, 7), what does so deepest; None if nothing does."""
         ...

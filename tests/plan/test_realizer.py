@@ -129,6 +129,9 @@ class BarredCollisions:
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
         return self._real.postures_apart(left, right)
 
+    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
+        return self._real.are_some_apart(left, right)
+
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
         return self._real.deepest_contact(base_in_table, joints)
 

@@ -113,9 +113,11 @@ def test_postures_are_apart_as_they_are_pair_by_pair():
         found = COLLISIONS.postures_apart(left, right)
         pairs = np.stack([left.repeat(len(right), 0), np.tile(right, (len(left), 1))], axis=1)
         np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart(pairs, is_certain=True))
+        assert COLLISIONS.are_some_apart(left, right) == found.any()
         apart, met = apart + int(found.sum()), met + int((~found).sum())
     assert min(apart, met) > 100
     assert COLLISIONS.postures_apart(np.empty((0, 7)), HOME[:1]).shape == (0, 1)
+    assert not COLLISIONS.are_some_apart(np.empty((0, 7)), HOME[:1])
 
 
 def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not():

@@ -100,7 +100,11 @@ class Collisions:
             left: joints of the left arm, shape (k, 7), the tool in the same pose in all of them.
             right: joints of the right arm, shape (l, 7), likewise.
         """
-        return postures_apart(self._arm, self._torso_m, self._parts, left, right, self._of_arms, self._margin_m)
+        return self._postures_apart(left, right, is_one_enough=False)
+
+    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
+        """Whether some posture of the left arm is certainly apart from some of the right; see `postures_apart`."""
+        return bool(self._postures_apart(left, right, is_one_enough=True).any())
 
     def body_free(self, base_in_table: Pose2) -> bool:
         """Whether the base, torso and head, without the arms, stay clear of the table."""
@@ -118,6 +122,10 @@ class Collisions:
             if (depth_m := self._depth(a, b, places)) >= 0.0:
                 found.append(Contact(self._names[a], self._names[b], depth_m))
             start[0] = pair + 1
+
+    def _postures_apart(self, left: FloatArray, right: FloatArray, *, is_one_enough: bool) -> BoolArray:
+        arm, pairs = self._arm, self._of_arms
+        return postures_apart(arm, self._torso_m, self._parts, left, right, pairs, self._margin_m, is_one_enough)
 
     def _are_free(
         self, pairs: Index, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False

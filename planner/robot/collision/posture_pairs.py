@@ -13,10 +13,19 @@ from planner.robot.collision.part_poses import EACH, Index, pose_arm, set_middle
 from planner.robot.collision.parts import PALM
 from planner.robot.collision.separation import Parts, first_close_pair
 
+_UNKNOWN = -1
+
 
 @njit(cache=True, nogil=True)
 def postures_apart(
-    shape: ArmShape, lift_m: float, parts: Parts, left: FloatArray, right: FloatArray, pairs: Index, margin: float
+    shape: ArmShape,
+    lift_m: float,
+    parts: Parts,
+    left: FloatArray,
+    right: FloatArray,
+    pairs: Index,
+    margin: float,
+    is_one_enough: bool,
 ) -> BoolArray:
     """Which postures of the left arm are certainly apart from which of the right, shape (k, l).
 
@@ -28,6 +37,7 @@ def postures_apart(
         right: those of the right arm, shape (l, 7), likewise.
         pairs: numbers of the parts to be compared, the left arm's first, shape (q, 2).
         margin: how far apart they should be (m).
+        is_one_enough: once two are found that are apart, no others are looked at.
     """
     corners, spans, bounds = parts
     are_apart = np.zeros((len(left), len(right)), dtype=np.bool_)
@@ -41,18 +51,21 @@ def postures_apart(
         return are_apart
     of_left, of_right = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
     of_both = pairs[~is_left_hand & ~is_right_hand]
-    is_right_apart = np.empty(len(right), dtype=np.bool_)
-    for j in range(len(right)):
-        both[EACH:] = rights[j]
-        is_right_apart[j] = first_close_pair(corners, spans, bounds, both, of_right, 0, margin) < 0
+    left_clear, right_clear = np.full(len(left), _UNKNOWN), np.full(len(right), _UNKNOWN)
     for i in range(len(left)):
         both[:EACH] = lefts[i]
-        if first_close_pair(corners, spans, bounds, both, of_left, 0, margin) >= 0:
-            continue
         for j in range(len(right)):
-            if is_right_apart[j]:
-                both[EACH:] = rights[j]
-                are_apart[i, j] = first_close_pair(corners, spans, bounds, both, of_both, 0, margin) < 0
+            both[EACH:] = rights[j]
+            if right_clear[j] == _UNKNOWN:
+                right_clear[j] = first_close_pair(corners, spans, bounds, both, of_right, 0, margin) < 0
+            if left_clear[i] == _UNKNOWN:
+                left_clear[i] = first_close_pair(corners, spans, bounds, both, of_left, 0, margin) < 0
+            if left_clear[i] == 0:
+                break
+            if right_clear[j] == 1 and first_close_pair(corners, spans, bounds, both, of_both, 0, margin) < 0:
+                are_apart[i, j] = True
+                if is_one_enough:
+                    return are_apart
     return are_apart
 
 
