@@ -105,7 +105,7 @@ class FreeHands:
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases = np.array([free.base_at(t) for t in moments])
         there = np.array([track.joints_at(t) for t in moments])
-        return bool(self._collisions.free(bases, there).all())
+        return self._collisions.are_all_free(bases, there)
 
     def _waiting(self, free: FreeTime, tail: Line, lead: Line) -> tuple[FreeTime, Keyframes]:
         """The base waits until the hands are home; they set out again when it has arrived.

@@ -18,8 +18,8 @@ class Collisions(Protocol):
     Joints are in rad. Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, (n, 3).
     """
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """Which configurations of all arms, shape (n, arms, 7), touch nothing; shape (n,)."""
+    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        """Whether none of some configurations, shape (n, arms, 7), touches anything."""
         ...
 
     def arm_free(

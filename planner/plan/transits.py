@@ -65,7 +65,7 @@ class Transits:
         """Whether the straight line between two configurations is free."""
         count = max(1, int(np.ceil(np.abs(end - start).max() / STEP_RAD)))
         shares = np.linspace(0.0, 1.0, count + 1)[:, None, None]
-        return bool(self._collisions.free(base, start + shares * (end - start)).all())
+        return self._collisions.are_all_free(base, start + shares * (end - start))
 
     def _by_way_of(self, start: FloatArray, goal: FloatArray) -> Iterator[tuple[FloatArray, ...]]:
         """What to go by way of: nothing, then one place, then two, the nearest first."""

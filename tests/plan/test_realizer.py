@@ -113,8 +113,8 @@ class BarredCollisions:
         self._real = real
         self._is_barred = is_barred
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        return self._real.free(bases, joints)
+    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        return self._real.are_all_free(bases, joints)
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False

@@ -168,7 +168,9 @@ def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_m
             assert 50 < found.sum() < 450
     alone = [bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, ways, strict=True)]
     assert COLLISIONS.free(bases, ways).tolist() == alone
-    assert 10 < sum(alone) < 450
+    stretches = [COLLISIONS.are_all_free(bases[k : k + 3], ways[k : k + 3]) for k in range(len(ways) - 2)]
+    assert stretches == [all(alone[k : k + 3]) for k in range(len(ways) - 2)]
+    assert 10 < sum(stretches) < sum(alone) < 450
 
 
 def test_each_posture_may_have_a_base_of_its_own():

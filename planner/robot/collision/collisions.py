@@ -80,6 +80,10 @@ class Collisions:
         """In which postures, shape (n, 2, 7), nothing collides, shape (n,)."""
         return self._are_free(self._all, bases, joints, _BOTH)
 
+    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        """Whether nothing collides in any of some postures, shape (n, 2, 7); sooner told than `free` where not so."""
+        return next(self._colliding(self._all, bases, joints, _BOTH), None) is None
+
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
@@ -130,22 +134,28 @@ class Collisions:
     def _are_free(
         self, pairs: Index, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False
     ) -> BoolArray:
-        """In which postures no pair touches: rounds of the compiled pass, each going on where coal found none."""
-        stands, joints = _rows(bases), np.ascontiguousarray(joints, dtype=np.float64)
+        """In which postures no pair touches."""
+        if is_certain:
+            close, _ = self._first_close(pairs, _rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+            return close < 0
         is_free = np.ones(len(joints), dtype=np.bool_)
+        is_free[[*self._colliding(pairs, bases, joints, arms)]] = False
+        return is_free
+
+    def _colliding(self, pairs: Index, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> Iterator[int]:
+        """The postures in which some pair touches: rounds of the compiled pass, each going on where coal found none."""
+        stands = _rows(bases)
         asked, start = np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
         while len(asked):
             at = stands if len(stands) == 1 else stands[asked]
             close, places = self._first_close(pairs, at, joints[asked], arms, start)
             is_open = close >= 0
-            if is_certain:
-                return ~is_open
             for k in np.flatnonzero(is_open):
                 a, b = pairs[close[k]].tolist()
-                is_open[k] = not self._touch(a, b, places[k])
-                is_free[asked[k]] = is_open[k]
+                if self._touch(a, b, places[k]):
+                    is_open[k] = False
+                    yield int(asked[k])
             asked, start = asked[is_open], close[is_open] + 1
-        return is_free
 
     def _first_close(
         self, pairs: Index, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
@@ -157,7 +167,7 @@ class Collisions:
             self._parts,
             poses,
             pairs,
-            joints,
+            np.ascontiguousarray(joints, dtype=np.float64),
             arms,
             bases,
             self._tables,
