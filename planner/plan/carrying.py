@@ -12,7 +12,7 @@ from planner.plan.carried import Carried
 from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Leads, Lines
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments
-from planner.robot.arm_path import IsFree, NoPath
+from planner.robot.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
 """Hands that point down by more than the angle of this sine may have one finger over the other; flatter ones would

@@ -12,7 +12,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.plan.moments import Moments, about_x
-from planner.robot.arm_path import ToolPath
+from planner.robot.tool_path import ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12
 """How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""

@@ -7,9 +7,9 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.primitives.reach import Reach
 from planner.robot.arm_pair_path import BothArms
-from planner.robot.arm_path import IsFree, NoPath, ToolPath
 from planner.robot.card import RobotCard
 from planner.robot.collision.contact import Contact
+from planner.robot.tool_path import IsFree, NoPath, ToolPath
 
 
 class Collisions(Protocol):

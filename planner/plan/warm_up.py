@@ -11,7 +11,7 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.plan.plan import Plan
 from planner.primitives.base_legs import travel
-from planner.robot.arm_path import ToolPath
+from planner.robot.tool_path import ToolPath
 
 _NAPKIN = {
     "name": "napkin",

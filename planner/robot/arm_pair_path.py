@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robot.arm_path import ArmSearch, NoPath, links_beside, links_inside
+from planner.robot.arm_path import ArmSearch, links_beside, links_inside
 from planner.robot.joint_chain_pair import cheapest_chain_pair
+from planner.robot.tool_path import NoPath
 
 _TRIES_MAX = 24
 

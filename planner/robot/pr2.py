@@ -11,7 +11,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robot.arm import read_arm
 from planner.robot.arm_pair_path import BothArms, arm_pair_path
-from planner.robot.arm_path import ArmSearch, IsFree, NoPath, ToolPath, free_postures, near_path
+from planner.robot.arm_path import ArmSearch
 from planner.robot.card import RobotCard
 from planner.robot.collision.collisions import OPENING_M, Collisions
 from planner.robot.collision.robot_parts import RobotParts, robot_parts
@@ -20,6 +20,7 @@ from planner.robot.posture_room import Room, room_beside
 from planner.robot.pr2_card import pr2_card
 from planner.robot.reach import Pr2Reach
 from planner.robot.sided_arm import SidedArm
+from planner.robot.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
 
 ROBOT_NAMES = ("pr2",)
 

@@ -7,7 +7,7 @@ import pytest
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.geometry.table import Table
-from planner.robot.arm_path import IsFree, NoPath, ToolPath
+from planner.robot.tool_path import IsFree, NoPath, ToolPath
 from tests.robot.collision_samples import FAR, ROBOT, TORSO_M
 
 TABLE_M = 0.79

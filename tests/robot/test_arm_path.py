@@ -8,8 +8,8 @@ import pytest
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robot.arm import MIRROR
-from planner.robot.arm_path import NoPath, ToolPath
 from planner.robot.pr2 import load_robot
+from planner.robot.tool_path import NoPath, ToolPath
 from tests.robot.model import limits, pin_tool_pose
 
 ROBOT = load_robot("pr2")
