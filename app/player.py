@@ -10,7 +10,9 @@ from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
 from planner.cloth.garment import Garment
+from planner.geometry.pose import Pose2
 from planner.plan.plan import Plan
+from planner.primitives.scene import Scene
 
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25
@@ -47,6 +49,7 @@ class Player:
         self._shown: DocumentState | None = None
         self._plan: Plan | None = None
         self._spread: Garment | None = None
+        self._bare: Pose2 | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         if desk is not None:
@@ -73,7 +76,7 @@ class Player:
                 self._update()
             except Exception:
                 _log.exception("the stage could not be brought up to date")
-                self._shown = self._plan = self._spread = None
+                self._shown = self._plan = self._spread = self._bare = None
                 if not has_failed:
                     self._changed.set()
                 has_failed = True
@@ -108,7 +111,7 @@ class Player:
             self._plan = state.film.plan
             self._stage.show_scene(state.film.plan.scene)
             self._stage.show_plan(state.film.plan)
-        self._spread = self._waits_until_s = None
+        self._spread = self._bare = self._waits_until_s = None
         self._stage.show(state.film.timeline.at(self._document.t_s))
         self._document.stop_at_end()
 
@@ -117,15 +120,26 @@ class Player:
         return film.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
 
     def _show_spread(self, state: DocumentState) -> None:
-        """Show the garment spread out; while the drawing is none, what was shown before stays."""
+        """Show the garment spread out; while the drawing is none that could lie there, what was shown before stays."""
         spread, scene = state.solution.spread, state.drawing.scene
-        if spread is None or spread is self._spread or self._is_to_wait(state):
-            return
-        self._spread, self._plan, self._waits_until_s = spread, None, None
-        self._stage.show_scene(scene)
         stations = dict(scene.stations)
         base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
+        if spread is None:
+            if not state.drawing.outline or (self._plan is None and self._spread is None):
+                self._show_bare(scene, base)
+            return
+        if spread is self._spread or self._is_to_wait(state):
+            return
+        self._spread, self._plan, self._bare, self._waits_until_s = spread, None, None, None
+        self._stage.show_scene(scene)
         self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)
+
+    def _show_bare(self, scene: Scene, base: Pose2) -> None:
+        """Show the robot at a table without cloth: nothing is drawn, or nothing yet that could lie there."""
+        if base != self._bare:
+            self._spread, self._plan, self._bare, self._waits_until_s = None, None, base, None
+            self._stage.show_scene(scene)
+            self._stage.show_bare(base)
 
     def _is_to_wait(self, state: DocumentState) -> bool:
         """Whether a film of what is drawn is soon to be had, and there is something to look at meanwhile."""

@@ -53,6 +53,12 @@ class FoldView:
             line.remove()
         self._lines = [self._add_line(index, fold) for index, fold in enumerate(garment.folds)]
 
+    def clear(self) -> None:
+        """No folds: there is no garment."""
+        for line in self._lines:
+            line.remove()
+        self._folds, self._lines, self._seen = (), [], None
+
     def place(
         self, placement: Pose2, cloth: ClothSurface, top: TableTop, done: frozenset[int], current: int | None
     ) -> None:

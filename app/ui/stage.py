@@ -91,6 +91,15 @@ class Stage:
             for view in (self._robot, self._grips):
                 view.stand_on(-scene.table.height_m)
 
+    def show_bare(self, base: Pose2) -> None:
+        """Show the robot waiting at a station, and no cloth."""
+        with self._server.atomic():
+            self._take_up(())
+            self._robot.pose(base, self._waiting_joints())
+            self._cloth.set_visible(is_visible=False)
+            self._folds.clear()
+        self._server.flush()
+
     def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
         """Show a garment that lies there and has no plan, and the robot waiting at a station."""
         with self._server.atomic():
@@ -134,10 +143,14 @@ class Stage:
         return self._card.joint_values(self.scene.torso_m, homes, [0.0] * len(homes))
 
     def _begin(self, garment: Garment, plan: tuple[Stint, ...]) -> None:
+        self._take_up(plan)
+        self._cloth.set_visible(is_visible=True)
+        self._folds.show_garment(garment)
+
+    def _take_up(self, plan: tuple[Stint, ...]) -> None:
         self._stints = plan
         self._marked = None
         self._grips.show(None)
-        self._folds.show_garment(garment)
 
     def _show_stint(self, frame: Frame) -> None:
         stint = self._stints[frame.primitive]

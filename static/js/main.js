@@ -23,18 +23,18 @@ const togglePlay = () => store.command({ do: store.playback?.playing ? "pause" :
 mountStatus(store, byId("status"));
 mountDock(store);
 mountGarments(store);
-mountHistory(store);
 mountSplitter();
 mountPhone();
 const dialogs = mountDialogs(store);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
 const verbs = {
-  undo: () => store.undo(),
-  redo: () => store.redo(),
+  undo: () => board.takeBack() || store.undo(),
+  redo: () => board.tool.isBusy || store.redo(),
   play: togglePlay,
   save: dialogs.save,
   help: dialogs.help,
 };
+mountHistory(store, verbs);
 mountStage(store, keyHandler(verbs)); // letters move the camera there
 
 document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board) }));

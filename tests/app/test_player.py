@@ -10,6 +10,7 @@ from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.player import UPDATES_PER_S, Player
 from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
 from tests.app.drawing.drawings import outlined, pulled
 
@@ -19,7 +20,7 @@ class CountingStage:
 
     def __init__(self, has_watchers: bool) -> None:
         self.has_watchers = has_watchers
-        self.lying, self.plans = 0, 0
+        self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
         self.themes: list[bool] = []
         self.scenes: list[Scene] = []
@@ -32,6 +33,9 @@ class CountingStage:
 
     def show_garment(self, *_: object) -> None:
         self.lying += 1
+
+    def show_bare(self, _: Pose2) -> None:
+        self.bare += 1
 
     def show_plan(self, _: Plan) -> None:
         self.plans += 1
@@ -187,10 +191,37 @@ def test_a_spoilt_drawing_leaves_on_the_stage_what_was_there(plan: Plan) -> None
     player = Player(document, stage)
     try:
         until(lambda: stage.lying == 1)
-        document.edit(Edit("Clear", outlined(document.state.drawing)))
+        document.edit(Edit("Spoil", outlined(document.state.drawing, (0.0, 0.0), (0.1, 0.0))))
         document.set_theme(is_dark=True)
         until(lambda: stage.themes == [False, True])
-        assert stage.lying == 1
+        assert (stage.lying, stage.bare) == (1, 0)
+    finally:
+        player.close()
+
+
+def test_where_nothing_is_drawn_the_stage_has_no_cloth() -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.edit(Edit("Clear", outlined(document.state.drawing)))
+        until(lambda: stage.bare == 1)
+        document.set_theme(is_dark=True)
+        document.undo()
+        until(lambda: stage.lying == 2)
+        assert stage.bare == 1
+    finally:
+        player.close()
+
+
+@pytest.mark.parametrize("corners", [(), ((0.0, 0.0), (0.1, 0.0))])
+def test_a_robot_waits_at_the_table_before_there_is_any_cloth(corners: tuple[Point2, ...]) -> None:
+    drawing = drawing_of(load_garment("hand-towel"))
+    stage = CountingStage(True)
+    player = Player(Document(draft_of(outlined(drawing, *corners))), stage)
+    try:
+        until(lambda: stage.bare == 1)
+        assert stage.lying == 0
     finally:
         player.close()
 

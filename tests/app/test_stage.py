@@ -54,6 +54,22 @@ def shown_pose(stage: Stage, node: str) -> NDArray[np.float64]:
     return placed
 
 
+def test_without_cloth_the_robot_waits_as_it_does_with_cloth(stage: Stage, plan: Plan) -> None:
+    garment, scene = load_garment("t-shirt"), Scene()
+    base = dict(scene.stations)["front"]
+    stage.show_plan(plan)
+    stage.show(plan.timeline().at(plan.timeline().duration_s))
+    stage.show_bare(base)
+    handle = stage._server.scene.get_handle_by_name
+    assert [handle(f"/cloth/{part}").visible for part in ("front", "back", "edges")] == [False] * 3
+    assert handle("/folds/0") is None
+    waiting = shown_pose(stage, "/robot/l_gripper_tool_frame")
+    stage.show_garment(garment, lying_cloth(garment, scene.table), base)
+    assert [handle(f"/cloth/{part}").visible for part in ("front", "back", "edges")] == [True] * 3
+    assert handle("/folds/0") is not None
+    np.testing.assert_allclose(shown_pose(stage, "/robot/l_gripper_tool_frame"), waiting, atol=1e-9)
+
+
 def test_every_link_stands_where_forward_kinematics_says(stage: Stage, plan: Plan) -> None:
     urdf = yourdfpy.URDF.load(str(CARD.urdf_path), load_meshes=False, build_collision_scene_graph=False)
     stage.show_plan(plan)

@@ -85,7 +85,8 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page)
         }""",
         corners,
     )
-    # The axis is x = 2; corners on it stay single.
+    # The axis is x = 2; corners on it stay single. An image is called like the corner that was nearest to it.
+    assert [corner["id"] for corner in outline] == ["v3", "v4", "v0", "v1", "v2"]
     assert [corner["point"] for corner in outline] == [[2, 2.5], [0.5, 2], [0, 0], [4, 0], [3.5, 2]]
 
 

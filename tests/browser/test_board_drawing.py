@@ -85,6 +85,37 @@ def phone(chromium: Browser) -> Iterator[BrowserContext]:
     opened.close()
 
 
+def test_undo_takes_back_what_is_being_drawn_before_any_step(page: Page, blank: Sheet) -> None:
+    hand = Hand(page)
+    hand.tool("Draw outline")
+    for corner in [*SEVEN, SEVEN[0]]:
+        hand.click(corner)
+    expect_step(page, "Draw outline")
+    hand.tool("Draw outline")
+    for corner in SEVEN[:3]:
+        hand.click(corner)
+    sketched = page.locator(".is-sketching .handle.corner")
+    expect(sketched).to_have_count(7 + 3)
+    page.keyboard.press("Control+z")
+    expect(sketched).to_have_count(7 + 2)
+    page.get_by_role("button", name="Undo").click()
+    expect(sketched).to_have_count(7 + 1)
+    expect_step(page, "Draw outline")
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    expect(page.get_by_role("button", name="Redo")).to_be_enabled()
+    assert points(blank) == []
+
+
+def test_the_first_key_may_put_a_corner(page: Page, blank: Sheet) -> None:
+    page.keyboard.press("p")
+    page.keyboard.press("Enter")
+    expect(page.locator(".cross")).to_have_count(1)
+    expect(page.locator(".is-sketching .handle.corner")).to_have_count(1)
+    page.keyboard.press("v")
+    expect(page.locator(".cross")).to_have_count(0)
+
+
 def test_two_fingers_zoom_and_drop_the_stroke(phone: BrowserContext, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet("t-shirt")
     page = phone.new_page()

@@ -74,6 +74,22 @@ def test_a_fold_is_selected_in_graph_and_list_at_once(page: Page, graph: Locator
     page.get_by_role("button", name="Fold-DAG").click()
 
 
+def test_a_graph_that_was_shown_before_knows_of_folds_that_have_gone(page: Page) -> None:
+    toggle = page.get_by_role("button", name="Fold-DAG")
+    toggle.click()
+    toggle.click()
+    folds = page.get_by_role("list", name="Folds").locator(".fold-name")
+    folds.last.click()
+    page.keyboard.press("Delete")
+    expect(folds).to_have_count(2)
+    toggle.click()
+    expect(page.get_by_role("group", name="Fold-DAG")).to_have_accessible_name("Fold-DAG of 2 in 1 steps")
+    toggle.click()
+    page.keyboard.press("Control+z")
+    expect(folds).to_have_count(3)
+    expect_planned(page)
+
+
 def test_folds_stand_in_columns_by_depth_and_edges_keep_clear_of_them(page: Page) -> None:
     # 0 -> 1 -> 2 -> 4 and 3 -> 4: the edge from 3 passes two columns by, under what stands there.
     laid = page.evaluate(LAID, [5, [[0, 1], [1, 2], [2, 4], [3, 4]]])

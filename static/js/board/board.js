@@ -188,6 +188,14 @@ export class Board extends Shown {
     return true;
   }
 
+  /** Undo what is being drawn, before any step of the document. @returns {boolean} whether anything is */
+  takeBack() {
+    if (!this.tool.isBusy) return false;
+    this.tool.takeBack();
+    this.render();
+    return true;
+  }
+
   /** Show the axis over which things are mirrored, or not any more. @param {boolean} isShown */
   showAxis(isShown) {
     clearTimeout(this.axisTimer);

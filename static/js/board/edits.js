@@ -1,6 +1,6 @@
 /** Changes to a drawing. Each alters the drawing it is given, which is a copy. */
 
-import { between, boxOf, mirrored, turned } from "./geometry.js";
+import { between, boxOf, distance, mirrored, turned } from "./geometry.js";
 import { axisOf, leftOf } from "./symmetry.js";
 
 /** How far inside the table's edge cloth is laid (m). */
@@ -125,7 +125,11 @@ export function mirrorFolds(drawing, ids) {
   }
 }
 
-/** Make what is right of the garment's axis the mirror image of what is left of it. @param {any} drawing */
+/**
+ * Make what is right of the garment's axis the mirror image of what is left of it. Images keep the names of the corners
+ * in whose place they come, so that folds stay tied to them.
+ * @param {any} drawing
+ */
 export function mirrorOutline(drawing) {
   const axis = axisOfGarment(drawing);
   const isLeft = ({ point }) => leftOf(point, axis) >= -ON_AXIS_M;
@@ -138,15 +142,25 @@ export function mirrorOutline(drawing) {
     half.push(corner);
   }
   if (half.length < 2) return;
-  const taken = [...ring];
-  const other = half
+  const images = half
     .filter(({ point }) => leftOf(point, axis) > ON_AXIS_M)
-    .map(({ point }) => {
-      const made = { id: freshId("v", taken), point: mirrored(point, axis[0], axis[1]) };
-      taken.push(made);
-      return made;
-    });
-  drawing.outline = [...half, ...other.reverse()];
+    .map(({ point }) => mirrored(point, axis[0], axis[1]))
+    .reverse();
+  const ids = nearestIds(images, ring.filter((corner) => !half.includes(corner)));
+  const outline = [...half];
+  images.forEach((point, index) => outline.push({ id: ids.get(index) ?? freshId("v", [...ring, ...outline]), point }));
+  drawing.outline = outline;
+}
+
+/** For each of some points a corner of its own, the nearest pairs first. @returns {Map<number, string>} by point */
+function nearestIds(points, corners) {
+  const pairs = points.flatMap((point, index) =>
+    corners.map((corner) => ({ index, id: corner.id, away: distance(point, corner.point) })),
+  );
+  const ids = new Map();
+  for (const { index, id } of pairs.sort((one, other) => one.away - other.away))
+    if (!ids.has(index) && ![...ids.values()].includes(id)) ids.set(index, id);
+  return ids;
 }
 
 /** Put the partner of each corner where the corner's mirror image is. @param {any} drawing @param {string[]} ids */

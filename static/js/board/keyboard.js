@@ -74,11 +74,17 @@ export class Keyboard {
       ARROWS[event.key].map((way) => way * step),
     );
     this.cross = [round(x), round(y)];
-    this.isOn = true;
-    this.reveal();
-    board.tool.hover(this.pointer(event));
+    this.begin(event);
     board.announce(board.whereText(this.cross));
     return true;
+  }
+
+  /** From now on the cross leads, from where it is or begins. @param {KeyboardEvent} event */
+  begin(event) {
+    this.isOn = true;
+    this.cross ??= this.first();
+    this.reveal();
+    this.board.tool.hover(this.pointer(event));
   }
 
   /** The middle of what is seen, on whole centimetres; for a fold the cloth's first corner. */
@@ -103,8 +109,7 @@ export class Keyboard {
 
   /** The cross as a pointer. @param {KeyboardEvent} event @returns {import("./pointer.js").Pointer} */
   pointer(event) {
-    const at = this.cross ?? this.first();
-    this.cross = at;
+    const at = (this.cross ??= this.first());
     return {
       px: this.board.view.toPx(at),
       at,
@@ -133,7 +138,7 @@ export class Keyboard {
   }
 
   items() {
-    if (!this.isOn || !this.cross) return [];
+    if (!this.isOn || !this.cross || !DRAWING.has(this.board.tool.name)) return [];
     const [x, y] = this.board.view.toPx(this.cross);
     return [{ key: "cross", tag: "path", class: "cross", d: `M${x - 14} ${y}h10m8 0h10M${x} ${y - 14}v10m0 8v10` }];
   }

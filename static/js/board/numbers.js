@@ -5,12 +5,12 @@ import { middleOf, moveCorners, moveFold } from "./edits.js";
 import { between, distance, toOuter } from "./geometry.js";
 import { atLength } from "./snap.js";
 import { laid } from "./tools/place.js";
-import { evaluated, number, parsed, unit } from "./units.js";
+import { evaluated, number, parsed, problemOf, unit } from "./units.js";
 
 const AWAY_PX = 16;
 const DEGREE = Math.PI / 180;
 
-/** @typedef {{label: string, name: string, value: string, put: (text: string) => boolean}} Field */
+/** @typedef {{label: string, name: string, value: string, put: (text: string) => string}} Field */
 
 export class Numbers {
   /** @param {import("./board.js").Board} board */
@@ -66,9 +66,10 @@ export class Numbers {
   }
 
   put(index, input) {
-    const isGood = this.fields[index].put(input.value);
-    if (!isGood) this.board.store.refuse(`\u201C${input.value}\u201D is no number. Write 30, 18in or 91.4/2.`);
-    if (!isGood) input.value = this.fields[index].value;
+    const problem = this.fields[index].put(input.value);
+    if (!problem) return;
+    this.board.store.refuse(problem);
+    input.value = this.fields[index].value;
   }
 
   key(event, index, input) {
@@ -188,22 +189,21 @@ export class Numbers {
       value: (placement.yaw_rad / DEGREE).toFixed(1).replace(/\.0$/, ""),
       put: (text) => {
         const degrees = evaluated(text.replace("\u00B0", "").trim());
-        if (degrees === null) return false;
+        if (degrees === null) return `\u201C${text}\u201D is no number of degrees. Write 90 or 180/4.`;
         this.board.store.edit(
           "Turn garment",
           (changed) => void (changed.placement = laid(centre, middle, degrees * DEGREE)),
         );
-        return true;
+        return "";
       },
     };
     return { key: "place", at: /** @type {[number, number]} */ ([view.width, 0]), fields: [place(0), place(1), turn] };
   }
 
-  /** Make a change of a length that was written; false if it is none. */
-  move(text, change, label, least = -Infinity) {
-    const metres = parsed(text);
-    if (metres === null || metres < least) return false;
-    this.board.store.edit(label, (drawing) => change(metres, drawing));
-    return true;
+  /** Make a change of a length that was written, or tell what is wrong with it. @returns {string} */
+  move(text, change, label, least = undefined) {
+    const problem = problemOf(text, least);
+    if (!problem) this.board.store.edit(label, (drawing) => change(parsed(text), drawing));
+    return problem;
   }
 }

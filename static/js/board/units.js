@@ -30,6 +30,21 @@ export function parsed(text) {
   return value === null ? null : value * (suffix ? METRES[suffix] : unit.metres);
 }
 
+/** No length is larger, either way (m). */
+const MOST_M = 10;
+
+/**
+ * What is wrong with a length that somebody wrote; empty if nothing is.
+ * @param {string} text
+ * @param {number} least metres
+ */
+export function problemOf(text, least = -MOST_M) {
+  const metres = parsed(text);
+  if (metres === null) return `\u201C${text}\u201D is no number. Write 30, 18in or 91.4/2.`;
+  if (metres < least) return `\u201C${text}\u201D is too little: at least ${length(least)}.`;
+  return metres > MOST_M ? `\u201C${text}\u201D is too much: at most ${length(MOST_M)}.` : "";
+}
+
 /** The value of a sum of numbers with + - * / and brackets; null if it is none. @param {string} sum */
 export function evaluated(sum) {
   if (!SUM.test(sum)) return null;

@@ -39,6 +39,8 @@ export class Dag {
     this.folds = folds;
     this.plan = plan;
     this.drawn = 0;
+    this.nodes = []; // of other folds; while it is hidden none are drawn
+    this.edges = [];
     this.draw();
   }
 
@@ -48,8 +50,6 @@ export class Dag {
     const width = this.root.clientWidth;
     if (!folds || !width || width === this.drawn) return;
     this.drawn = width;
-    this.nodes = [];
-    this.edges = [];
     const missing = folds.length ? "Known once the folds can be made." : "No folds yet.";
     if (plan && folds.length) this.root.replaceChildren(this.graph(), this.key());
     else this.root.replaceChildren(element("p", "hint", missing));

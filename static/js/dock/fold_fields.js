@@ -1,9 +1,12 @@
 /** What can be changed of the fold that is selected: colour, grip radius, name, place in the order. */
 
-import { parsed } from "../board/units.js";
+import { parsed, problemOf } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { iconButton, relabel } from "./buttons.js";
 import { COLOURS, length, MOVED } from "./words.js";
+
+/** Fingers that hold less hold nothing (m). */
+const LEAST_GRIP_M = 0.001;
 
 export class FoldFields {
   /**
@@ -73,13 +76,13 @@ export class FoldFields {
     other?.click();
   }
 
-  /** Take the radius that was typed; what is no length is put back. */
+  /** Take the radius that was typed; what is none is put back, and said. */
   grip() {
     const text = this.radius.value.trim();
     this.isTyped = false;
-    const metres = parsed(text);
-    if (text === "") this.verbs.onGrip(null);
-    else if (metres !== null && metres > 0) this.verbs.onGrip(metres);
-    else this.radius.value = this.told ?? "";
+    const problem = text === "" ? "" : problemOf(text, LEAST_GRIP_M);
+    if (!problem) this.verbs.onGrip(text === "" ? null : parsed(text));
+    else this.verbs.onRefuse(problem);
+    if (problem) this.radius.value = this.told ?? "";
   }
 }

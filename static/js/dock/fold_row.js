@@ -15,6 +15,7 @@ const STATES = { done: "done", current: "being folded", available: "can be folde
  * @property {(name: string) => void} onRename
  * @property {(kind: "blue"|"red") => void} onColour
  * @property {(radius: number|null) => void} onGrip
+ * @property {(why: string) => void} onRefuse
  * @property {(by: number) => void} onMove
  * @property {() => void} onDelete
  */

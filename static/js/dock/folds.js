@@ -88,6 +88,7 @@ export class Folds {
       onRename: (name) => store.edit("Rename fold", edits.renamed(id, name)),
       onColour: (kind) => store.edit(`Make fold ${kind}`, edits.recoloured(id, kind)),
       onGrip: (radius) => store.edit("Set grip radius", edits.gripped(id, radius)),
+      onRefuse: (why) => store.refuse(why),
       onMove: (by) => this.moveTo(id, this.indexOf(id) + by),
       onDelete: () => this.remove(id),
     });

@@ -123,6 +123,19 @@ def test_what_is_no_number_is_refused_in_words(page: Page, cloth: Desk) -> None:
     expect_no_step(page)
 
 
+def test_a_number_that_is_too_large_is_refused_in_the_unit_of_the_page(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.get_by_label("x of the vertex").fill("99999")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201c99999\u201d is too much: at most 1000.0 cm")
+    expect(page.get_by_label("x of the vertex")).to_have_value("61.0")
+    Hand(page).click((0.2, 0.0))
+    page.get_by_label("Length of the edge").fill("-5")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201c-5\u201d is too little: at least 0.1 cm")
+    expect_no_step(page)
+
+
 def test_an_edge_gets_the_length_that_is_typed(page: Page, cloth: Desk) -> None:
     Hand(page).click((0.2, 0.0))
     page.get_by_label("Length of the edge").fill("91.4/2+2")
@@ -187,6 +200,17 @@ def test_mirroring_a_garment_pulled_out_of_shape_keeps_to_its_own_axis(page: Pag
     assert len(found) == 10
     page.mouse.move(*hand.px((0.2, 0.3)))
     expect(page.locator(".mirror-axis")).to_have_count(0)
+
+
+def test_mirroring_a_garment_that_is_alike_on_both_sides_leaves_its_folds_where_they_are(
+    page: Page, shirt: Desk
+) -> None:
+    before = [[fold[end]["point"] for end in ("start", "end")] for fold in shirt.drawing["folds"]]
+    Hand(page).tool("Mirror")
+    expect_step(page, "Mirror outline")
+    for fold, ends in zip(shirt.drawing["folds"], before, strict=True):
+        for end, point in zip(("start", "end"), ends, strict=True):
+            assert fold[end]["point"] == pytest.approx(point, abs=0.002)
 
 
 def test_the_snap_in_force_is_named_and_control_suspends_it(page: Page, cloth: Desk) -> None:

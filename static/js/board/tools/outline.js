@@ -102,13 +102,18 @@ export class OutlineTool extends Tool {
     return wasBusy;
   }
 
+  takeBack() {
+    this.points.pop();
+  }
+
   /** @param {KeyboardEvent} event */
   key(event) {
     if (event.key === "Backspace" && this.isBusy) {
-      this.points.pop();
+      this.takeBack();
       return true;
     }
     if (event.key !== "Enter") return false;
+    if (!this.isBusy) this.board.keyboard.begin(event);
     if (this.board.isByKeyboard) this.put();
     else if (this.isBusy) this.close();
     return true;

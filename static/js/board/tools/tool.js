@@ -54,6 +54,11 @@ export class Tool {
     return false;
   }
 
+  /** Take back the last part of what is begun. */
+  takeBack() {
+    this.cancel();
+  }
+
   /** @param {KeyboardEvent} _event @returns {boolean} whether it was ours */
   key(_event) {
     return false;
