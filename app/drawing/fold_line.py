@@ -2,7 +2,8 @@
 
 An end just drawn is put onto the boundary when it is near enough, as the planner does. An end that is tied goes where
 its tie takes it. Mostly that is on the boundary. When it is not, because cloth now lies beyond it or there is
-none left, the line is kept, and the end slides along it to the nearest place on the boundary.
+none left, the line is kept, and the end slides along it to the nearest place on the boundary. The same holds for both
+ends where folding has brought what they are tied to together.
 """
 
 import math
@@ -72,6 +73,8 @@ def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m
         radius_m: its grip radius (m).
     """
     places = tuple(_place(end, replay, names, is_red=crease.is_red) for end in crease.ends)
+    if math.dist(places[0].point, places[1].point) <= LENGTH_M:
+        places = tuple(_Place(end, end.point, is_held=False, is_free=end.tie is not None) for end in crease.ends)
     first: Problem | None = None
     for start, end in _candidates(places[0], places[1], replay, is_red=crease.is_red):
         found = _tried(crease, (start, end), index, replay, names, radius_m)

@@ -11,8 +11,9 @@ export function mountGarments(store) {
   const show = () => {
     if (!store.state) return;
     const { name, title } = store.state.drawing;
+    const own = { name, title: title || name };
     const isKnown = entries.some((entry) => entry.name === name);
-    const shown = isKnown ? entries : [{ name, title: title || name }, ...entries];
+    const shown = isKnown ? entries.map((entry) => (entry.name === name ? own : entry)) : [own, ...entries];
     select.replaceChildren(...shown.map((entry) => new Option(entry.title, entry.name)));
     select.value = name;
   };

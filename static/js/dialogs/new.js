@@ -8,6 +8,16 @@ import { picture } from "./picture.js";
 
 const WAIT_MS = 120;
 
+/** Where keys lead in the list of templates. @type {Record<string, (index: number) => number>} */
+const STEPS = {
+  ArrowLeft: (index) => index - 1,
+  ArrowUp: (index) => index - 1,
+  ArrowRight: (index) => index + 1,
+  ArrowDown: (index) => index + 1,
+  Home: () => 0,
+  End: () => Infinity,
+};
+
 export async function showNew() {
   const list = element("div", "templates");
   const detail = element("div", "template-detail");
@@ -17,12 +27,25 @@ export async function showNew() {
   const answer = await fetch("/api/templates").catch(() => null);
   const templates = answer?.ok ? await answer.json() : [];
   const entries = [...templates, null];
+  const options = entries.map((template, index) => tile(template, () => choose(index)));
   const choose = (index) => {
-    for (const [n, option] of [...list.children].entries()) option.setAttribute("aria-selected", String(n === index));
-    detail.replaceChildren(...(entries[index] ? measures(entries[index]) : blank()));
+    for (const [n, option] of options.entries()) {
+      option.setAttribute("aria-selected", String(n === index));
+      option.tabIndex = n === index ? 0 : -1;
+    }
+    detail.replaceChildren(...(entries[index] ? measures(entries[index]) : blank(answer?.ok ? "" : OFFLINE)));
   };
-  list.append(...entries.map((template, index) => tile(template, () => choose(index))));
+  list.addEventListener("keydown", (event) => {
+    const to = STEPS[event.key]?.(options.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement)));
+    if (to === undefined) return;
+    event.preventDefault();
+    const index = Math.max(0, Math.min(to, options.length - 1));
+    choose(index);
+    options[index].focus();
+  });
+  list.append(...options);
   choose(0);
+  options[0].focus();
 }
 
 function tile(template, onClick) {
@@ -32,8 +55,8 @@ function tile(template, onClick) {
   return made;
 }
 
-function blank() {
-  const said = element("p", "dialog-problem");
+function blank(problem) {
+  const said = element("p", "dialog-problem", problem);
   const go = button("main-button", () => create({}, said), "Start drawing");
   return [
     element("h3", "", "Blank board"),

@@ -1,12 +1,16 @@
 """Where folds are on a towel of 0.4 x 0.3 m, and that nothing drawn is lost."""
 
 from dataclasses import replace
+from itertools import permutations
 
+import numpy as np
 import pytest
 
-from app.drawing.drawing import ChordTie, Corner, CornerTie, CreaseTie, EdgeTie, End
+from app.drawing.drawing import ChordTie, Corner, CornerTie, CreaseTie, Drawing, EdgeTie, End
+from app.drawing.garment_drawing import drawing_of
 from app.drawing.solution import Solution
 from app.drawing.solve import solve
+from planner import load_garment
 from tests.app.drawing.drawings import crease, outlined, pulled, tied, towel_drawing, with_corner
 
 HALF = crease("half", (0.4, 0.15), (0.0, 0.15))
@@ -176,3 +180,28 @@ def test_a_red_fold_sees_the_flap_alone():
     solution = solve(towel_drawing(HALF, red))
     assert solution.problems == ()
     assert solution.drawing.folds[1].start.tie == EdgeTie("v3", "v0", pytest.approx(0.25 / 0.3))
+
+
+def reordered(drawing: Drawing, index: int, to: int) -> Drawing:
+    """The drawing with one fold made at another time."""
+    folds = list(drawing.folds)
+    folds.insert(to, folds.pop(index))
+    return replace(drawing, folds=tuple(folds))
+
+
+@pytest.mark.parametrize("name", ["t-shirt", "shirt", "skirt", "vest", "jeans", "big-towel"])
+def test_folds_may_be_made_in_any_order(name: str) -> None:
+    drawing = solve(drawing_of(load_garment(name))).drawing
+    for index, to in permutations(range(len(drawing.folds)), 2):
+        assert solve(reordered(drawing, index, to)).problems == ()
+
+
+def test_a_fold_whose_ends_have_come_together_keeps_its_line_and_gets_it_back() -> None:
+    drawing = solve(drawing_of(load_garment("t-shirt"))).drawing
+    later = solve(reordered(drawing, 2, 4)).drawing
+    # The bottom goes up over y = 0.305, and with it the lower half of the line x = 0.1.
+    np.testing.assert_allclose([end.point for end in later.folds[4].ends], [(0.1, 0.305), (0.1, 0.61)], atol=1e-6)
+    again = solve(reordered(later, 4, 2)).drawing
+    np.testing.assert_allclose(
+        [end.point for end in again.folds[2].ends], [end.point for end in drawing.folds[2].ends], atol=1e-6
+    )

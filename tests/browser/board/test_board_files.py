@@ -59,6 +59,29 @@ def test_a_measure_out_of_range_is_refused_in_words(page: Page, shirt: Desk) -> 
     expect(dialog).to_have_count(0)
 
 
+def test_templates_are_gone_through_with_the_keys(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    options = page.get_by_role("listbox", name="Templates").get_by_role("option")
+    expect(options.first).to_be_focused()
+    page.keyboard.press("End")
+    expect(options.last).to_be_focused()
+    expect(options.last).to_have_attribute("aria-selected", "true")
+    expect(page.get_by_role("button", name="Start drawing")).to_be_visible()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Home")
+    expect(options.first).to_be_focused()
+    expect(page.get_by_role("listbox").locator("[aria-selected=true]")).to_have_count(1)
+    page.keyboard.press("Escape")
+
+
+def test_without_the_server_the_dialog_says_why_there_are_no_templates(page: Page, shirt: Desk) -> None:
+    page.route("**/api/templates", lambda route: route.abort())
+    page.get_by_role("button", name="New", exact=True).click()
+    expect(page.get_by_role("dialog", name="New garment").locator(".dialog-problem")).to_contain_text("server")
+    page.keyboard.press("Escape")
+    page.unroute("**/api/templates")
+
+
 def test_the_blank_board_is_one_of_the_templates(page: Page, shirt: Desk) -> None:
     page.get_by_role("button", name="New", exact=True).click()
     page.get_by_role("option", name="Blank board").click()
