@@ -10,6 +10,7 @@ from app.ui.editor.ground import Ground
 from app.ui.robot_model import Link, load_robot_model
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.geometry.table import Table
 from planner.robot.card import RobotCard
 
 _MARGIN = 1.12
@@ -57,10 +58,10 @@ def top(ground: Ground, lens: Lens) -> Viewpoint:
     return Viewpoint((x + dx, y + dy, distance), (x, y, 0.0))
 
 
-def side(lens: Lens) -> Viewpoint:
-    """From the robot's right hand side, a little above the table."""
+def side(lens: Lens, table: Table) -> Viewpoint:
+    """From the robot's right hand side, a little above the table; all of its near edge is seen."""
     x, y, z = _SIDE_CENTRE
-    distance = lens.distance(*_SIDE_HALF_M)
+    distance = lens.distance(*_SIDE_HALF_M) + table.width_m / 2
     return Viewpoint((x, y - distance, z + _SIDE_RISE * distance), _SIDE_CENTRE)
 
 

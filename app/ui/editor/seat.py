@@ -95,7 +95,7 @@ class Seat:
             case Preset.TOP:
                 panel.go_to(top(Ground.of(state.drawing), panel.lens))
             case Preset.SIDE:
-                panel.go_to(side(panel.lens))
+                panel.go_to(side(panel.lens, scene.table))
             case Preset.ROBOT:
                 middle = middle_of(state.drawing)
                 panel.go_to(robots_eye(self._card, self._base(state), middle, scene.torso_m, -scene.table.height_m))

@@ -1,10 +1,13 @@
 import math
 
+import numpy as np
 import pytest
 
 from app.ui.editor.ground import Ground
-from app.ui.editor.presets import Lens, robots_eye, top
+from app.ui.editor.presets import Lens, robots_eye, side, top
+from app.ui.stage import CAMERA_FOV_RAD, OPENING
 from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
 from planner.robot.pr2 import load_robot
 
 GROUND = Ground((-0.8, -0.5), (0.8, 0.5))
@@ -27,6 +30,29 @@ def test_a_tall_picture_has_the_tables_length_upwards() -> None:
 
 def test_the_whole_ground_is_in_a_square_picture() -> None:
     assert top(GROUND, Lens(RIGHT_ANGLE, 1.0)).position[2] == pytest.approx(1.12 * 0.8)
+
+
+@pytest.mark.parametrize("aspect", [0.7, 1.0, 2.0])
+def test_from_the_side_the_near_edge_is_seen_from_end_to_end(aspect: float) -> None:
+    x, y, _ = side(Lens(RIGHT_ANGLE, aspect), Table()).position
+    near_edge_m = abs(y) - Table().width_m / 2
+    for end in (-Table().depth_m / 2, Table().depth_m / 2):
+        assert abs(end - x) < aspect * near_edge_m
+
+
+@pytest.mark.parametrize("aspect", [1.0, 1.5, 2.0])
+def test_at_first_table_and_robot_are_seen_whole(aspect: float) -> None:
+    table, middle = Table(), np.array(OPENING.look_at)
+    ahead = (middle - OPENING.position) / np.linalg.norm(middle - OPENING.position)
+    right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.hypot(*ahead[:2])
+    feet = [(*corner, -table.height_m) for corner in table.corners]
+    # The PR2's base is 0.67 m square; with the torso up its head reaches 1.65 m above the floor.
+    base = [(-0.95 + ahead_m, left_m, -table.height_m) for ahead_m in (-0.34, 0.34) for left_m in (-0.34, 0.34)]
+    seen = np.array([*feet, *((x, y, 0.0) for x, y in table.corners), *base, (-0.95, 0.0, 1.65 - table.height_m)])
+    depth = (seen - OPENING.position) @ ahead
+    across, upwards = (seen - middle) @ right / depth, (seen - middle) @ np.cross(right, ahead) / depth
+    assert np.abs(upwards).max() < math.tan(CAMERA_FOV_RAD / 2)
+    assert np.abs(across).max() < aspect * math.tan(CAMERA_FOV_RAD / 2)
 
 
 def test_the_robots_eye_is_above_its_base_and_looks_ahead() -> None:
