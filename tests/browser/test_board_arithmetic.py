@@ -90,6 +90,13 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page)
     assert [corner["point"] for corner in outline] == [[2, 2.5], [0.5, 2], [0, 0], [4, 0], [3.5, 2]]
 
 
+def test_folds_are_named_by_where_cloth_comes_from_and_numbered_where_that_is_taken(page: Page) -> None:
+    folds = '[{name: "left over"}, {name: "left over 2"}]'
+    assert asked(page, "stroke", f"m.nameOf([0, 0], [0, 1], {folds})") == "left over 3"
+    assert asked(page, "stroke", f"m.nameOf([0, 1], [0, 0], {folds})") == "right over"
+    assert asked(page, "stroke", f"m.nameOf([0, 0], [1, 0], {folds})") == "top down"
+
+
 def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any:
     """Where a point is carried by the axis of an outline."""
     carried = f"import('/static/js/board/geometry.js').then((g) => g.mirrored({point}, ...m.axisOf({outline})))"

@@ -5,7 +5,9 @@ is not slides along the line to where that leaves the cloth.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, count
 
 import numpy as np
 
@@ -149,7 +151,7 @@ class DrawFold(Tool):
         placed, folds = self._placed(state, stroke), state.drawing.folds
         (name,) = fresh_ids("f", (fold.id for fold in folds), 1)
         kind = "red" if self._is_red else "blue"
-        crease = Crease(name, _name_of(placed.line), kind, placed.start, placed.end)
+        crease = Crease(name, _name_of(placed.line, folds), kind, placed.start, placed.end)
         return replace(state.drawing, folds=(*folds, crease))
 
     def _ghost(self, drawing: Drawing) -> Ghost | None:
@@ -176,9 +178,13 @@ def _snapped(state: DocumentState, aim: Aim, seen: Region) -> Point2:
     return aim.point
 
 
-def _name_of(line: Segment) -> str:
-    """What a fold is called at first: from where the cloth comes. Article frame, its y up."""
+def _name_of(line: Segment, folds: Sequence[Crease]) -> str:
+    """What a fold is called at first: from where the cloth comes, and a number if another is called so.
+
+    Article frame, its y up.
+    """
     x, y = line.direction
-    if abs(x) > abs(y):
-        return "top down" if x > 0 else "bottom up"
-    return "left over" if y > 0 else "right over"
+    upright, level = "left over" if y > 0 else "right over", "top down" if x > 0 else "bottom up"
+    name = level if abs(x) > abs(y) else upright
+    names = {fold.name for fold in folds}
+    return next(each for each in chain((name,), (f"{name} {n}" for n in count(2))) if each not in names)

@@ -21,6 +21,8 @@ export class Overlays {
     /** @type {string[]} what `found` was asked for */
     this.known = [];
     this.isMapping = false;
+    /** The map that was made last, and for which version. */
+    this.mapped = { version: "", places: null };
     this.stopPlaces = new AbortController();
     const { store } = board;
     for (const name of ["overlays", "plan", "playback", "hover-time", "document"])
@@ -91,6 +93,11 @@ export class Overlays {
     this.isMapping = false;
     this.stopPlaces.abort();
     if (!isOn || store.state.gesture) return;
+    if (key === this.mapped.version) {
+      this.places = this.mapped.places;
+      this.board.render();
+      return;
+    }
     this.stopPlaces = new AbortController();
     const { signal } = this.stopPlaces;
     this.isMapping = true;
@@ -98,6 +105,7 @@ export class Overlays {
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;
+    if (places) this.mapped = { version: key, places };
     this.tellPending();
     this.board.render();
   }

@@ -31,9 +31,19 @@ export function ghostOf([a, b], rings) {
   return { moving, landed: moving.map((ring) => ring.map((point) => mirrored(point, a, b))) };
 }
 
-/** What a fold is called at first: from where the cloth comes. @param {Point} start @param {Point} end */
-export function nameOf(start, end) {
+/**
+ * What a fold is called at first: from where the cloth comes, and a number if another is called so.
+ * @param {Point} start
+ * @param {Point} end
+ * @param {{name: string}[]} folds those that there are
+ */
+export function nameOf(start, end, folds) {
   const [x, y] = minus(end, start);
-  if (Math.abs(x) > Math.abs(y)) return x > 0 ? "top down" : "bottom up";
-  return y > 0 ? "left over" : "right over";
+  const [upright, level] = [y > 0 ? "left over" : "right over", x > 0 ? "top down" : "bottom up"];
+  const name = Math.abs(x) > Math.abs(y) ? level : upright;
+  const names = folds.map((fold) => fold.name);
+  for (let number = 1; ; number += 1) {
+    const numbered = number > 1 ? `${name} ${number}` : name;
+    if (!names.includes(numbered)) return numbered;
+  }
 }

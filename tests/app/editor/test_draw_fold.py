@@ -24,6 +24,13 @@ def test_a_drag_from_edge_to_edge_is_a_fold() -> None:
     assert [step.label for step in document.state.draft.history.past] == ["Draw fold"]
 
 
+def test_a_second_fold_like_one_before_is_called_otherwise() -> None:
+    document, editor = seat(PLAIN, Mode.DRAW_FOLD)
+    for x in (-0.45, -0.5, -0.55):
+        drag(editor, (x, 0.2), (x, -0.2))
+    assert [fold.name for fold in document.state.drawing.folds] == ["top down", "top down 2", "top down 3"]
+
+
 def test_the_other_way_round_the_other_side_moves() -> None:
     document, editor = seat(PLAIN, Mode.DRAW_FOLD)
     drag(editor, (-0.55, -0.2), (-0.55, 0.2))

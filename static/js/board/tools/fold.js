@@ -177,7 +177,8 @@ export class FoldTool extends Tool {
     const { board } = this;
     const index = board.step;
     const id = freshId("f", board.drawing.folds);
-    const fold = { id, name: nameOf(start.point, end.point), kind: board.paint.kind, start, end };
+    const name = nameOf(start.point, end.point, board.drawing.folds);
+    const fold = { id, name, kind: board.paint.kind, start, end };
     this.last = id;
     board.paint.turnOver(false);
     const insert = (drawing) => insertFold(drawing, Math.min(index, drawing.folds.length), fold);

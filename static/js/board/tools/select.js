@@ -19,7 +19,8 @@ export class SelectTool extends Tool {
   }
 
   get hint() {
-    if (!this.board.isSpread) return "Folded so far. Corners and earlier folds are changed where it is spread out: [";
+    if (!this.board.isSpread) return "Folded so far. Press [ to go back to where corners and folds are changed.";
+    if (!this.board.drawing.folds.length) return "Draw the first fold with F, or drag corners and edges.";
     return "Drag corners, edges and folds. Double-click an edge for a new corner.";
   }
 
