@@ -46,6 +46,17 @@ def test_nothing_spills_at_any_width_nor_at_200_per_cent(wide: Page, width: int,
     assert wide.evaluate(SPILT) == []
 
 
+def test_between_an_open_sheet_and_the_bar_of_a_low_window_there_is_one_view(wide: Page) -> None:
+    wide.set_viewport_size({"width": 720, "height": 450})
+    inset, sheet = wide.locator("#swap"), wide.locator("#sheet")
+    expect(inset).to_be_visible()
+    sheet.click()
+    expect(inset).to_be_hidden()
+    expect(wide.get_by_role("application", name="Drafting board")).to_be_visible()
+    sheet.click()
+    expect(inset).to_be_visible()
+
+
 def test_nothing_spills_on_a_phone(phone: Page) -> None:
     assert phone.evaluate(SPILT) == []
 

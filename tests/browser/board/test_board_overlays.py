@@ -47,6 +47,19 @@ def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Des
     page.unroute("**/overlays?*")
 
 
+def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -> None:
+    expect_planned(page)
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url) if "/overlays/places" in request.url else None)
+    chip = page.get_by_role("button", name="Cost map")
+    for _ in range(2):
+        chip.click()
+        expect(page.locator(".cost").first).to_be_visible()
+        chip.click()
+        expect(page.locator(".cost")).to_have_count(0)
+    assert len(asked) == 1
+
+
 def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk: Desk) -> None:
     strip = {"name": "strip", "outline": [[0.0, 0.0], [0.1, 0.0], [0.1, 0.54], [0.0, 0.54]]}
     far_end = {"name": "far end", "kind": "blue", "start": [0.0, 0.28], "end": [0.1, 0.28]}
