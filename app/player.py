@@ -16,7 +16,7 @@ from planner.primitives.scene import Scene
 
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25
-PATIENCE_S = 0.15
+PATIENCE_S = 0.3
 """So long the stage waits with a drawing that has changed for its plan, and then shows both at once: to draw costs a
 browser most of all, and the board comes first."""
 

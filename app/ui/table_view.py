@@ -78,7 +78,7 @@ class TableView:
         )
         self._server.scene.add_label(
             f"{node}/name",
-            name,
+            name.replace("_", " "),
             position=(-0.2, 0.0, 0.0),
             font_screen_scale=0.8,
             depth_test=True,
