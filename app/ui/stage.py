@@ -29,7 +29,7 @@ from planner.robot.card import RobotCard
 
 OPENING = Viewpoint(position=(1.41, 2.38, 1.93), look_at=(-0.34, -0.06, -0.21))
 CAMERA_FOV_RAD = 0.72
-"""The table and the robot fit into a square view, and into a wider one also while the robot is backed off."""
+"""The table and the robot fit into a square view, also while the robot is backed off."""
 
 
 class Stage:

@@ -6,6 +6,7 @@ import pytest
 from app.ui.editor.ground import Ground
 from app.ui.editor.presets import Lens, robots_eye, side, top
 from app.ui.stage import CAMERA_FOV_RAD, OPENING
+from planner import Scene
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.robot.pr2 import load_robot
@@ -47,8 +48,10 @@ def test_at_first_table_and_robot_are_seen_whole(aspect: float) -> None:
     right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.hypot(*ahead[:2])
     feet = [(*corner, -table.height_m) for corner in table.corners]
     # The PR2's base is 0.67 m square; with the torso up its head reaches 1.65 m above the floor.
-    base = [(-0.95 + ahead_m, left_m, -table.height_m) for ahead_m in (-0.34, 0.34) for left_m in (-0.34, 0.34)]
-    seen = np.array([*feet, *((x, y, 0.0) for x, y in table.corners), *base, (-0.95, 0.0, 1.65 - table.height_m)])
+    backed_off_m = Scene().back_off_max_m
+    base = [(x, y, -table.height_m) for x in (-0.95 - backed_off_m - 0.34, -0.95 + 0.34) for y in (-0.34, 0.34)]
+    head = [(-0.95 - away_m, 0.0, 1.65 - table.height_m) for away_m in (0.0, backed_off_m)]
+    seen = np.array([*feet, *((x, y, 0.0) for x, y in table.corners), *base, *head])
     depth = (seen - OPENING.position) @ ahead
     across, upwards = (seen - middle) @ right / depth, (seen - middle) @ np.cross(right, ahead) / depth
     assert np.abs(upwards).max() < math.tan(CAMERA_FOV_RAD / 2)
