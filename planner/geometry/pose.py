@@ -39,6 +39,12 @@ class Pose2:
     def __post_init__(self) -> None:
         object.__setattr__(self, "yaw_rad", wrapped_angle(self.yaw_rad))
 
+    @staticmethod
+    def of(row: FloatArray) -> "Pose2":
+        """The pose whose x (m), y (m) and yaw (rad) are an array's, shape (3,)."""
+        x_m, y_m, yaw_rad = row.tolist()
+        return Pose2(x_m, y_m, yaw_rad)
+
     def to_outer(self, points: FloatArray) -> FloatArray:
         """Points of the inner frame, shape (..., 2) or (..., 3), seen from the outer one (m)."""
         return points @ self._turn[: points.shape[-1], : points.shape[-1]].T + self._offset[: points.shape[-1]]

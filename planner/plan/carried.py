@@ -43,7 +43,7 @@ class Carried:
             moments: its moments.
             steps: its steps in all.
         """
-        old, new = _progress(self.moments), _progress(moments)
+        old, new = self.moments.progress, moments.progress
         held = np.interp(new, old, np.arange(len(old))) + self.first
         coming = np.linspace(0.0, self.first, first, endpoint=False)
         leaving = np.linspace(self.last, len(self.joints) - 1.0, steps - first - len(new) + 1)[1:]
@@ -52,9 +52,3 @@ class Carried:
         along = (places - before)[:, None, None]
         after = np.minimum(before + 1, len(self.joints) - 1)
         return np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
-
-
-def _progress(moments: Moments) -> FloatArray:
-    """How far a run is at each moment, 0 to 1; every phase counts the same."""
-    done = moments.phases + moments.fractions
-    return np.asarray(done / max(float(done[-1]), 1.0))

@@ -11,7 +11,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.plan.carried import Carried
 from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Leads, Lines
 from planner.plan.machine import Collisions, Machine
-from planner.plan.moments import Moments
+from planner.plan.moments import Moments, about_x
 from planner.robot.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
@@ -53,34 +53,39 @@ class Carrier:
         self._searched = lru_cache(_RUNS_KEPT)(self._search)
         self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
 
-    def carried(self, moments: Moments) -> Carried | None:
-        """The joints of a run; None if the arms cannot be led through it. Remembered."""
+    def carried(self, moments: Moments) -> Carried | NoPath:
+        """The joints of a run; or that the arms cannot be led through it, and at which moments not. Remembered."""
         return self._searched(_Asked.of(moments))
 
-    def can_hold(self, moments: Moments) -> bool:
-        """Whether the arms can be where they are at a few moments of a run; mostly if not, it cannot be carried."""
+    def can_hold(self, moments: Moments, first: Iterable[int] = ()) -> bool:
+        """Whether the arms can be where they are at a few moments of a run; mostly if not, it cannot be carried.
+
+        `first`: the moments that are looked at before others.
+        """
         looks = _LOOKED_AT if moments.is_held.any(axis=1).sum() > 1 else 2
-        return self.can_hold_at(moments, np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist())
+        return self.can_hold_at(moments, [*first, *np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist()])
 
     def can_hold_at(self, moments: Moments, which: Iterable[int]) -> bool:
         """Whether the arms can be where they are at some moments, each looked at by itself."""
         arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
-        return all(self._can_hold(arms, moments, moment) for moment in which)
+        rolls = _rolls(moments)[::-1]
+        return all(any(self._can_hold(arms, moments, moment, roll) for roll in rolls) for moment in which)
 
-    def _search(self, asked: "_Asked") -> Carried | None:
+    def _search(self, asked: "_Asked") -> Carried | NoPath:
         moments = asked.moments
-        for roll in _rolls(moments):
-            for shares in (FAR, NEAR):
-                found = self._with_lines(moments, Lines(roll, shares))
-                if isinstance(found, Carried):
-                    return found
-                if found.is_hopeless:
-                    break
-        return None
+        over = self._rolled(moments, OVER) if OVER in _rolls(moments) else None
+        return over if isinstance(over, Carried) else self._rolled(moments, BESIDE)
 
-    def adapted(self, moments: Moments, like: Carried) -> Carried | None:
+    def _rolled(self, moments: Moments, roll_rad: float) -> Carried | NoPath:
+        """The joints of a run whose hands have rolled so far."""
+        found = self._with_lines(moments, Lines(roll_rad, FAR))
+        is_settled = isinstance(found, Carried) or found.is_hopeless
+        return found if is_settled else self._with_lines(moments, Lines(roll_rad, NEAR))
+
+    def adapted(self, moments: Moments, like: Carried) -> Carried | NoPath:
         """The joints of a run that differs a little from one that is known, near to those if they can be."""
-        return self._near(moments, like) or self.carried(moments)
+        near = self._near(moments, like)
+        return self.carried(moments) if near is None else near
 
     def _near(self, moments: Moments, like: Carried) -> Carried | None:
         if _Asked.of(moments) == _Asked.of(like.moments):
@@ -139,16 +144,16 @@ class Carrier:
 
         return [partial(is_free, arm) for arm in arms]
 
-    def _can_hold(self, arms: list[int], moments: Moments, moment: int) -> bool:
-        """Whether the arms can be where they are at a moment, each by itself and all of them together.
+    def _can_hold(self, arms: list[int], moments: Moments, moment: int, roll_rad: float) -> bool:
+        """Whether the arms, rolled so far, can be where they are at a moment, each by itself and all of them together.
 
         One that does nothing in the whole run is at home.
         """
         able = [self._machine.home(arm)[None] for arm in range(len(self._machine.card.arms))]
         held = [arm for arm in arms if moments.is_held[arm, moment]]
         for arm in held:
-            stand, tool = moments.bases[moment], (moments.positions[arm, moment], moments.rotations[arm, moment])
-            able[arm] = self._postures(arm, stand, *tool)
+            rotation = moments.rotations[arm, moment] @ about_x(np.array([roll_rad]))[0]
+            able[arm] = self._postures(arm, moments.bases[moment], moments.positions[arm, moment], rotation)
         left, right = able
         if len(held) < len(arms):
             return len(left) > 0 and len(right) > 0

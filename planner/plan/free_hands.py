@@ -11,12 +11,11 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.plan.free_time import FreeTime
 from planner.plan.joint_track import JointTrack
 from planner.plan.machine import Collisions
 from planner.plan.pacing import eased
-from planner.plan.real_run import pose_of
 from planner.plan.transits import Transits
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
@@ -73,7 +72,7 @@ class FreeHands:
         start, goal = tail.joints[-1], lead.joints[0]
         ways = [np.array([start, goal])]
         home = self._transits.unwound(self._transits.home, start)
-        found = self._transits.way(pose_of(free.base_at(free.end_s)), start, goal)
+        found = self._transits.way(Pose2.of(free.base_at(free.end_s)), start, goal)
         if found is not None:
             ways.append(found)
         ways.append(np.array([start, home, goal]))
@@ -113,7 +112,7 @@ class FreeHands:
         What it waits is taken from the reach, which lasts long enough for both: see `RealRun.late_s`.
         """
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
-        first, last = pose_of(free.base_at(free.start_s)), pose_of(free.base_at(free.end_s))
+        first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
         away = self._transits.way(first, tail.joints[-1], home)
         back = self._transits.way(last, home, lead.joints[0])
         assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"

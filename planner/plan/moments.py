@@ -46,6 +46,12 @@ class Moments:
         """Which hands hold cloth when, shape (arms, n)."""
         return ~np.isnan(self.positions[:, :, 0])
 
+    @property
+    def progress(self) -> FloatArray:
+        """How far the whole is at each, 0 to 1, every phase counting the same, shape (n,)."""
+        done = self.phases + self.fractions
+        return np.asarray(done / max(float(done[-1]), 1.0))
+
     def __len__(self) -> int:
         """How many there are."""
         return len(self.phases)

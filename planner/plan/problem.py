@@ -10,7 +10,7 @@ from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.plan.machine import Machine
-from planner.plan.real_run import RunMaker
+from planner.plan.run_maker import RunMaker
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work

@@ -20,13 +20,17 @@ from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act, runs_of
-from planner.plan.real_run import RealRun, RunMaker
+from planner.plan.real_run import RealRun
+from planner.plan.run_maker import RunMaker
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
 _SPREAD, _TRIED_MAX, _ENOUGH = 64, 12, 4
 """Once one has failed, so many other ways to do the same are looked at, so many that may do are tried, until so many
 are real."""
+
+_VAIN_MAX = 6
+"""Of those that take both arms, which are slow to try, no more are tried once so many were in vain."""
 
 _FAILURES_MAX = 5
 """So often the same is tried from a station by the same arms, the cloth here or there, if it never succeeds."""
@@ -123,7 +127,9 @@ class Realizer:
         self._least_s[_key(culprit)] = math.inf
         self._doubt(run)
         new = ((*before, other) for other in culprit.elsewhere(_SPREAD) if _key(other) not in others)
-        for candidate in islice(self._maker.candidates(self._in_time(new)), _TRIED_MAX):
+        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), _TRIED_MAX)):
+            if candidate.is_together and tried == _VAIN_MAX and not others:
+                break
             made, other = self._maker.made(candidate), candidate.steps[-1]
             if made is not None:
                 others[_key(other)] = other

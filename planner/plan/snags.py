@@ -71,7 +71,7 @@ class Snags:
             yield from self._least(moments, moment, min(postures), np.array([*product(*some)]))
 
     def _least(self, moments: Moments, moment: int, arm: int, postures: FloatArray) -> Iterator[Snag]:
-        base = Pose2(*(float(c) for c in moments.bases[moment]))
+        base = Pose2.of(moments.bases[moment])
         met: list[Contact] = []
         for posture in postures:
             contact = self._collisions.deepest_contact(base, posture)

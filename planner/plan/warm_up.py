@@ -26,15 +26,15 @@ _LEFT_M, _RIGHT_M = (0.6, 0.2, 0.9), (0.6, -0.2, 0.9)
 
 
 class _InTheWay:
-    """Arms that cannot pass each other."""
+    """Arms that never pass each other, though there seems to be room at every pose."""
 
     def arms_apart(self, joints: FloatArray) -> BoolArray:
         """Nowhere."""
         return np.zeros(len(joints), dtype=bool)
 
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """None."""
-        return np.zeros((len(left), len(right)), dtype=bool)
+        """All."""
+        return np.ones((len(left), len(right)), dtype=bool)
 
 
 @cache

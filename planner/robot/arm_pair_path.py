@@ -2,7 +2,8 @@
 
 Each arm is led by itself first (`planner.robot.arm_path`). Where the two come into each other's way they are led
 together: by the dynamic programme of `planner.robot.joint_chain_pair`, which knows at first of no pair of samples that
-they touch. The pairs are asked where the chains found touch, all of that pose at once, and the chains are found anew.
+they touch. The pairs are asked where the chains found touch, all of a pose at once, but of a few poses first, and the
+chains are found anew.
 """
 
 from typing import Protocol
@@ -17,8 +18,8 @@ from planner.robot.tool_path import NoPath
 
 _TRIES_MAX = 24
 
-_ASKED_OF = (8, 4, 2, 1)
-"""Of the poses to be asked every so many are asked first, those between them afterwards."""
+_ASKED_OF = (4, 2, 1)
+"""Of the poses to be asked every so many are asked first, those between them if that changes nothing."""
 
 
 class BothArms(Protocol):
@@ -71,15 +72,16 @@ class _PairSearch:
         self._has_dropped = any(arm.has_dropped for arm in arms)
 
     def found(self) -> FloatArray | NoPath:
+        chains = np.stack([arm.chain for arm in self._arms])
         for _ in range(_TRIES_MAX):
-            chains = self._chains(slice(None))
-            if not chains.size:
-                break
             guides = [arm.guides(chain) for arm, chain in zip(self._arms, chains, strict=True)]
             joints, bad = self._followed(guides)
             if not len(bad):
                 return self._smoothed(guides, joints)
             if not self._strike(chains, bad):
+                break
+            chains = self._chains(slice(None))
+            if not chains.size:
                 break
         return self._none()
 
@@ -102,18 +104,19 @@ class _PairSearch:
         return both, np.concatenate(bad) if any(map(len, bad)) else np.flatnonzero(~self._both_arms.arms_apart(both))
 
     def _strike(self, chains: NDArray[np.int64], bad: NDArray[np.int64]) -> bool:
-        """Ask all pairs beside bad poses; false once no pair is left somewhere, which shows in a few of them mostly.
+        """Ask the pairs beside bad poses until some that were taken touch; false once no pair is left somewhere.
 
-        Where no pair that was taken touches, those are dropped.
+        Where none of those that were taken touches they are dropped.
         """
         beside = links_beside(self._links, bad)
-        order = np.concatenate([beside[::step] for step in _ASKED_OF])
-        if not all(self._ask(int(link)) for link in dict.fromkeys(order)):
-            return False
         taken = (beside, chains[0, beside], chains[1, beside])
-        if self._is_allowed[taken].all():
-            self._has_dropped = True
-            self._is_allowed[taken] = False
+        for step in _ASKED_OF:
+            if not all(self._ask(int(link)) for link in beside[::step]):
+                return False
+            if not self._is_allowed[taken].all():
+                return True
+        self._has_dropped = True
+        self._is_allowed[taken] = False
         return True
 
     def _ask(self, link: int) -> bool:

@@ -34,6 +34,7 @@ class ArmSearch:
         speeds: how fast the joints turn (rad/s), shape (7,).
         spans: how long each link should take at most (s), shape (l - 1,).
         core: the first of the poses that matter, and the one after their last.
+        chain: the sample taken at each link, shape (l,); the cheapest chain of those not struck out.
         has_dropped: whether samples were struck out that do not collide, since no path could be made of them.
     """
 
@@ -61,6 +62,7 @@ class ArmSearch:
         self.links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
         self._floor = floor_m - float(shoulder[2])
         self.samples, self.costs = np.empty((len(self.links), 0, 7)), np.empty((len(self.links), 0))
+        self.chain = np.empty(0, dtype=np.int64)
         self.spans = np.add.reduceat(np.append(path.spans_s, 0.0), self.links)[:-1]
         self._is_asked = np.zeros(len(self.links), dtype=bool)
         self.has_dropped = False
@@ -73,16 +75,16 @@ class ArmSearch:
         places, axes = self._positions[self.links], self._rotations[self.links]
         self.samples, self.costs = solutions(self._arm.shape, places, axes, self._floor)
         for number in range(_TRIES_MAX):
-            chain = cheapest_chain(self.samples, self.costs, self.speeds, self.spans)
-            if not len(chain):
+            self.chain = cheapest_chain(self.samples, self.costs, self.speeds, self.spans)
+            if not len(self.chain):
                 break
-            guides = self.guides(chain)
+            guides = self.guides(self.chain)
             bad = self.links[~self.are_free(guides)]
             if not len(bad):
                 joints, bad = self.followed(guides)
             if not len(bad):
                 return self.smoothed(guides, joints)
-            self._strike(chain, bad, number)
+            self._strike(self.chain, bad, number)
         return self._none()
 
     def guides(self, chain: NDArray[np.int64]) -> FloatArray:

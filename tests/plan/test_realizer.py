@@ -16,7 +16,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.plan import plan_search, problem, realizer
 from planner.plan.machine import Collisions
-from planner.plan.real_run import RunMaker
+from planner.plan.run_maker import RunMaker
 from planner.primitives.obstacle import Code
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
