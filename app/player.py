@@ -20,6 +20,9 @@ PATIENCE_S = 0.3
 """So long the stage waits with a drawing that has changed for its plan, and then shows both at once: to draw costs a
 browser most of all, and the board comes first."""
 
+REST_S = 0.4
+"""Where software draws the stage it follows a hand that draws only when that has rested for so long."""
+
 _CLOSING_S = 1.0
 
 _log = logging.getLogger(__name__)
@@ -46,6 +49,7 @@ class Player:
         self._is_closed = False
         self._due_s = 0.0
         self._waits_until_s: float | None = None
+        self._moved: tuple[int, float] | None = None
         self._shown: DocumentState | None = None
         self._plan: Plan | None = None
         self._spread: Garment | None = None
@@ -104,6 +108,8 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._stage.set_theme(is_dark=state.is_dark)
+        if self._is_to_rest(state):
+            return
         if state.film is None or self._has_left(state, state.film):
             self._show_spread(state)
             return
@@ -114,6 +120,19 @@ class Player:
         self._spread = self._bare = self._waits_until_s = None
         self._stage.show(state.film.timeline.at(self._document.t_s))
         self._document.stop_at_end()
+
+    def _is_to_rest(self, state: DocumentState) -> bool:
+        """Whether what was shown before is left there, since to draw would hold up the hand that draws."""
+        if state.draft.gesture is None or not self._stage.is_drawn_by_software:
+            if self._moved is not None:
+                self._moved = self._waits_until_s = None
+            return False
+        now_s = time.monotonic()
+        if self._moved is None or self._moved[0] != state.version:
+            self._moved = (state.version, now_s)
+        rests_at_s = self._moved[1] + REST_S
+        self._waits_until_s = rests_at_s if now_s < rests_at_s else None
+        return now_s < rests_at_s
 
     def _has_left(self, state: DocumentState, film: Film) -> bool:
         """Whether the drawing has gone on from a film that stands at its beginning: the cloth is shown as drawn."""

@@ -103,10 +103,11 @@ def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
 
 
 def _dragged(page: Any, path: str, pid: int, corner: int, towards_rad: float) -> Dragged:  # noqa: ANN401
-    from bench.hand_page import drag, grasp, heard, wait_for_answer
+    from bench.hand_page import drag, grasp, heard, wait_for_answer, wait_for_rest
 
     wait_for_answer(page, _ask("GET", path)["version"])
     x, y, scale = grasp(page, corner)
+    wait_for_rest(page)
     before_s = _cpu_s(pid)
     drag(page, (x, y), (STEP_M * cos(towards_rad) * scale, -STEP_M * sin(towards_rad) * scale))
     while (state := _ask("GET", path))["gesture"] is not None or state["history"]["can_undo"] is None:

@@ -52,6 +52,16 @@ FIT = """() => {
   for (const name of ["outline", "select"]) document.querySelector(`[data-tool=${name}]`).click();
   document.querySelector("[aria-label=Fit]").click();
 }"""
+QUICK_MS, QUICK_FRAMES = 40.0, 20
+"""At rest so many frames in a row come within so long of each other: where software draws the stage, others do not."""
+
+STAYS_QUICK = """async ([quickMs, quickFrames]) => {
+  const frame = () => new Promise(requestAnimationFrame);
+  for (let quick = 0, before = await frame(), now; quick < quickFrames; before = now) {
+    now = await frame();
+    quick = now - before < quickMs ? quick + 1 : 0;
+  }
+}"""
 RESTS = "new Promise((done) => requestAnimationFrame(() => requestIdleCallback(done)))"
 CORNER = """(index) => {
   const corner = document.querySelectorAll(".corner")[index], box = corner.ownerSVGElement.getBoundingClientRect();
@@ -112,6 +122,11 @@ def wait_for_answer(page: Page, version: int) -> None:
     """Wait until the page says what planning a version, or a later one, came to, and has nothing more to do."""
     page.wait_for_function(HAS_ANSWER, arg=version)
     page.evaluate(RESTS)
+
+
+def wait_for_rest(page: Page) -> None:
+    """Wait until the page and its stage have drawn all that there is to be drawn."""
+    page.evaluate(STAYS_QUICK, [QUICK_MS, QUICK_FRAMES])
 
 
 def grasp(page: Page, corner: int) -> tuple[float, float, float]:

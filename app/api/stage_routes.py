@@ -4,6 +4,8 @@ The page is one file, the same for all stages. It works out where its websocket 
 the trailing slash, so page and websocket differ by that slash alone. Its notices, and on a phone its panel of
 controls, have no place in our frame: the style that we add hides all but the canvas and the panels that float. A
 frame is narrower than a window, so what viser takes for a phone is made narrower too.
+
+A page that has its stage drawn by the processor asks for it under `/viser/{document}/by-software`.
 """
 
 import asyncio
@@ -40,6 +42,7 @@ _NARROW = (
 
 
 @router.get("/{name}/")
+@router.get("/{name}/by-software/")
 async def read_stage_page(request: Request, name: str) -> Response:
     """The page that shows a stage."""
     await run_in_threadpool(workspace_of(request).opened, name)
@@ -47,6 +50,7 @@ async def read_stage_page(request: Request, name: str) -> Response:
 
 
 @router.get("/{name}")
+@router.get("/{name}/by-software")
 async def redirect_to_stage_page(request: Request, name: str) -> Response:
     """The page's address has a slash at the end."""
     await run_in_threadpool(workspace_of(request).opened, name)
@@ -57,6 +61,17 @@ async def redirect_to_stage_page(request: Request, name: str) -> Response:
 @router.websocket("/{name}/")
 async def connect_stage(websocket: WebSocket, name: str) -> None:
     """Pass messages on, both ways, until either side is done."""
+    await _connect(websocket, name, is_by_software=False)
+
+
+@router.websocket("/{name}/by-software")
+@router.websocket("/{name}/by-software/")
+async def connect_stage_by_software(websocket: WebSocket, name: str) -> None:
+    """The same for a page whose processor draws the stage."""
+    await _connect(websocket, name, is_by_software=True)
+
+
+async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> None:
     workspace: Workspace = websocket.app.state.workspace
     try:
         opened = await run_in_threadpool(workspace.opened, name)
@@ -67,7 +82,8 @@ async def connect_stage(websocket: WebSocket, name: str) -> None:
         stage = await run_in_threadpool(opened.show)
         async with _dial(stage, websocket.scope["subprotocols"]) as inner:
             await websocket.accept(subprotocol=inner.subprotocol)
-            await _pass_on(websocket, inner)
+            with stage.drawn_by_software() if is_by_software else contextlib.nullcontext():
+                await _pass_on(websocket, inner)
 
 
 @functools.lru_cache(maxsize=1)

@@ -4,6 +4,10 @@ There may be several, one for each open document. A stage is written to by one t
 follows. It knows nothing of clocks: whoever owns it says which frame to show.
 """
 
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 import viser
 from viser.infra import StateSerializer
@@ -58,6 +62,8 @@ class Stage:
         self._palette = LIGHT
         self._stints: tuple[Stint, ...] = ()
         self._marked: Stint | None = None
+        self._lock = threading.Lock()
+        self._by_software = 0
         self.set_theme(is_dark=False)
 
     @property
@@ -69,6 +75,22 @@ class Stage:
     def has_watchers(self) -> bool:
         """Whether any browser shows this stage now."""
         return bool(self._server.get_clients())
+
+    @property
+    def is_drawn_by_software(self) -> bool:
+        """Whether some browser's processor draws it, which takes that processor most of its time."""
+        return self._by_software > 0
+
+    @contextmanager
+    def drawn_by_software(self) -> Iterator[None]:
+        """Meanwhile a browser without a graphics card shows it."""
+        with self._lock:
+            self._by_software += 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._by_software -= 1
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Show everything in the colours for a dark ground or for a light one."""

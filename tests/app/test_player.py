@@ -6,7 +6,7 @@ import pytest
 import app.player as player_module
 from app.document import Document
 from app.drawing.draft import draft_of
-from app.drawing.edit import Edit
+from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
 from app.player import UPDATES_PER_S, Player
 from planner import Plan, Scene, load_garment, make_plan
@@ -20,6 +20,7 @@ class CountingStage:
 
     def __init__(self, has_watchers: bool) -> None:
         self.has_watchers = has_watchers
+        self.is_drawn_by_software = False
         self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
         self.themes: list[bool] = []
@@ -260,3 +261,50 @@ def test_what_fails_again_waits_for_the_next_change(caplog: pytest.LogCaptureFix
     finally:
         player.close()
     assert caplog.text.count("the stage could not be brought up to date") == 2
+
+
+def drag_on(document: Document, dx_m: float) -> None:
+    drawing = pulled(document.state.drawing, 0, dx_m, 0.0)
+    document.edit(Edit("Move", drawing, Phase.PREVIEW, gesture="one"))
+
+
+def test_where_software_draws_it_the_stage_follows_a_hand_once_that_rests(
+    plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(player_module, "REST_S", 1.0)
+    document, stage = towel_document(), CountingStage(True)
+    stage.is_drawn_by_software = True
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        begun = time.monotonic()
+        while time.monotonic() < begun + 1.3:
+            drag_on(document, -0.001)
+            assert stage.lying == 1
+            time.sleep(0.02)
+        until(lambda: stage.lying == 2)  # the hand rests
+        monkeypatch.setattr(player_module, "REST_S", 60.0)
+        drag_on(document, -0.001)
+        time.sleep(0.1)
+        assert stage.lying == 2
+        document.edit(Edit("Move", document.state.drawing, gesture="one"))
+        until(lambda: stage.lying == 3)  # the hand has let go
+    finally:
+        player.close()
+
+
+def test_where_a_graphics_card_draws_it_the_stage_follows_a_hand_at_once(
+    plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(player_module, "REST_S", 60.0)
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        for number in (2, 3, 4):
+            drag_on(document, -0.001)
+            until(lambda number=number: stage.lying == number)
+    finally:
+        player.close()

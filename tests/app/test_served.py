@@ -109,11 +109,13 @@ def test_another_garment_can_be_chosen_and_an_unknown_one_cannot(served: Served)
         page.send(json.dumps({"do": "choose", "garment": "t-shirt"}))
 
 
-def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served) -> None:
-    answer = httpx.get(f"{served.url}{stage_path(served)}/")
+@pytest.mark.parametrize("pace", ["", "/by-software"])
+def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served, pace: str) -> None:
+    answer = httpx.get(f"{served.url}{stage_path(served)}{pace}", follow_redirects=True)
     assert answer.status_code == 200
+    assert str(answer.url) == f"{served.url}{stage_path(served)}{pace}/"
     assert "text/html" in answer.headers["content-type"]
-    address = f"ws://{served.authority}{stage_path(served)}"
+    address = f"ws://{served.authority}{stage_path(served)}{pace}"
     with connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as page:
         assert page.subprotocol == SUBPROTOCOL
         assert isinstance(page.recv(timeout=PATIENCE_S), bytes)

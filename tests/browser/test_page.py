@@ -92,6 +92,11 @@ def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
     page.wait_for_function(RENDERED)
 
 
+def test_the_server_knows_that_the_processor_draws_the_stage(page: Page) -> None:
+    # As it does in these tests, see the browser's flags.
+    assert page.locator("#stage").get_attribute("src").endswith("/by-software/")
+
+
 def test_the_page_names_garment_folds_and_plan(page: Page) -> None:
     expect(page.get_by_role("combobox", name="Garment")).to_have_value("t-shirt")
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
