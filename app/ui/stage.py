@@ -32,7 +32,6 @@ from planner.primitives.scene import Scene
 from planner.robot.card import RobotCard
 
 OPENING = Viewpoint(position=(1.41, 2.38, 1.93), look_at=(-0.34, -0.06, -0.21))
-CAMERA_FOV_RAD = 0.72
 """The table and the robot fit into a square view, also while the robot is backed off."""
 
 
@@ -158,7 +157,7 @@ class Stage:
         add_lights(self._server)
         camera = self._server.initial_camera
         camera.position, camera.look_at = OPENING.position, OPENING.look_at
-        camera.fov = CAMERA_FOV_RAD
+        camera.fov = OPENING.fov_rad
 
     def _waiting_joints(self) -> dict[str, float]:
         homes = [np.array(arm.home) for arm in self._card.arms]

@@ -36,7 +36,7 @@ class CameraPanel:
     @property
     def lens(self) -> Lens:
         """What the camera takes in."""
-        return Lens(self._camera.fov, self._camera.aspect)
+        return Lens(self._camera.aspect)
 
     def go_to(self, viewpoint: Viewpoint) -> None:
         """Go to a place, and remember the one where somebody has gone by hand."""
@@ -56,7 +56,7 @@ class CameraPanel:
     @property
     def _here(self) -> Viewpoint:
         (x, y, z), (u, v, w) = self._camera.position.tolist(), self._camera.look_at.tolist()
-        return Viewpoint((x, y, z), (u, v, w))
+        return Viewpoint((x, y, z), (u, v, w), float(self._camera.fov))
 
     def _has_moved(self, preset: Viewpoint) -> bool:
         return any(abs(now - then) > 1e-2 for now, then in zip(self._here.position, preset.position, strict=True))
@@ -66,3 +66,4 @@ class CameraPanel:
             self._camera.up_direction = (0.0, 0.0, 1.0)
             self._camera.position = viewpoint.position
             self._camera.look_at = viewpoint.look_at
+            self._camera.fov = viewpoint.fov_rad

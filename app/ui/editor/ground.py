@@ -35,15 +35,6 @@ class Ground:
         return all(low <= place <= high for low, place, high in zip(self.low, point, self.high, strict=True))
 
 
-def middle_of(drawing: Drawing) -> Point2:
-    """The middle of the cloth, or, while there is none, of the table; table frame (m)."""
-    if not drawing.outline:
-        return (0.0, 0.0)
-    corners = np.array(on_table(drawing, drawing.points))
-    x, y = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    return (float(x), float(y))
-
-
 def on_table(drawing: Drawing, points: Iterable[Point2]) -> tuple[Point2, ...]:
     """Points of the article frame, seen from the table (m)."""
     placed = drawing.placement.to_outer(np.array(list(points), dtype=float).reshape(-1, 2))

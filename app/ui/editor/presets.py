@@ -1,6 +1,7 @@
 """Places to look from: cameras that see the table and what lies on it. Table frame, z up."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from app.ui.editor.ground import Ground
 from app.ui.robot_model import Link, load_robot_model
-from app.ui.viewpoint import Viewpoint
+from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 from planner.geometry.table import Table
 from planner.robot.card import RobotCard
@@ -17,6 +18,7 @@ _MARGIN = 1.12
 _TILT = 0.002  # straight down, a camera does not know which way is up
 _EYE_LINK = "head_plate_frame"
 _AHEAD_OF_EYES_M = 0.15
+_WIDEST_RAD = 1.9
 _SIDE_CENTRE: Point3 = (-0.45, 0.0, 0.1)
 _SIDE_HALF_M = (1.35, 0.85)
 _SIDE_RISE = 0.12
@@ -36,12 +38,12 @@ class Lens:
     """What a camera takes in.
 
     Attributes:
+        aspect: the picture's width divided by its height.
         fov_rad: from the bottom of the picture to its top (rad).
-        aspect: its width divided by its height.
     """
 
-    fov_rad: float
     aspect: float
+    fov_rad: float = FOV_RAD
 
     def distance(self, half_width_m: float, half_height_m: float) -> float:
         """From how far off so much can be seen to each side of the middle (m)."""
@@ -65,19 +67,35 @@ def side(lens: Lens, table: Table) -> Viewpoint:
     return Viewpoint((x, y - distance, z + _SIDE_RISE * distance), _SIDE_CENTRE)
 
 
-def robots_eye(card: RobotCard, base: Pose2, middle: Point2, torso_m: float, floor_z_m: float) -> Viewpoint:
-    """From just before the robot's head.
+def robots_eye(
+    card: RobotCard, base: Pose2, points: Sequence[Point2], aspect: float, torso_m: float, floor_z_m: float
+) -> Viewpoint:
+    """From just before the robot's head, wide enough to see all that it looks at.
 
     Args:
         card: the robot.
         base: where it stands, table frame.
-        middle: what it looks at, on the table (m).
+        points: what it looks at, on the table (m).
+        aspect: the picture's width divided by its height.
         torso_m: how far its torso is lifted (m).
         floor_z_m: the floor's height in the table frame (m), negative.
     """
-    eye = _eye_in_base(card, torso_m) + np.array([_AHEAD_OF_EYES_M, 0.0, floor_z_m])
-    x, y, z = (float(place) for place in base.to_outer(eye))
-    return Viewpoint((x, y, z), (*middle, 0.0))
+    eye = base.to_outer(_eye_in_base(card, torso_m) + np.array([_AHEAD_OF_EYES_M, 0.0, floor_z_m]))
+    seen = np.column_stack([np.array(points), np.zeros(len(points))])
+    middle = (seen.min(axis=0) + seen.max(axis=0)) / 2
+    (x, y, z), (u, v, w) = eye.tolist(), middle.tolist()
+    return Viewpoint((x, y, z), (u, v, w), _fov_to_see(seen, eye, middle, aspect))
+
+
+def _fov_to_see(points: FloatArray, eye: FloatArray, middle: FloatArray, aspect: float) -> float:
+    """How much a camera must take in to see points of shape (n, 3) (rad); no less than others do."""
+    ahead = (middle - eye) / np.linalg.norm(middle - eye)
+    right = np.cross(ahead, (0.0, 0.0, 1.0))
+    right /= np.linalg.norm(right)
+    depth = np.maximum((points - eye) @ ahead, 1e-3)
+    across, upwards = (points - middle) @ right / depth, (points - middle) @ np.cross(right, ahead) / depth
+    half = _MARGIN * max(np.abs(upwards).max(), np.abs(across).max() / aspect)
+    return min(max(2.0 * math.atan(half), FOV_RAD), _WIDEST_RAD)
 
 
 def _eye_in_base(card: RobotCard, torso_m: float) -> FloatArray:

@@ -14,7 +14,7 @@ from app.ui.editor.camera_panel import CameraPanel
 from app.ui.editor.edit_panel import EditPanel
 from app.ui.editor.editor import Editor
 from app.ui.editor.glass import Glass, Touch
-from app.ui.editor.ground import Ground, middle_of
+from app.ui.editor.ground import Ground, on_table
 from app.ui.editor.presets import Preset, robots_eye, side, top
 from app.ui.grip_view import ROOT as MARKS
 from app.ui.viewpoint import Viewpoint
@@ -97,8 +97,9 @@ class Seat:
             case Preset.SIDE:
                 panel.go_to(side(panel.lens, scene.table))
             case Preset.ROBOT:
-                middle = middle_of(state.drawing)
-                panel.go_to(robots_eye(self._card, self._base(state), middle, scene.torso_m, -scene.table.height_m))
+                points = on_table(state.drawing, state.drawing.points) or scene.table.corners
+                base, floor_z_m = self._base(state), -scene.table.height_m
+                panel.go_to(robots_eye(self._card, base, points, panel.lens.aspect, scene.torso_m, floor_z_m))
 
     def _base(self, state: DocumentState) -> Pose2:
         """Where the robot stands now."""

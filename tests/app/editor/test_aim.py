@@ -3,7 +3,7 @@ import math
 import pytest
 
 from app.ui.editor.aim import CLOTH_HEIGHT_M, aim, pixel_angle
-from app.ui.editor.ground import Ground, in_article, middle_of, on_table
+from app.ui.editor.ground import Ground, in_article, on_table
 from planner.geometry.table import Table
 from tests.app.drawing.drawings import outlined, towel_drawing
 
@@ -47,7 +47,6 @@ def test_points_go_to_the_table_and_back() -> None:
     drawing = towel_drawing()
     assert on_table(drawing, [(0.4, 0.3)])[0] == pytest.approx((-0.4, -0.2))
     assert in_article(drawing, (-0.4, -0.2)) == pytest.approx((0.4, 0.3))
-    assert middle_of(drawing) == pytest.approx((-0.55, 0.0))
 
 
 def test_the_ground_is_the_table_and_what_hangs_beside_it() -> None:
@@ -61,7 +60,5 @@ def test_the_ground_is_the_table_and_what_hangs_beside_it() -> None:
     assert hanging.holds((-0.99, 0.0)) and not lying.holds((-0.99, 0.0))
 
 
-def test_without_an_outline_the_ground_is_the_table_and_its_middle_the_tables() -> None:
-    empty = outlined(towel_drawing())
-    assert Ground.of(empty).holds((0.0, 0.0))
-    assert middle_of(empty) == (0.0, 0.0)
+def test_without_an_outline_the_ground_is_the_table() -> None:
+    assert Ground.of(outlined(towel_drawing())).holds((0.0, 0.0))
