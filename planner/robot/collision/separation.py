@@ -5,10 +5,7 @@ So this finds, for every posture, the first pair that is *not* certainly apart; 
 algorithm. A pair is certainly apart if
 
 - the sphere round one does not reach the box round the other, or
-- some plane has one on this side and the other on that. It is looked for as by Chung and Wang (1996): along a
-  direction d the two come nearest with the points p and q; if p is beyond q, the plane is found, else the direction
-  is reflected at p - q, which has every plane that is possible on its further side. Over the middle of a table that
-  turns round and round, so the axes of one of the two are tried as well.
+- some plane has one on this side and the other on that (`planner.robot.collision.plane`).
 
 Postures mostly follow one another along a path. So it is remembered by how much a pair was apart, and until its two
 parts have gone as far, it is not looked at again.
@@ -24,10 +21,8 @@ from numba import njit
 
 from planner.geometry.pose import FloatArray
 from planner.robot.arm import ArmShape
-from planner.robot.collision.part_poses import EACH, MIDDLE, PLACE, Index, pose_arm, pose_table, set_middles
-
-REFLECTIONS = 12
-"""So many directions are tried for a pair."""
+from planner.robot.collision.part_poses import EACH, MIDDLE, Index, pose_arm, pose_table, set_middles
+from planner.robot.collision.plane import room_at_plane
 
 HALF, RADIUS, ROUNDING = 3, 6, 7
 """Columns of bounds: after the bounding box's middle, half its extents, the sphere's radius, the rounding (m)."""
@@ -66,86 +61,6 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 
 
 @njit(cache=True, nogil=True)
-def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z: float) -> int:
-    """The corner furthest along a direction, seen from the corners' frame."""
-    best, found = -math.inf, first
-    for i in range(first, last):
-        along = corners[i, 0] * x + corners[i, 1] * y + corners[i, 2] * z
-        if along > best:
-            best, found = along, i
-    return found
-
-
-@njit(cache=True, nogil=True)
-def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner: int) -> float:
-    """One coordinate of a corner after a part's rotation."""
-    turned: float = (
-        poses[part, row, 0] * corners[corner, 0]
-        + poses[part, row, 1] * corners[corner, 1]
-        + poses[part, row, 2] * corners[corner, 2]
-    )
-    return turned
-
-
-@njit(cache=True, nogil=True)
-def _nearest_along(
-    corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, x: float, y: float, z: float
-) -> tuple[float, float, float]:
-    """From part b, a gap (m) added to it, to part a, between the points that are nearest along a unit direction (m)."""
-    ax = -(r[a, 0, 0] * x + r[a, 1, 0] * y + r[a, 2, 0] * z)
-    ay = -(r[a, 0, 1] * x + r[a, 1, 1] * y + r[a, 2, 1] * z)
-    az = -(r[a, 0, 2] * x + r[a, 1, 2] * y + r[a, 2, 2] * z)
-    p = _furthest(corners, spans[a, 0], spans[a, 1], ax, ay, az)
-    bx = r[b, 0, 0] * x + r[b, 1, 0] * y + r[b, 2, 0] * z
-    by = r[b, 0, 1] * x + r[b, 1, 1] * y + r[b, 2, 1] * z
-    bz = r[b, 0, 2] * x + r[b, 1, 2] * y + r[b, 2, 2] * z
-    q = _furthest(corners, spans[b, 0], spans[b, 1], bx, by, bz)
-    tx, ty, tz = r[a, PLACE, 0] - r[b, PLACE, 0], r[a, PLACE, 1] - r[b, PLACE, 1], r[a, PLACE, 2] - r[b, PLACE, 2]
-    return (
-        tx + _turned(r, a, 0, corners, p) - _turned(r, b, 0, corners, q) - gap * x,
-        ty + _turned(r, a, 1, corners, p) - _turned(r, b, 1, corners, q) - gap * y,
-        tz + _turned(r, a, 2, corners, p) - _turned(r, b, 2, corners, q) - gap * z,
-    )
-
-
-@njit(cache=True, nogil=True)
-def _room_at_plane(
-    corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: tuple[float, float, float]
-) -> float:
-    """By how much more than a gap parts b and a are apart where a plane is found between them (m); -1 where none is.
-
-    It is looked for along a direction like `way` at first, and along the axes of part b in the end.
-    """
-    tx, ty, tz = r[a, MIDDLE, 0] - r[b, MIDDLE, 0], r[a, MIDDLE, 1] - r[b, MIDDLE, 1], r[a, MIDDLE, 2] - r[b, MIDDLE, 2]
-    dx, dy, dz = way
-    if dx == 0.0 and dy == 0.0 and dz == 0.0:
-        dx, dy, dz = tx, ty, tz
-    for _ in range(REFLECTIONS):
-        length = math.sqrt(dx * dx + dy * dy + dz * dz)
-        if length == 0.0:
-            break
-        dx, dy, dz = dx / length, dy / length, dz / length
-        wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
-        along: float = wx * dx + wy * dy + wz * dz
-        if along > 0.0:
-            return along
-        squared = wx * wx + wy * wy + wz * wz
-        if squared == 0.0:
-            break
-        back = 2.0 * along / squared
-        dx, dy, dz = dx - back * wx, dy - back * wy, dz - back * wz
-    for axis in range(3):
-        dx, dy, dz = r[b, 0, axis], r[b, 1, axis], r[b, 2, axis]
-        if dx * tx + dy * ty + dz * tz < 0.0:
-            dx, dy, dz = -dx, -dy, -dz
-        wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
-        along = wx * dx + wy * dy + wz * dz
-        if along > 0.0:
-            return along
-    return -1.0
-
-
-@njit(cache=True, nogil=True)
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
@@ -159,7 +74,7 @@ def _room_between(
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    return float(_room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz)))
+    return float(room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz)))
 
 
 @njit(cache=True, nogil=True)
