@@ -2,13 +2,19 @@
 
 Any page in a browser on this machine can send requests to a loopback port, and under a name that resolves to
 127.0.0.1 it is even of "the same origin". So the `Host` must be one of our own names, and an `Origin`, when
-there is one, one of our own pages. Everything else gets an empty refusal, websockets before they open.
+there is one, one of our own pages. Everything else is refused, websockets before they open.
 """
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.api.problems import ProblemResponse
+
 MISDIRECTED, FORBIDDEN = 421, 403
+_WHY = {
+    MISDIRECTED: "The header Host names none of this server's own names.",
+    FORBIDDEN: "The header Origin names a page of another server.",
+}
 _POLICY_VIOLATION = 1008
 _LOOPBACK_NAMES = ("127.0.0.1", "localhost", "[::1]")
 _HTTP_PORT = 80
@@ -40,9 +46,7 @@ class OwnNamesOnly:
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": _POLICY_VIOLATION})
         else:
-            headers = [(b"content-length", b"0")]
-            await send({"type": "http.response.start", "status": refusal, "headers": headers})
-            await send({"type": "http.response.body", "body": b""})
+            await ProblemResponse(refusal, _WHY[refusal])(scope, receive, send)
 
     def _refusal(self, headers: Headers) -> int | None:
         hosts = headers.getlist("host")

@@ -6,6 +6,13 @@ from app.api.guard import own_names
 pytestmark = pytest.mark.anyio
 
 
+def assert_is_problem(answer: httpx.Response, header: str) -> None:
+    assert answer.headers["content-type"] == "application/problem+json"
+    told = answer.json()
+    assert told["status"] == answer.status_code
+    assert header in told["detail"]
+
+
 @pytest.mark.parametrize("host", ["127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000", "[::1]:8000"])
 async def test_own_names_are_answered(client: httpx.AsyncClient, host: str) -> None:
     answer = await client.get("/api/health", headers={"host": host, "origin": f"http://{host.lower()}"})
@@ -16,20 +23,20 @@ async def test_own_names_are_answered(client: httpx.AsyncClient, host: str) -> N
     "host", ["evil.example", "127.0.0.1", "127.0.0.1:9000", "localhost.evil.example:8000", "", "127.0.0.1:8000."]
 )
 @pytest.mark.parametrize("path", ["/", "/api/health", "/nothing", "/static/js/main.js"])
-async def test_a_foreign_host_gets_nothing(client: httpx.AsyncClient, host: str, path: str) -> None:
+async def test_a_foreign_host_is_refused(client: httpx.AsyncClient, host: str, path: str) -> None:
     answer = await client.get(path, headers={"host": host})
     assert answer.status_code == 421
-    assert answer.content == b""
+    assert_is_problem(answer, "Host")
 
 
 @pytest.mark.parametrize(
     "origin",
     ["http://evil.example", "null", "https://127.0.0.1:8000", "http://127.0.0.1:8001", "http://127.0.0.1", ""],
 )
-async def test_a_foreign_origin_gets_nothing(client: httpx.AsyncClient, origin: str) -> None:
+async def test_a_foreign_origin_is_refused(client: httpx.AsyncClient, origin: str) -> None:
     answer = await client.post("/api/dag", json={"garment": "tie"}, headers={"origin": origin})
     assert answer.status_code == 403
-    assert answer.content == b""
+    assert_is_problem(answer, "Origin")
 
 
 def test_the_given_host_is_an_own_name_too() -> None:

@@ -1,6 +1,6 @@
 /**
  * Where a pointer means: at a corner, a fraction of an edge, an edge, in line with another corner, on the grid.
- * The strongest kind within its reach wins, and the nearest of that kind; what holds lets go a little further off than
+ * The strongest kind within its reach wins, a crossing before its lines, and the nearest of that kind; what holds lets go a little further off than
  * where it takes hold.
  */
 
@@ -19,7 +19,7 @@ import {
 import { spacing } from "./draw_grid.js";
 
 /** How near each kind has to be (px), the strongest first. */
-export const REACH_PX = { close: 12, vertex: 10, dropped: 8, fraction: 9, bisector: 8, edge: 8, guide: 6, grid: 4 };
+export const REACH_PX = { close: 12, vertex: 10, dropped: 8, fraction: 9, bisector: 8, edge: 8, guides: 6, guide: 6, grid: 4, line: 4 };
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
@@ -120,8 +120,10 @@ const CANDIDATES = {
       key: `e${a}${b}`,
       isOnCloth: true,
     })),
-  guide: (p, { guides = [], onlyCloth }) => (onlyCloth ? [] : inLine(p, guides)),
-  grid: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view)),
+  guides: (p, { guides = [], onlyCloth }) => (onlyCloth ? [] : inLine(p, guides).slice(0, 1)),
+  guide: (p, { guides = [], onlyCloth }) => (onlyCloth ? [] : inLine(p, guides).slice(1)),
+  grid: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view).slice(0, 1)),
+  line: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view).slice(1)),
 };
 
 const onto = (at, where) => ({ at, where, name: "edge onto edge", key: `o${at}`, isOnCloth: false });
@@ -140,7 +142,7 @@ function roundOnEdge(p, a, b, view) {
   return best;
 }
 
-/** Places level with, or plumb to, another corner; both at once where two cross. */
+/** Where the lines plumb to and level with the nearest corners cross, and the place on each of the two. */
 function inLine(p, guides) {
   const nearest = (axis) =>
     guides.reduce(
@@ -156,6 +158,7 @@ function inLine(p, guides) {
   ];
 }
 
+/** Where two lines of the grid cross, and the place on each of the two. */
 function onGrid(p, view) {
   const { step } = spacing(view.scale);
   const [x, y] = p.map((value) => Math.round(value / step) * step);

@@ -1,6 +1,19 @@
 /** What a stroke across the cloth comes to, as far as the page can say: the line, what moves, and where it lands. */
 
-import { between, chordAlong, cross, left, leftPart, minus, mirrored, plus } from "./geometry.js";
+import {
+  between,
+  chordAlong,
+  cross,
+  crossings,
+  distance,
+  isInside,
+  left,
+  leftPart,
+  minus,
+  mirrored,
+  nearestOnRings,
+  plus,
+} from "./geometry.js";
 
 /** @typedef {[number, number]} Point */
 
@@ -23,6 +36,12 @@ function crease(from, to, rings) {
   const ends = [minus(middle, along), plus(middle, along)];
   const [a, b] = chordAlong(ends[0], ends[1], rings) ?? ends;
   return cross(minus(b, a), minus(from, a)) < 0 ? [b, a] : [a, b];
+}
+
+/** Whether a stroke touches the cloth, or one of its ends is as near. @param {number} near (m) */
+export function reachesCloth({ from, to }, rings, near) {
+  const isNear = (p) => isInside(p, rings) || distance(p, nearestOnRings(p, rings) ?? p) <= near;
+  return crossings(from, to, rings).some((t) => t >= 0 && t <= 1) || isNear(from) || isNear(to);
 }
 
 /** @param {[Point, Point]} line @param {Point[][]} rings */

@@ -273,3 +273,16 @@ def test_the_robot_starts_where_it_is_clicked_beside_the_table(page: Page, cloth
     expect_step(page, "Start at front right")
     assert cloth.drawing["start_station"] == "front_right"
     expect(page.locator(".station-name", has_text="(start)")).to_have_text("front right (start)")
+
+
+def test_near_a_crossing_of_the_grid_a_corner_snaps_to_both_of_its_lines(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    x, y = hand.px((0.65, 0.25))  # lines of the grid cross there at every zoom that shows the T-shirt whole
+    corner = cloth.drawing["outline"][5]["point"]
+    page.mouse.move(*hand.px(tuple(corner)))
+    page.mouse.down()
+    page.mouse.move(x - 20, y - 20, steps=3)
+    page.mouse.move(x + 2, y + 1, steps=2)
+    page.mouse.up()
+    expect_step(page, "Move vertex")
+    assert cloth.drawing["outline"][5]["point"] == pytest.approx([0.65, 0.25], abs=1e-9)

@@ -75,6 +75,21 @@ def test_a_point_grabbed_and_dropped_makes_the_fold_that_takes_it_there(page: Pa
     expect(page.locator(".strip-moment")).to_have_text("After 1: bottom up")
 
 
+def test_a_stroke_beside_the_cloth_is_no_fold_and_says_so(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    hand.tool("Draw fold")
+    hand.drag((0.75, 0.2), (0.75, 0.3), is_released=False)
+    expect(hand.board).to_have_css("cursor", "not-allowed")
+    expect(page.locator(".layer-cursor")).to_contain_text("No fold there")
+    expect(page.locator(".ghost-moving")).to_have_count(0)
+    page.mouse.move(*hand.px((0.2, 0.3)), steps=3)  # now it does
+    expect(page.locator(".ghost-moving")).not_to_have_count(0)
+    page.mouse.move(*hand.px((0.75, 0.3)), steps=3)
+    page.mouse.up()
+    expect(page.locator("#notices")).to_contain_text("does not touch the cloth")
+    assert cloth.drawing["folds"] == []
+
+
 def test_cloth_grabbed_by_an_edge_and_dropped_on_another_lays_edge_on_edge(page: Page, desk: Desk) -> None:
     square = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]
     desk.lay({"name": "square", "outline": square, "folds": []})

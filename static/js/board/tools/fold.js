@@ -10,7 +10,7 @@ import { dropsOnto, edgeNear, endsOnto } from "../edge_onto_edge.js";
 import { freshId, insertFold } from "../edits.js";
 import { distance, isInside, nearestOnRings } from "../geometry.js";
 import { atLength, REACH_PX } from "../snap.js";
-import { ghostOf, lineOf, nameOf } from "../stroke.js";
+import { ghostOf, lineOf, nameOf, reachesCloth } from "../stroke.js";
 import { Tool } from "./tool.js";
 
 const LEAST_M = 0.002;
@@ -18,6 +18,7 @@ const LEAST_M = 0.002;
 const BY_EDGE_PX = 20;
 /** Kinds of snaps that mean the point itself, not its edge. */
 const POINTS = new Set(["vertex", "fraction"]);
+const BESIDE = "No fold there: the stroke does not touch the cloth.";
 const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
 
 export class FoldTool extends Tool {
@@ -48,6 +49,8 @@ export class FoldTool extends Tool {
   drop() {
     /** @type {any} from where to where, and whether it is a grab */
     this.stroke = null;
+    /** Whether the server has refused the stroke as it was last. */
+    this.isRefused = false;
     this.question.forget();
     this.board.ghost = null;
   }
@@ -64,8 +67,9 @@ export class FoldTool extends Tool {
     const { isGrab = false, from = null, laid = [] } = this.stroke ?? {};
     const { rings } = this.board;
     const snapped = this.board.snapTo(pointer, { rings, points: [], onlyCloth: !isGrab, from, laid });
-    this.cursor = !this.stroke && !snapped.isOnCloth && isInside(pointer.at, this.board.rings) ? "grab" : "crosshair";
+    const isOverCloth = !snapped.isOnCloth && isInside(pointer.at, this.board.rings);
     if (this.stroke) this.lead(snapped.at);
+    this.cursor = this.isRefused ? "not-allowed" : !this.stroke && isOverCloth ? "grab" : "crosshair";
     return snapped;
   }
 
@@ -84,6 +88,7 @@ export class FoldTool extends Tool {
     const isEarly = this.begun > this.done;
     const { isTouch } = pointer;
     const laid = this.laid(isGrab, snapped, isTouch);
+    this.isRefused = false;
     this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid };
   }
 
@@ -115,13 +120,40 @@ export class FoldTool extends Tool {
   ask() {
     const { stroke, board } = this;
     if (!stroke || distance(stroke.from, stroke.to) < LEAST_M) return;
-    board.ghost = ghostOf(this.line(), board.rings);
+    if (this.isBeside(stroke)) {
+      this.question.forget();
+      this.refuse(BESIDE);
+      return;
+    }
+    if (!this.isRefused) board.ghost = ghostOf(this.line(), board.rings);
     if (board.store.queue.isBusy) return; // the cloth that the server knows is not yet the one that is seen
     this.question.ask(stroke, (answer) => {
-      if (this.stroke && answer.ok) board.ghost = answer.told;
-      board.say(answer.ok ? "" : answer.told.detail);
+      if (!answer.ok) {
+        this.refuse(answer.told.detail);
+        return;
+      }
+      if (this.stroke) board.ghost = answer.told;
+      this.isRefused = false;
+      this.cursor = "crosshair";
+      board.say("");
       board.render();
     });
+  }
+
+  /** No fold comes of the stroke as it is now: nothing is shown but why. */
+  refuse(why) {
+    this.isRefused = true;
+    this.cursor = "not-allowed";
+    this.board.ghost = null;
+    this.board.say(why);
+    this.board.render();
+  }
+
+  /** Whether a stroke is drawn beside the cloth. */
+  isBeside(stroke) {
+    const { rings, view } = this.board;
+    const near = ((stroke.isTouch ? 2 : 1) * REACH_PX.edge) / view.scale;
+    return !stroke.isGrab && !reachesCloth(stroke, rings, near);
   }
 
   /** The fold's line; what lies to its left moves. */
@@ -134,8 +166,10 @@ export class FoldTool extends Tool {
     const { stroke, board } = this;
     board.closeTyped();
     board.snapped = null;
-    if (distance(stroke.from, stroke.to) < LEAST_M) {
+    const isBeside = this.isBeside(stroke);
+    if (isBeside || distance(stroke.from, stroke.to) < LEAST_M) {
       this.cancel();
+      if (isBeside) board.store.refuse(BESIDE);
       return;
     }
     this.stroke = null;
