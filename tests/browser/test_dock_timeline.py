@@ -178,5 +178,6 @@ def test_lengths_are_told_in_the_unit_of_the_page(page: Page) -> None:
     inches = round(float(told.split()[1]) / 2.54, 2)
     page.evaluate("async () => { (await import('/static/js/board/units.js')).unit.name = 'in' }")
     expect(drag).to_have_text(f"Drag {inches:g} in")
+    expect(page.locator(".transport .now")).to_contain_text(f"{inches:g} in towards the robot")
     page.evaluate("async () => { (await import('/static/js/board/units.js')).unit.name = 'cm' }")
     expect(drag).to_have_text(told)

@@ -40,6 +40,7 @@ export class Transport {
     clock.addEventListener("change", () => this.showState());
     store.addEventListener("connection", () => this.showState());
     clock.addEventListener("tick", () => this.showTime());
+    addEventListener("unit", () => this.showTime());
     document.addEventListener("keydown", (event) => this.onKey(event));
     this.showState();
   }
