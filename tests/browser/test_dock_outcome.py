@@ -68,7 +68,7 @@ def test_why_unfolds_all_the_reasons(page: Page, stuck: Sheet) -> None:
     expect(page.get_by_role("list", name="Reasons")).to_be_hidden()
     page.get_by_role("button", name="Why?").click()
     reasons = page.get_by_role("list", name="Reasons").get_by_role("listitem")
-    expect(reasons.first).to_be_visible()
+    expect(reasons.first).to_be_in_viewport(ratio=0.9)
     expect(reasons.first).to_contain_text("\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: ")
     page.get_by_role("button", name="Why?").click()
     expect(reasons.first).to_be_hidden()

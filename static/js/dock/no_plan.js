@@ -77,6 +77,7 @@ export class NoPlan {
   unfold(isOpen) {
     this.inFull.hidden = !isOpen;
     this.why.setAttribute("aria-expanded", String(isOpen));
+    if (isOpen) this.inFull.scrollIntoView({ block: "nearest" });
   }
 }
 
