@@ -59,7 +59,7 @@ class _Place:
 
     def is_on(self, silhouette: Region) -> bool:
         """Whether it needs no help."""
-        return self.is_held and silhouette.boundary_distance(self.point) <= 2 * LENGTH_M
+        return silhouette.boundary_distance(self.point) <= 2 * LENGTH_M
 
 
 def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m: float) -> FoundLine | Problem:
@@ -130,9 +130,18 @@ def _tried(
 
 
 def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: Replay, names: Names) -> Crease:
+    """The fold where its line is.
+
+    An end that has slid stays tied to the place it slid from, unless the line cannot be found again from there: the
+    other end, which nothing held, has slid as well.
+    """
+    ends = (line.start, line.end)
+    slid = [place for place, end in zip(places, ends, strict=True) if math.dist(place.point, end) > LENGTH_M]
+    if not all(place.is_held for place in slid):
+        places = tuple(replace(place, is_held=place.is_held and place not in slid) for place in places)
     start, end = (
-        End(point, _settled_tie(place, point, replay, names, is_red=crease.is_red))
-        for place, point in zip(places, (line.start, line.end), strict=True)
+        End(end, _settled_tie(place, end, replay, names, is_red=crease.is_red))
+        for place, end in zip(places, ends, strict=True)
     )
     return replace(crease, start=start, end=end)
 
