@@ -1,5 +1,7 @@
 /** Asks the server where a fold would be; while the hand moves, again and again, of which only the newest counts. */
 
+import { worded } from "./units.js";
+
 const EVERY_MS = 80;
 
 /** @typedef {{ok: boolean, told: any}} Answer */
@@ -68,5 +70,5 @@ export class CreaseQuestion {
 
 function sentence({ errors, detail }) {
   const text = errors?.[0]?.message ?? detail;
-  return `No fold there: ${text.replace(/^(is|does)/, "it $1")}.`;
+  return `No fold there: ${worded(text.replace(/^(is|does)/, "it $1"))}.`;
 }

@@ -1,12 +1,13 @@
 /** Plans and folds in words. Folds are counted from 1 for people; programs count them from 0. */
 
-import { number, unit } from "../board/units.js";
+import { number, unit, worded } from "../board/units.js";
 
 export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };
 export const COLOURS = { blue: "Blue", red: "Red" };
 export const MOVED = { blue: "all layers", red: "last flap" };
 
 const BACKED_OFF_M = 0.001;
+const COUNTED = /\b(?:edges?|points?) \d+(?: and \d+)?/g;
 
 /** @param {number} value seconds */
 export const seconds = (value) => `${value.toFixed(1)} s`;
@@ -27,17 +28,23 @@ export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
  */
 export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
 
+/** Stands for a fold's name while the rest of a sentence is put in other words. @param {number} index */
+const mark = (index) => String.fromCharCode(0xe000 + index);
+const called = (fold, index) => (fold.name ? `\u201C${fold.name}\u201D` : `fold ${index + 1}`);
+
 /**
- * A sentence of the planner with the folds called as the page calls them.
+ * A sentence of the planner as the page puts it: what folds are called, corners and edges counted from 1, lengths in its
+ * unit.
  * @param {string} text as in `fold 0 'half': ...`
  * @param {{name?: string}[]} folds
  */
 export function spoken(text, folds) {
-  return folds.reduce((told, fold, index) => {
+  const marked = folds.reduce((told, fold, index) => {
     const quoted = `${index} '${fold.name ?? ""}'`;
-    const name = fold.name ? `\u201C${fold.name}\u201D` : `fold ${index + 1}`;
-    return told.replaceAll(`fold ${quoted}`, name).replaceAll(quoted, name);
+    return told.replaceAll(`fold ${quoted}`, mark(index)).replaceAll(quoted, mark(index));
   }, text);
+  const counted = marked.replace(COUNTED, (words) => words.replace(/\d+/g, (index) => String(Number(index) + 1)));
+  return folds.reduce((told, fold, index) => told.replaceAll(mark(index), called(fold, index)), worded(counted));
 }
 
 /**
