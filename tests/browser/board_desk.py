@@ -63,3 +63,14 @@ def window(browser: Browser) -> Iterator[Page]:
 def expect_step(page: Page, name: str) -> None:
     """The last step has this name."""
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", f"Undo: {name} (Ctrl+Z)")
+
+
+def expect_no_step(page: Page) -> None:
+    """No step has been made since the garment was laid on the board."""
+    expect_step(page, "Begin")
+
+
+def corner(sheet: Sheet, index: int) -> list[float]:
+    """Where the server has a corner of the outline (m)."""
+    point: list[float] = sheet.drawing["outline"][index]["point"]
+    return point

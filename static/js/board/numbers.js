@@ -72,12 +72,12 @@ export class Numbers {
     input.value = this.fields[index].value;
   }
 
+  /** With Enter or Escape the field is left, and what was written in it changes something as it always does then. */
   key(event, index, input) {
     event.stopPropagation();
     if (event.key === "Escape") input.value = this.fields[index].value;
     if (event.key === "Enter" || event.key === "Escape") {
       event.preventDefault();
-      if (event.key === "Enter" && input.value !== this.fields[index].value) this.put(index, input);
       this.board.svg.focus({ preventScroll: true });
     }
   }

@@ -1,0 +1,83 @@
+"""Numbers at the selection and at the pointer: what is typed is where it is, once, and to the last digit."""
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.board_desk import Desk, corner, expect_no_step, expect_step
+from tests.browser.board_hand import Hand
+
+# A corner of the T-shirt, as its file has it (m).
+SLEEVE_TIP = (0.61, 0.572)
+
+
+def test_numbers_at_the_selection_move_a_corner_exactly(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.keyboard.press("Tab")
+    expect(page.get_by_label("x of the vertex")).to_be_focused()
+    page.keyboard.type("25in")
+    page.keyboard.press("Enter")
+    expect_step(page, "Move vertex")
+    assert corner(cloth, 6) == pytest.approx([25 * 0.0254, 0.572], abs=1e-9)
+
+
+def test_what_is_no_number_is_refused_in_words(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.get_by_label("x of the vertex").fill("wide")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("is no number")
+    expect(page.get_by_label("x of the vertex")).to_have_value("61.0")
+    expect_no_step(page)
+
+
+def test_a_number_that_is_too_large_is_refused_in_the_unit_of_the_page(page: Page, cloth: Desk) -> None:
+    Hand(page).click(SLEEVE_TIP)
+    page.get_by_label("x of the vertex").fill("99999")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201c99999\u201d is too much: at most 1000.0 cm")
+    expect(page.get_by_label("x of the vertex")).to_have_value("61.0")
+    Hand(page).click((0.2, 0.0))
+    page.get_by_label("Length of the edge").fill("-5")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201c-5\u201d is too little: at least 0.1 cm")
+    expect_no_step(page)
+
+
+def test_an_edge_gets_the_length_that_is_typed(page: Page, cloth: Desk) -> None:
+    Hand(page).click((0.2, 0.0))
+    page.get_by_label("Length of the edge").fill("91.4/2+2")
+    page.keyboard.press("Enter")
+    expect_step(page, "Set edge length")
+    # The edge runs from the last corner (0.457, 0) to the first (0, 0), which moves: 47.7 cm.
+    assert corner(cloth, 0) == pytest.approx([0.457 - 0.477, 0.0], abs=1e-9)
+
+
+def test_a_number_typed_while_drawing_is_the_length(page: Page, cloth: Desk) -> None:
+    hand = Hand(page)
+    page.keyboard.press("p")
+    hand.click((0.0, -0.05))
+    page.mouse.move(*hand.px((0.31, -0.05)))
+    page.keyboard.type("18in")
+    page.keyboard.press("Enter")
+    page.mouse.move(*hand.px((0.457, 0.4)))
+    page.keyboard.type("30")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Enter")
+    expect(page.locator(".corner")).to_have_count(3)
+    expect_step(page, "Draw outline")
+    first, second, third = (corner(cloth, index) for index in range(3))
+    assert second[0] - first[0] == pytest.approx(18 * 0.0254, abs=1e-6)
+    assert ((third[0] - second[0]) ** 2 + (third[1] - second[1]) ** 2) ** 0.5 == pytest.approx(0.3, abs=1e-9)
+
+
+def test_a_number_is_put_once_when_enter_takes_it(page: Page, cloth: Desk) -> None:
+    """Put again as the field is left it would come after what somebody else had done in between."""
+    hand = Hand(page)
+    hand.click(SLEEVE_TIP)
+    sent: list[str] = []
+    page.on("request", lambda request: sent.append(request.method) if request.url.startswith(cloth.path) else None)
+    page.get_by_label("x of the vertex").fill("63")
+    page.keyboard.press("Enter")
+    expect_step(page, "Move vertex")
+    hand.tool("Undo")  # it waits for its turn
+    expect_step(page, "Begin")
+    assert [method for method in sent if method != "GET"] == ["PUT", "POST"]
