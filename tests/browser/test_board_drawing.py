@@ -116,6 +116,22 @@ def test_the_first_key_may_put_a_corner(page: Page, blank: Sheet) -> None:
     expect(page.locator(".cross")).to_have_count(0)
 
 
+def test_a_finger_grabs_a_corner_once_grabbing_is_on(
+    phone: BrowserContext, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    square = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.4], [0.0, 0.4]]
+    sheet = new_sheet({"name": "square", "outline": square, "folds": []})
+    page = phone.new_page()
+    page.goto(sheet.page_url)
+    expect(page.locator(".corner")).to_have_count(4)
+    Hand(page).tool("Grab")
+    Finger(page).drag((0.0, 0.0), (0.4, 0.4))
+    expect_step(page, "Draw fold")
+    (drawn,) = sheet.drawing["folds"]
+    assert drawn["start"]["point"] == pytest.approx([0.4, 0.0], abs=1e-6)
+    assert drawn["end"]["point"] == pytest.approx([0.0, 0.4], abs=1e-6)
+
+
 def test_two_fingers_zoom_and_drop_the_stroke(phone: BrowserContext, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet("t-shirt")
     page = phone.new_page()

@@ -9,6 +9,8 @@ export class FoldPaint {
     /** @type {"blue"|"red"} of the next fold */
     this.kind = "blue";
     this.isFlipped = false;
+    /** Whether cloth is grabbed also where a stroke would begin at its edge. */
+    this.grabs = false;
   }
 
   /** The kind that the buttons show. */
@@ -45,6 +47,14 @@ export class FoldPaint {
     if (ids.length) this.board.store.edit("Flip fold", (drawing) => flipFolds(drawing, ids));
     else this.turnOver(!this.isFlipped);
     this.board.render();
+  }
+
+  /** Folds are drawn by grabbing, or not any more; it begins the tool if that is another. */
+  grab() {
+    const { board } = this;
+    this.grabs = board.tool.name !== "fold" || !this.grabs;
+    if (board.tool.name !== "fold") board.choose("fold");
+    board.render();
   }
 
   /** A twin for each fold that is meant, on the garment's other side. @returns {boolean} whether there was one */

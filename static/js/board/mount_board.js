@@ -30,6 +30,7 @@ export function boardKeys(board) {
     b: () => board.paint.put("blue"),
     r: () => board.paint.put("red"),
     x: () => board.paint.flip(),
+    g: () => board.paint.grab(),
     escape: () => board.escape(),
     0: () => board.framing.fit(),
     "[": () => board.store.showStep(board.store.step - 1),

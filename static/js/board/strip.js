@@ -18,6 +18,9 @@ export class Strip {
     this.flip = button("strip-button", () => board.paint.flip(), icon("flip"), element("span", "word", "Flip"));
     this.flip.setAttribute("aria-label", "Flip");
     this.flip.title = "Flip: the other side moves (X)";
+    this.grab = button("strip-button", () => board.paint.grab(), icon("grab"), element("span", "word", "Grab"));
+    this.grab.setAttribute("aria-label", "Grab");
+    this.grab.title = "Grab the cloth, also at its edges and corners, and drop it where it shall land (G)";
     this.unit = button("strip-button", () => this.swapUnit(), "");
     this.fit = iconButton("fit", "Fit", () => board.framing.fit());
     this.fit.title = "Show the whole cloth (0)";
@@ -26,7 +29,7 @@ export class Strip {
         "div",
         "strip",
         group("Moment", this.back, this.moment, this.next),
-        group("Fold", this.blue, this.red, this.flip),
+        group("Fold", this.blue, this.red, this.flip, this.grab),
         group("View", this.unit, this.fit),
       ),
     );
@@ -46,6 +49,7 @@ export class Strip {
     this.blue.setAttribute("aria-pressed", String(kind === "blue"));
     this.red.setAttribute("aria-pressed", String(kind === "red"));
     this.flip.setAttribute("aria-pressed", String(board.paint.isFlipped));
+    this.grab.setAttribute("aria-pressed", String(board.paint.grabs && board.tool.name === "fold"));
     this.unit.textContent = unit.name;
     this.unit.setAttribute("aria-label", `Unit: ${unit.name}`);
     this.unit.title = "Centimetres or inches";

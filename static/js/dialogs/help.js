@@ -17,7 +17,7 @@ const SECTIONS = {
   Drawing: [
     ["Click", "Set a corner; the first one again closes"],
     ["Drag", "A fold from edge to edge, or a point of the cloth to where it shall land"],
-    ["Alt + drag", "Grab the cloth also at its edge or corner"],
+    ["G", "Grab the cloth also at its edge or corner; Alt for one stroke"],
     ["Edge to edge", "Grab beside an edge, drop on another: edge onto edge"],
     ["30  18in  91.4/2", "Exact length"],
     ["Shift", "Steps of 15\u00B0"],

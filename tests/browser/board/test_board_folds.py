@@ -75,6 +75,28 @@ def test_a_point_grabbed_and_dropped_makes_the_fold_that_takes_it_there(page: Pa
     expect(page.locator(".strip-moment")).to_have_text("After 1: bottom up")
 
 
+def test_a_corner_is_grabbed_once_grabbing_is_on(page: Page, desk: Desk) -> None:
+    """Otherwise a stroke that begins at a corner is the crease itself."""
+    lower_left, lower_right, upper_right, upper_left = square = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]
+    desk.lay({"name": "square", "outline": square, "folds": []})
+    hand = Hand(page)
+    page.keyboard.press("g")
+    grab = page.get_by_role("button", name="Grab", exact=True)
+    expect(grab).to_have_attribute("aria-pressed", "true")
+    hand.drag((0.0, 0.0), (0.6, 0.6), is_released=False)
+    expect(page.locator(".carry")).to_have_count(1)
+    page.mouse.up()
+    expect_step(page, "Draw fold")
+    assert fold(desk, 0) == {"start": pytest.approx(lower_right), "end": pytest.approx(upper_left)}
+    page.keyboard.press("Control+z")
+    expect_step(page, "Begin")
+    hand.tool("Grab")
+    expect(grab).to_have_attribute("aria-pressed", "false")
+    hand.drag((0.0, 0.0), (0.6, 0.6))
+    expect_step(page, "Draw fold")
+    assert fold(desk, 0) == {"start": pytest.approx(lower_left), "end": pytest.approx(upper_right)}
+
+
 def test_a_stroke_beside_the_cloth_is_no_fold_and_says_so(page: Page, cloth: Desk) -> None:
     hand = Hand(page)
     hand.tool("Draw fold")

@@ -39,7 +39,9 @@ export class FoldTool extends Tool {
       return this.stroke.isGrab
         ? "Drop it where it shall land."
         : "To another edge; what is left of the arrow moves. Flip: X";
-    return "Drag from edge to edge, or grab the cloth and drop it where it shall land.";
+    return this.board.paint.grabs
+      ? "Grab the cloth and drop it where it shall land."
+      : "Drag from edge to edge, or grab the cloth and drop it where it shall land.";
   }
 
   get isBusy() {
@@ -67,9 +69,9 @@ export class FoldTool extends Tool {
     const { isGrab = false, from = null, laid = [] } = this.stroke ?? {};
     const { rings } = this.board;
     const snapped = this.board.snapTo(pointer, { rings, points: [], onlyCloth: !isGrab, from, laid });
-    const isOverCloth = !snapped.isOnCloth && isInside(pointer.at, this.board.rings);
     if (this.stroke) this.lead(snapped.at);
-    this.cursor = this.isRefused ? "not-allowed" : !this.stroke && isOverCloth ? "grab" : "crosshair";
+    const canGrab = !this.stroke && this.isGrab(snapped, pointer);
+    this.cursor = this.isRefused ? "not-allowed" : canGrab ? "grab" : "crosshair";
     return snapped;
   }
 
@@ -84,12 +86,21 @@ export class FoldTool extends Tool {
       );
       return;
     }
-    const isGrab = pointer.alt || (!snapped.isOnCloth && isInside(snapped.at, this.board.rings));
-    const isEarly = this.begun > this.done;
+    const isGrab = this.isGrab(snapped, pointer);
+    const isEarly = this.begun > this.done && !this.isToGrab(pointer);
     const { isTouch } = pointer;
     const laid = this.laid(isGrab, snapped, isTouch);
     this.isRefused = false;
     this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid };
+  }
+
+  /** Whether a stroke that begins there takes cloth along: inside it always, at its edges and corners when told to. */
+  isGrab({ at, isOnCloth }, pointer) {
+    return isOnCloth ? this.isToGrab(pointer) : isInside(at, this.board.rings);
+  }
+
+  isToGrab({ alt }) {
+    return alt || this.board.paint.grabs;
   }
 
   /** Where a stroke would have to end to lay one edge on another. */
