@@ -42,13 +42,16 @@ def inches(page: Page) -> Iterator[None]:
         ('6"', 0.1524),
         ("-4", -0.04),
         ("10 - 2 - 3", 0.05),
+        ("10 - 2 - 3 in", 0.127),
+        ("18in/2", 0.2286),
+        ("1m - 2in + 3", 1 - 0.0508 + 0.03),
     ],
 )
 def test_lengths_are_read_as_centimetres_unless_they_say_otherwise(page: Page, text: str, metres: float) -> None:
     assert asked(page, "units", f"m.parsed({text!r})") == pytest.approx(metres, abs=1e-12)
 
 
-@pytest.mark.parametrize("text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft"])
+@pytest.mark.parametrize("text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft", "2in 3", "in/2", "3 inin"])
 def test_what_is_no_length_is_none(page: Page, text: str) -> None:
     assert asked(page, "units", f"m.parsed({text!r})") is None
 

@@ -3,6 +3,7 @@
 const METRES = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, '"': 0.0254 };
 const KEY = "pleat-unit";
 const SUM = /^[-+*/().\d\s]+$/;
+const WITH_UNIT = /(\d+\.?\d*|\.\d+)\s*(mm|cm|in|m|")/g;
 const NUMBER = /-?\d+(?:\.\d+)?/g;
 const LENGTHS = /(-?\d+(?:\.\d+)?|\(-?[\d.]+(?:, -?[\d.]+)+\)) (mm|cm|m)(?![\w^/])/g;
 
@@ -22,15 +23,20 @@ export const unit = {
 };
 
 /**
- * A length that somebody wrote: `30`, `18in`, `91.4/2`, `1.2 m`.
+ * A length that somebody wrote: `30`, `18in`, `91.4/2`, `(3 + 4) m`, `18in/2`, `1m - 2in`.
+ * A single unit at the end means the whole; else each unit means the number before it.
  * @param {string} text
  * @returns {number|null} metres; null if it is no length
  */
 export function parsed(text) {
-  const [, sum, suffix] = /^(.*?)\s*(mm|cm|in|m|")?$/.exec(text.trim().toLowerCase().replaceAll(",", ".")) ?? [];
-  const value = evaluated(sum ?? "");
-  return value === null ? null : value * (suffix ? METRES[suffix] : unit.metres);
+  const written = text.trim().toLowerCase().replaceAll(",", ".");
+  const [, sum, suffix] = /^(.*?)\s*(mm|cm|in|m|")?$/.exec(written) ?? [];
+  if (/[a-z"]/.test(sum ?? "")) return times(unit.metres, evaluated(written.replace(WITH_UNIT, inUnit)));
+  return times(suffix ? METRES[suffix] : unit.metres, evaluated(sum ?? ""));
 }
+
+const times = (metres, value) => (value === null ? null : metres * value);
+const inUnit = (_, value, suffix) => `(${value}*${METRES[suffix] / unit.metres})`;
 
 /** No length is larger, either way (m). */
 const MOST_M = 10;
