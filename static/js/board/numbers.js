@@ -1,13 +1,13 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
 import { element } from "../dom.js";
+import { placeOf, sideOf } from "./beside.js";
 import { middleOf, moveCorners, moveFold } from "./edits.js";
 import { between, distance, toOuter } from "./geometry.js";
 import { atLength } from "./snap.js";
 import { laid } from "./tools/place.js";
 import { evaluated, number, parsed, problemOf, unit } from "./units.js";
 
-const AWAY_PX = 16;
 const DEGREE = Math.PI / 180;
 
 /** @typedef {{label: string, name: string, value: string, put: (text: string) => string}} Field */
@@ -21,6 +21,8 @@ export class Numbers {
     this.root.setAttribute("aria-label", "Numbers");
     this.root.hidden = true;
     this.shown = "";
+    /** @type {[number, number]} */
+    this.side = [1, 1];
     board.root.append(this.root);
   }
 
@@ -33,17 +35,24 @@ export class Numbers {
       return;
     }
     const names = `${found.key} ${found.fields.map(({ name }) => name)} ${unit.name}`;
-    if (names !== this.shown) this.root.replaceChildren(...found.fields.map((_, index) => this.row(index)));
+    const isNew = names !== this.shown;
+    if (isNew) this.root.replaceChildren(...found.fields.map((_, index) => this.row(index)));
     this.shown = names;
     this.fields = found.fields;
     for (const [index, input] of [...this.root.querySelectorAll("input")].entries()) {
       if (document.activeElement !== input) input.value = found.fields[index].value;
     }
+    this.put(found.at, isNew);
+  }
+
+  /** Beside its place; on which side is chosen when it appears. @param {[number, number]} at px @param {boolean} isNew */
+  put(at, isNew) {
     const { width, height, top } = this.board.place;
-    const [x, y] = found.at;
-    const { offsetWidth: wide, offsetHeight: tall } = this.root;
-    this.root.style.left = `${Math.max(Math.min(x + AWAY_PX, width - wide - 4), 4)}px`;
-    this.root.style.top = `${top + Math.max(Math.min(y + AWAY_PX, height - tall - 8), 8)}px`;
+    const size = /** @type {[number, number]} */ ([this.root.offsetWidth, this.root.offsetHeight]);
+    if (isNew) this.side = sideOf(at, size, [width, height], this.board.pointer.last);
+    const [x, y] = placeOf(at, size, [width, height], this.side);
+    this.root.style.left = `${x}px`;
+    this.root.style.top = `${top + y}px`;
   }
 
   focus() {
@@ -60,12 +69,12 @@ export class Numbers {
     const { label, name } = (this.fields = this.found().fields)[index];
     input.setAttribute("aria-label", name);
     input.addEventListener("focus", () => input.select());
-    input.addEventListener("change", () => this.put(index, input));
+    input.addEventListener("change", () => this.take(index, input));
     input.addEventListener("keydown", (event) => this.key(event, index, input));
     return element("label", "number-at", element("span", "", label), input);
   }
 
-  put(index, input) {
+  take(index, input) {
     const problem = this.fields[index].put(input.value);
     if (!problem) return;
     this.board.store.refuse(problem);

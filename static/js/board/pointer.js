@@ -33,6 +33,8 @@ export class PointerInput {
     this.pressed = null;
     /** @type {{id: number, px: [number, number]}|null} */
     this.panning = null;
+    /** Where a pointer was last. @type {[number, number]|null} */
+    this.last = null;
     this.isSpaceDown = false;
     this.isOver = false;
     const { svg } = board;
@@ -51,7 +53,7 @@ export class PointerInput {
 
   /** @param {MouseEvent} event @returns {Pointer} */
   pointer(event) {
-    const px = this.place(event);
+    const px = (this.last = this.place(event));
     const isTouch = /** @type {PointerEvent} */ (event).pointerType === "touch";
     const { ctrlKey, metaKey, shiftKey: shift, altKey: alt } = event;
     return { px, at: this.board.view.toM(px), isTouch, isKeyboard: false, ctrl: ctrlKey || metaKey, shift, alt };

@@ -81,3 +81,16 @@ def test_a_number_is_put_once_when_enter_takes_it(page: Page, cloth: Desk) -> No
     hand.tool("Undo")  # it waits for its turn
     expect_step(page, "Begin")
     assert [method for method in sent if method != "GET"] == ["PUT", "POST"]
+
+
+def test_numbers_do_not_come_to_lie_under_the_pointer(page: Page, desk: Desk) -> None:
+    """A second click is meant for the edge, not for what the first one has opened beside its middle."""
+    desk.lay({"name": "half", "outline": [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]], "folds": []})
+    hand = Hand(page)
+    x, y = hand.px((0.25, 0.25))
+    place = (x + 38, y + 38)
+    page.mouse.click(*place)
+    expect(page.get_by_label("Length of the edge")).to_be_visible()
+    page.mouse.dblclick(*place)
+    expect_step(page, "Add vertex")
+    assert len(desk.drawing["outline"]) == 4
