@@ -177,6 +177,27 @@ def test_the_garment_is_placed_on_the_table_and_turned(page: Page, cloth: Desk) 
     assert placement["y_m"] + 0.229 == pytest.approx(-0.305 + 0.305, abs=1e-9)
 
 
+def test_what_holds_the_garment_on_the_table_is_named(page: Page, cloth: Desk) -> None:
+    """Its middle lies on the line between the table's left and right, 36.95 cm before the middle of the table."""
+    hand = Hand(page)
+    hand.tool("Place")
+    expect(page.locator(".yaw-knob")).to_be_visible()
+    box = page.locator(".layer-cloth").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    scale = float(str(hand.board.get_attribute("data-px-per-m")))
+    name = page.locator(".snap-name")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 2, y - 0.1 * scale, steps=3)
+    expect(name).to_have_text("table's middle line")
+    page.mouse.move(x + 2, y - 0.3695 * scale, steps=3)
+    expect(name).to_have_text("table's middle")
+    page.mouse.up()
+    expect(name).to_have_count(0)
+    expect_step(page, "Place garment")
+
+
 def test_tab_walks_from_fold_to_fold_and_corner_to_corner_and_enter_edits(page: Page, shirt: Desk) -> None:
     page.get_by_role("button", name="Fit").focus()
     for _ in range(2):

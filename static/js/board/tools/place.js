@@ -12,6 +12,8 @@ const TOUCH_PX = 24;
 const ROUND_M = 0.01;
 const SNAP_PX = 4;
 const SQUARE_RAD = (4 * Math.PI) / 180;
+/** What holds the garment's middle, by how many of the table's middle lines it is on. */
+const MIDDLES = ["", "table's middle line", "table's middle"];
 const TURN_RAD = Math.PI / 12;
 const NUDGE_TURN_RAD = Math.PI / 36;
 
@@ -90,7 +92,8 @@ export class PlaceTool extends Tool {
     }
     const isTurn = this.held.grasp === "turn";
     this.gesture ??= new Gesture(this.board, isTurn ? "Turn garment" : "Place garment");
-    const placement = isTurn ? this.turnedTo(pointer) : this.movedTo(pointer);
+    const { placement, name } = isTurn ? this.turnedTo(pointer) : this.movedTo(pointer);
+    this.board.snapped = { at: pointer.at, name, key: "", isOnCloth: false };
     this.gesture.show((drawing) => {
       drawing.placement = placement;
     });
@@ -100,15 +103,16 @@ export class PlaceTool extends Tool {
     const { placement, plane, centre } = this.held;
     const [right, up] = minus(this.board.view.pxToPlane(pointer.px), plane);
     const by = [up, -right]; // the plane's up is the table's x, its left the table's y
-    const kept = [0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer) - centre[axis]);
-    return { ...placement, x_m: placement.x_m + kept[0], y_m: placement.y_m + kept[1] };
+    const at = [0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer));
+    const kept = minus(at, centre);
+    const name = MIDDLES[at.filter((value) => value === 0).length];
+    return { placement: { ...placement, x_m: placement.x_m + kept[0], y_m: placement.y_m + kept[1] }, name };
   }
 
   /** The garment's middle goes onto whole centimetres, and onto the table's middle lines. */
   rounded(value, pointer) {
     if (pointer.ctrl || !this.board.snapper.isOn) return value;
-    const near = Math.abs(value) * this.board.view.scale < 2 * SNAP_PX ? 0 : Math.round(value / ROUND_M) * ROUND_M;
-    return near;
+    return Math.abs(value) * this.board.view.scale < 2 * SNAP_PX ? 0 : Math.round(value / ROUND_M) * ROUND_M;
   }
 
   turnedTo(pointer) {
@@ -116,12 +120,12 @@ export class PlaceTool extends Tool {
     const centre = view.toPx(this.held.middle);
     const [x, y] = minus(pointer.px, centre);
     let yaw = Math.atan2(-y, x) - Math.PI; // the handle is the article's +y, the plane's up the table's x
-    if (pointer.shift) yaw = Math.round(yaw / TURN_RAD) * TURN_RAD;
-    else if (!pointer.ctrl && this.board.snapper.isOn) {
-      const square = Math.round(yaw / (Math.PI / 2)) * (Math.PI / 2);
-      if (Math.abs(yaw - square) < SQUARE_RAD) yaw = square;
-    }
-    return laid(this.held.centre, this.held.middle, yaw);
+    let name = "";
+    const square = Math.round(yaw / (Math.PI / 2)) * (Math.PI / 2);
+    if (pointer.shift) [yaw, name] = [Math.round(yaw / TURN_RAD) * TURN_RAD, "15\u00B0"];
+    else if (!pointer.ctrl && this.board.snapper.isOn && Math.abs(yaw - square) < SQUARE_RAD)
+      [yaw, name] = [square, "square to the table"];
+    return { placement: laid(this.held.centre, this.held.middle, yaw), name };
   }
 
   release(pointer, hasMoved) {
@@ -133,12 +137,14 @@ export class PlaceTool extends Tool {
     }
     this.held = null;
     this.gesture = null;
+    this.board.snapped = null;
     gesture?.commit();
   }
 
   cancel() {
     const wasBusy = this.gesture !== null;
     this.gesture?.cancel();
+    this.board.snapped = null;
     this.held = null;
     this.gesture = null;
     return wasBusy;
