@@ -51,9 +51,7 @@ def test_lengths_are_read_as_centimetres_unless_they_say_otherwise(page: Page, t
     assert asked(page, "units", f"m.parsed({text!r})") == pytest.approx(metres, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft", "2in 3", "in/2", "3 inin"]
-)
+@pytest.mark.parametrize("text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft", "2in 3", "in/2"])
 def test_what_is_no_length_is_none(page: Page, text: str) -> None:
     assert asked(page, "units", f"m.parsed({text!r})") is None
 
