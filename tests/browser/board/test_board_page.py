@@ -199,3 +199,16 @@ def test_a_garment_opened_elsewhere_is_seen_whole_and_what_is_pulled_elsewhere_m
     expect_step(page, "Widen")
     page.evaluate("new Promise(requestAnimationFrame)")
     assert scale(page) == fitted
+
+
+@pytest.mark.parametrize("size", [(390, 844), (900, 500), (1024, 768), (1280, 800)])
+def test_no_button_over_the_board_covers_another(page: Page, cloth: Desk, size: tuple[int, int]) -> None:
+    try:
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        boxes = [box for button in page.locator(".strip button").all() if (box := button.bounding_box())]
+        assert len(boxes) == 8
+        assert boxes[-1]["x"] + boxes[-1]["width"] <= size[0]
+        for one, following in zip(boxes, boxes[1:], strict=False):
+            assert one["x"] + one["width"] <= following["x"] + 0.5
+    finally:
+        page.set_viewport_size({"width": 1280, "height": 800})
