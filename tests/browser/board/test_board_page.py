@@ -3,6 +3,7 @@
 import struct
 import zlib
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import httpx
 import pytest
@@ -208,7 +209,7 @@ def test_no_button_over_the_board_covers_another(page: Page, cloth: Desk, size: 
         boxes = [box for button in page.locator(".strip button").all() if (box := button.bounding_box())]
         assert len(boxes) == 8
         assert boxes[-1]["x"] + boxes[-1]["width"] <= size[0]
-        for one, following in zip(boxes, boxes[1:], strict=False):
+        for one, following in pairwise(boxes):
             assert one["x"] + one["width"] <= following["x"] + 0.5
     finally:
         page.set_viewport_size({"width": 1280, "height": 800})
