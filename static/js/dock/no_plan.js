@@ -1,6 +1,7 @@
 /** What stands where the plan would be: one sentence, what would help as buttons, and all the reasons on demand. */
 
 import { button, element } from "../dom.js";
+import { Mending } from "./mending.js";
 import { details, explanation } from "./reasons.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { ranked, SuggestionSearch } from "./suggestion_search.js";
@@ -14,6 +15,7 @@ export class NoPlan {
   constructor(store) {
     this.store = store;
     this.search = new SuggestionSearch();
+    this.mending = new Mending(store);
     this.sentence = element("p", "reason");
     this.help = element("div", "suggestions");
     this.help.setAttribute("role", "group");
@@ -26,7 +28,7 @@ export class NoPlan {
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
     this.root = element("div", "no-plan", this.sentence, this.progress, this.help, this.inFull);
-    this.search.addEventListener("change", () => this.showFound());
+    for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     this.unfold(false);
   }
@@ -42,8 +44,9 @@ export class NoPlan {
     this.why.hidden = all.length === 0;
   }
 
-  /** Search while the drawing rests without a plan; anything else ends it. */
+  /** Search, or ask what would mend it, while the drawing rests without a plan; anything else ends it. */
   follow() {
+    this.mending.follow();
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
     const rests = isAnswered && SEARCHABLE.has(message?.status ?? "");
@@ -58,10 +61,10 @@ export class NoPlan {
 
   showFound() {
     const { found, isRunning, fault } = this.search;
-    const order = ranked(found);
+    const order = [...this.mending.found, ...ranked(found)];
     const offered = order.slice(0, SHOWN_MAX);
     const make = (one, index) => suggestionButton(this.store, one, index === 0 ? "is-first" : "");
-    if (!isUnderHand(this.help, found)) fill(this.help, offered, make);
+    if (!isUnderHand(this.help, order)) fill(this.help, offered, make);
     fill(this.more, order.slice(SHOWN_MAX), make);
     this.progress.classList.toggle("is-searching", isRunning);
     this.progress.hidden = !isRunning && offered.length > 0;

@@ -9,7 +9,7 @@ import { eventStream } from "./event_stream.js";
  * @property {string} message
  * @property {any} change fields of a plan request
  * @property {number} size
- * @property {number} cost_s of the plan with the change
+ * @property {number|null} cost_s of the plan with the change; null if that is not known
  */
 
 const ADDRESS = "/api/suggestions";
