@@ -16,7 +16,11 @@ export function drawMend({ store, view, drawing }) {
   const goneCorners = drawing.outline.filter((corner) => !isCornerKept(corner)).map(({ point }) => point);
   const goneFolds = drawing.folds.filter(({ id }) => !wanted.folds.some((fold) => fold.id === id));
   const gone = [...goneCorners, ...goneFolds.map(({ start, end }) => between(start.point, end.point))];
-  return [...outline(view, drawing, wanted), ...folds(view, drawing, wanted), ...gone.map((at, n) => cross(view, at, n))];
+  return [
+    ...outline(view, drawing, wanted),
+    ...folds(view, drawing, wanted),
+    ...gone.map((at, n) => crossAt(`mend:gone${n}`, view.toPx(at), CROSS_PX)),
+  ];
 }
 
 function outline(view, drawing, wanted) {
@@ -38,8 +42,6 @@ function folds(view, drawing, wanted) {
     }),
   );
 }
-
-const cross = (view, at, n) => crossAt(`mend:gone${n}`, view.toPx(at), CROSS_PX);
 
 const isSame = (a, b) => distance(a, b) <= SAME_M;
 

@@ -14,6 +14,7 @@ const SAYS = {
   grips_too_close: ({ short_by_m: short }) => `the two hands would be ${short ? `${length(short)} ` : ""}too close`,
   red_needs_hold: ({ needed_grip_radius_m: radius }) =>
     radius ? "the hands that still hold are too far from its corners" : "no hand still holds what it moves",
+  not_a_g_state: atRest,
   slips: ({ needed_friction: friction }) =>
     `the cloth would slip off the table${friction ? `, unless friction were ${Math.ceil(100 * friction) / 100}` : ""}`,
   collision: () => "the arms would touch something on every way tried",
@@ -27,8 +28,8 @@ const SAYS = {
  */
 export function sentence(reason, folds) {
   const says = SAYS[reason.code];
-  if (!says) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
-  const told = says(reason);
+  const told = says?.(reason) ?? "";
+  if (!told) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
   return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
 }
 
@@ -82,6 +83,16 @@ function problemSentence(problem, drawing) {
 
 function subject(field) {
   return field.startsWith("outline") ? "outline" : field.replaceAll("_", " ");
+}
+
+/** How the cloth lies at the start, in the page's unit; nothing of what comes later. */
+function atRest({ fold, message, short_by_m: short }) {
+  if (fold !== null || !short) return "";
+  const [, edge] = message.match(/^as the garment lies at the start, .*hangs over the (\w+) edge and nothing/) ?? [];
+  if (edge) return `the cloth hangs ${length(short)} over the table\u2019s ${edge} edge, and nothing holds it there`;
+  const isBeside = message.includes("nothing of the cloth lies on the table");
+  if (isBeside) return `the cloth lies ${length(short)} beside the table`;
+  return message.includes("covers the table's corner") ? "the cloth hangs over two edges of the table at a corner" : "";
 }
 
 /** A radius that will do: rounded up. */
