@@ -6,6 +6,8 @@ import { capital, foldName, length, place, spoken } from "./words.js";
 export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
 
 const UP_DOWN = 0.5;
+/** A shorter drag need not be told (m). */
+const DRAGGED_M = 1e-3;
 
 const SAYS = {
   out_of_reach: outOfReach,
@@ -41,19 +43,25 @@ export function sentence(reason, folds) {
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
   if (message.status === "budget_exceeded") return "The time for searching ran out.";
-  const first = (message.plan?.reasons ?? []).find((reason) => reason.message);
+  const first = firstReason(message);
   if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
   return told(message);
 }
 
 /**
- * The same with all that helps where there is more room: how far a search came that did not come to an end.
+ * The same with all that helps where there is more room: how far a search came that did not come to an end, how far the
+ * cloth had been dragged by then.
  * @param {any} message of kind `plan`
  * @param {any} state of kind `document`
  */
 export function explanation(message, state) {
-  return message.status === "budget_exceeded" ? told(message) : headline(message, state);
+  if (message.status === "budget_exceeded") return told(message);
+  const by_m = message.status === "infeasible" ? Math.hypot(...(firstReason(message)?.offset_m ?? [0, 0])) : 0;
+  const after = by_m < DRAGGED_M ? "" : `, after the cloth was dragged ${length(by_m)}`;
+  return headline(message, state).replace(/\.$/, `${after}.`);
 }
+
+const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
 
 /** What the server says, as a sentence. */
 const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
