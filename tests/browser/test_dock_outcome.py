@@ -110,7 +110,9 @@ def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, desi
     order = page.evaluate(
         """async () => {
           const { ranked } = await import("/static/js/dock/suggestion_search.js");
-          const one = (kind, size, cost_s, is_assumption = false) => ({ kind, size, cost_s, is_assumption });
+          const at = (x_m) => ({ placement: { x_m, y_m: 0, yaw_rad: 0 } });
+          const one = (kind, size, cost_s, is_assumption = false) =>
+            ({ kind, size, cost_s, is_assumption, change: at(size) });
           const found = [one("friction", 1, 20, true), one("station", 1, 42), one("placement", 0.6, 10),
             one("placement", 0.5, 12), one("placement", 0.7, 11)];
           return ranked(found).map(({ kind, size }) => [kind, size]);
@@ -118,6 +120,58 @@ def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, desi
     )
     # The nearest place first; then the other kind; then the further place, which is quicker (the third is not).
     assert order == [["placement", 0.5], ["station", 1], ["placement", 0.6], ["friction", 1]]
+
+
+def test_of_two_places_that_are_nearly_one_the_better_is_offered(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    kept = page.evaluate(
+        """async () => {
+          const { ranked } = await import("/static/js/dock/suggestion_search.js");
+          const at = (x_m, y_m, cost_s, yaw_rad = 0) =>
+            ({ kind: "placement", size: Math.hypot(x_m, y_m), cost_s, change: { placement: { x_m, y_m, yaw_rad } } });
+          const left = at(-0.08, 0, 46.2);
+          const told = (...found) => ranked([left, ...found]).map(({ cost_s }) => cost_s);
+          const turn = 2 * Math.PI;
+          return [told(at(-0.085, 0.005, 46.1)), told(at(-0.085, 0.005, 40)), told(at(-0.2, 0, 46.1)),
+            told(at(-0.085, 0, 46.1, turn)), told(at(-0.085, 0, 46.1, turn / 2))];
+        }"""
+    )
+    # Half a centimetre apart: the smaller change, unless the other's plan is cheaper by more than a second. A whole
+    # turn is none, and half a turn is another place.
+    assert kept == [[46.2], [40], [46.2, 46.1], [46.2], [46.2, 46.1]]
+
+
+def test_of_fold_lines_only_those_of_one_fold_are_nearly_one(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    kept = page.evaluate(
+        """async () => {
+          const { ranked } = await import("/static/js/dock/suggestion_search.js");
+          const shifted = (first, second, cost_s) => {
+            const fold = (y) => ({ start: [0, y], end: [1, y] });
+            const garment = { folds: [fold(first), fold(1 + second)] };
+            return { kind: "fold_line", size: Math.abs(first + second), cost_s, change: { garment } };
+          };
+          return ranked([shifted(0.0125, 0, 40), shifted(0.0175, 0, 39.9), shifted(0, 0.02, 39.8)])
+            .map(({ cost_s }) => cost_s);
+        }"""
+    )
+    assert kept == [40, 39.8]
+
+
+def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { explanation, headline } = await import("/static/js/dock/reasons.js");
+          const reason = { fold: 0, code: "out_of_reach", arm: "left", short_by_m: 0.02, message: "short" };
+          const state = { drawing: { folds: [{ name: "half" }] }, problems: [] };
+          const about = (offset_m) => ({ status: "infeasible", plan: { reasons: [{ ...reason, offset_m }] } });
+          return [explanation(about([-0.3, 0.4]), state), headline(about([-0.3, 0.4]), state),
+            explanation(about([0, 0]), state), explanation(about(null), state)];
+        }"""
+    )
+    brief = "Half: the left hand is 2 cm short."
+    assert told == ["Half: the left hand is 2 cm short, after the cloth was dragged 50 cm.", brief, brief, brief]
 
 
 def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> None:
