@@ -6,7 +6,7 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.app.conftest import Served
 from tests.app.samples import towel
@@ -54,6 +54,26 @@ def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sh
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_role("status")).to_contain_text("No plan: Half: ")
     assert stuck.drawing["placement"] == FAR
+
+
+def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    limits: list[float] = []
+
+    def nothing(route: Route) -> None:
+        limits.append(route.request.post_data_json["time_limit_s"])
+        route.fulfill(content_type="text/event-stream", body='event: done\ndata: {"count": 0, "elapsed_s": 1}\n\n')
+
+    page.route("**/api/suggestions", nothing)
+    sheet = new_sheet(towel(placement=FAR))
+    sheet.edit(keep_front_alone)
+    page.goto(sheet.page_url)
+    expect(page.get_by_text("No single small change")).to_be_visible()
+    page.get_by_role("button", name="Look longer").click()
+    expect(page.get_by_role("button", name="Look longer")).to_be_hidden()
+    expect(page.get_by_text("No single small change")).to_be_visible()
+    assert limits == [10, 60]
 
 
 def test_an_edit_ends_the_search_for_what_would_help(page: Page, stuck: Sheet) -> None:

@@ -8,6 +8,8 @@ import { ranked, SuggestionSearch } from "./suggestion_search.js";
 
 const SHOWN_MAX = 3;
 const REST_MS = 500;
+/** How long is looked when that is asked for: some changes take long to be proven (s). */
+const LONG_S = 60;
 const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
 
 export class NoPlan {
@@ -17,6 +19,8 @@ export class NoPlan {
     this.search = new SuggestionSearch();
     this.mending = new Mending(store);
     this.sentence = element("p", "reason");
+    this.longer = button("chip look-longer", () => this.lookLonger());
+    this.longer.hidden = true;
     this.help = element("div", "suggestions");
     this.help.setAttribute("role", "group");
     this.help.setAttribute("aria-label", "Suggestions");
@@ -27,7 +31,7 @@ export class NoPlan {
     this.all.setAttribute("aria-label", "Reasons");
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
-    this.root = element("div", "no-plan", this.sentence, this.progress, this.help, this.inFull);
+    this.root = element("div", "no-plan", this.sentence, this.progress, this.longer, this.help, this.inFull);
     for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     this.unfold(false);
@@ -53,6 +57,7 @@ export class NoPlan {
     const wanted = rests ? state.version : null;
     if (wanted === this.searched) return;
     this.searched = wanted;
+    this.isLong = false;
     this.unfold(false);
     this.store.setPreview(null);
     if (rests) this.search.start(state, { delay_ms: REST_MS });
@@ -70,6 +75,18 @@ export class NoPlan {
     this.progress.hidden = !isRunning && offered.length > 0;
     this.progress.textContent = isRunning ? looking(offered.length) : this.nothing(fault);
     this.progress.hidden ||= !isRunning && this.searched === null;
+    this.offerLonger(!isRunning && !offered.length && typeof this.searched === "number", fault);
+  }
+
+  lookLonger() {
+    this.isLong = true;
+    this.search.start(this.store.state, { limit_s: LONG_S });
+  }
+
+  /** Nothing was found: there is more time for it, once, or another try. */
+  offerLonger(isNothing, fault) {
+    this.longer.hidden = !isNothing || (Boolean(this.isLong) && !fault);
+    this.longer.textContent = fault ? "Look again" : "Look longer";
   }
 
   nothing(fault) {
