@@ -108,3 +108,17 @@ class StepsAnswer(BaseModel):
 
     version: int
     steps: list[LayersAnswer]
+
+
+class MendAnswer(BaseModel):
+    """A change that takes a problem of a drawing away: what is done, and the drawing afterwards."""
+
+    label: str
+    drawing: DrawingModel
+
+
+class MendsAnswer(BaseModel):
+    """What would help where there is a problem."""
+
+    version: int
+    mends: list[MendAnswer]

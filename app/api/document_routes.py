@@ -17,6 +17,7 @@ from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
     DocumentEntryAnswer,
+    MendsAnswer,
     PlaybackAnswer,
     StepsAnswer,
 )
@@ -30,6 +31,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
+from app.drawing.mends import mends
 from app.drawing.place_crease import PlacedCrease, along_line, grab_and_drop
 from app.open_document import OpenDocument
 from app.workspace import Workspace
@@ -145,6 +147,15 @@ async def read_steps(request: Request, document_id: str) -> JSONResponse:
     opened = await _opened(request, document_id)
     state = opened.document.state
     return JSONResponse({"version": state.version, "steps": await run_in_threadpool(state.solution.layers)})
+
+
+@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(404, 422)})
+async def read_mends(request: Request, document_id: str) -> JSONResponse:
+    """What would take the first of a drawing's problems away, the best first; none where there are no problems."""
+    opened = await _opened(request, document_id)
+    state = opened.document.state
+    found = await run_in_threadpool(mends, state.draft)
+    return JSONResponse({"version": state.version, "mends": [mend.to_dict() for mend in found]})
 
 
 async def _opened(request: Request, document_id: str) -> OpenDocument:

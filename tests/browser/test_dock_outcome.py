@@ -6,7 +6,7 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.app.conftest import Served
 from tests.app.samples import towel
@@ -54,6 +54,26 @@ def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sh
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_role("status")).to_contain_text("No plan: Half: ")
     assert stuck.drawing["placement"] == FAR
+
+
+def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    limits: list[float] = []
+
+    def nothing(route: Route) -> None:
+        limits.append(route.request.post_data_json["time_limit_s"])
+        route.fulfill(content_type="text/event-stream", body='event: done\ndata: {"count": 0, "elapsed_s": 1}\n\n')
+
+    page.route("**/api/suggestions", nothing)
+    sheet = new_sheet(towel(placement=FAR))
+    sheet.edit(keep_front_alone)
+    page.goto(sheet.page_url)
+    expect(page.get_by_text("No single small change")).to_be_visible()
+    page.get_by_role("button", name="Look longer").click()
+    expect(page.get_by_role("button", name="Look longer")).to_be_hidden()
+    expect(page.get_by_text("No single small change")).to_be_visible()
+    assert limits == [10, 60]
 
 
 def test_an_edit_ends_the_search_for_what_would_help(page: Page, stuck: Sheet) -> None:
@@ -110,7 +130,9 @@ def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, desi
     order = page.evaluate(
         """async () => {
           const { ranked } = await import("/static/js/dock/suggestion_search.js");
-          const one = (kind, size, cost_s, is_assumption = false) => ({ kind, size, cost_s, is_assumption });
+          const at = (x_m) => ({ placement: { x_m, y_m: 0, yaw_rad: 0 } });
+          const one = (kind, size, cost_s, is_assumption = false) =>
+            ({ kind, size, cost_s, is_assumption, change: at(size) });
           const found = [one("friction", 1, 20, true), one("station", 1, 42), one("placement", 0.6, 10),
             one("placement", 0.5, 12), one("placement", 0.7, 11)];
           return ranked(found).map(({ kind, size }) => [kind, size]);
@@ -118,6 +140,58 @@ def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, desi
     )
     # The nearest place first; then the other kind; then the further place, which is quicker (the third is not).
     assert order == [["placement", 0.5], ["station", 1], ["placement", 0.6], ["friction", 1]]
+
+
+def test_of_two_places_that_are_nearly_one_the_better_is_offered(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    kept = page.evaluate(
+        """async () => {
+          const { ranked } = await import("/static/js/dock/suggestion_search.js");
+          const at = (x_m, y_m, cost_s, yaw_rad = 0) =>
+            ({ kind: "placement", size: Math.hypot(x_m, y_m), cost_s, change: { placement: { x_m, y_m, yaw_rad } } });
+          const left = at(-0.08, 0, 46.2);
+          const told = (...found) => ranked([left, ...found]).map(({ cost_s }) => cost_s);
+          const turn = 2 * Math.PI;
+          return [told(at(-0.085, 0.005, 46.1)), told(at(-0.085, 0.005, 40)), told(at(-0.2, 0, 46.1)),
+            told(at(-0.085, 0, 46.1, turn)), told(at(-0.085, 0, 46.1, turn / 2))];
+        }"""
+    )
+    # Half a centimetre apart: the smaller change, unless the other's plan is cheaper by more than a second. A whole
+    # turn is none, and half a turn is another place.
+    assert kept == [[46.2], [40], [46.2, 46.1], [46.2], [46.2, 46.1]]
+
+
+def test_of_fold_lines_only_those_of_one_fold_are_nearly_one(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    kept = page.evaluate(
+        """async () => {
+          const { ranked } = await import("/static/js/dock/suggestion_search.js");
+          const shifted = (first, second, cost_s) => {
+            const fold = (y) => ({ start: [0, y], end: [1, y] });
+            const garment = { folds: [fold(first), fold(1 + second)] };
+            return { kind: "fold_line", size: Math.abs(first + second), cost_s, change: { garment } };
+          };
+          return ranked([shifted(0.0125, 0, 40), shifted(0.0175, 0, 39.9), shifted(0, 0.02, 39.8)])
+            .map(({ cost_s }) => cost_s);
+        }"""
+    )
+    assert kept == [40, 39.8]
+
+
+def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    told = page.evaluate(
+        """async () => {
+          const { explanation, headline } = await import("/static/js/dock/reasons.js");
+          const reason = { fold: 0, code: "out_of_reach", arm: "left", short_by_m: 0.02, message: "short" };
+          const state = { drawing: { folds: [{ name: "half" }] }, problems: [] };
+          const about = (offset_m) => ({ status: "infeasible", plan: { reasons: [{ ...reason, offset_m }] } });
+          return [explanation(about([-0.3, 0.4]), state), headline(about([-0.3, 0.4]), state),
+            explanation(about([0, 0]), state), explanation(about(null), state)];
+        }"""
+    )
+    brief = "Half: the left hand is 2 cm short."
+    assert told == ["Half: the left hand is 2 cm short, after the cloth was dragged 50 cm.", brief, brief, brief]
 
 
 def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> None:

@@ -6,6 +6,8 @@ import { drawFolds, drawGhost } from "./draw_folds.js";
 import { drawGrid } from "./draw_grid.js";
 import { drawHandles } from "./draw_handles.js";
 import { drawAxis, drawCursor, drawPreview } from "./draw_marks.js";
+import { drawMend } from "./draw_mend.js";
+import { drawOverhang } from "./draw_overhang.js";
 import { drawReason } from "./draw_reason.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
 
@@ -43,9 +45,10 @@ export function drawAll(board) {
     ...drawTableEdge(board, "table-line"),
     ...drawChecks(board),
     ...drawProblems(board),
+    ...drawOverhang(board),
     ...drawReason(board),
   ]);
-  sheets.preview.draw([...drawAxis(board), ...drawPreview(board)]);
+  sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawMend(board)]);
   sheets.handles.draw(drawHandles(board));
   sheets.tool.draw(tool.items());
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);

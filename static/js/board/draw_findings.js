@@ -54,8 +54,12 @@ export function drawProblems({ state, view, draft }) {
   ]);
 }
 
-/** Two thin lines, three pixels in all. */
-function double(key, [a, b]) {
+/**
+ * Two thin lines, three pixels in all.
+ * @param {string} key
+ * @param {[number, number][]} line its two ends (px)
+ */
+export function double(key, [a, b]) {
   const aside = times(left(direction(minus(b, a))), 1.6);
   const d = path([plus(a, aside), plus(b, aside)], false) + path([minus(a, aside), minus(b, aside)], false);
   return [

@@ -2,7 +2,7 @@
  * The picture of why there is no plan: a cross where the hand should be, an arrow as long as what is missing, and beyond
  * the edge of that hand's reach the board is hatched. The reach is that at the height where the hand should be, turned as
  * it would have to be there: the server finds it. The robot may have dragged the cloth by then, and the board shows it
- * where it starts: all is drawn as far back as it was dragged.
+ * where it starts: all is drawn as far back as it was dragged, and a dashed arrow says whereto and how far that was.
  */
 
 import { dimension } from "./draw_dimension.js";
@@ -16,6 +16,8 @@ const CROSS_PX = 8;
 const ON_TABLE_M = 0.05;
 /** A direction with less of it along the table than this is not shown on the board. */
 const LEVEL = 0.5;
+/** A shorter drag is not shown (m). */
+const DRAGGED_M = 1e-3;
 /** How far words are below the hatching, and half as far as below the cross; how wide a letter is at most (px). */
 const BELOW_PX = 14;
 const LETTER_PX = 7.5;
@@ -37,6 +39,7 @@ export function drawReason(board) {
     ...beyondReach(board, reason),
     crossAt("reason", from, CROSS_PX),
     ...shortfall(board.view, reason, from, toPx),
+    ...dragged(board, reason, from),
   ];
   if (reason.arm)
     items.push({
@@ -91,9 +94,23 @@ function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtL
   return [arrow, isOn(tip, view) ? words : { ...words, ...below(from, words.text, view) }];
 }
 
-/** Words below a place. */
-const below = ([x, y], text, view) => {
-  return { text, "text-anchor": "middle", x: inside(x, text, view), y: y + 2 * BELOW_PX };
+/** How far the cloth had been dragged from where it lies by the time that is shown, as an arrow. */
+function dragged({ drawing, view }, { point, offset_m: offset }, from) {
+  if (Math.hypot(...(offset ?? [0, 0])) < DRAGGED_M) return [];
+  const tip = view.toPx(toInner(drawing.placement, point));
+  const [arrow, words] = dimension("dragged", from, tip, `dragged ${length(Math.hypot(...offset))}`);
+  const where = isOn(tip, view) ? {} : below(from, words.text, view, 3);
+  const [shaft, ...head] = String(arrow.d).split(/(?=M)/);
+  return [
+    { ...arrow, class: "drag-arrow", d: shaft },
+    { ...arrow, key: "dragged:head", class: "drag-head", d: head.join("") },
+    { ...words, ...where, class: "drag-text" },
+  ];
+}
+
+/** Words below a place, so many lines. */
+const below = ([x, y], text, view, lines = 2) => {
+  return { text, "text-anchor": "middle", x: inside(x, text, view), y: y + lines * BELOW_PX };
 };
 const isOn = ([x, y], { width, height }) => x >= 0 && x <= width && y >= 0 && y <= height;
 

@@ -1,4 +1,5 @@
-/** Stripes at 45 degrees: on the backs of cloth, and where cloth will land; the other way where a hand cannot go. */
+/** Stripes at 45 degrees: on the backs of cloth, and where cloth will land; the other way where a hand cannot go
+ * or no table is. */
 
 import { svg } from "./sheet.js";
 

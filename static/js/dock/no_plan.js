@@ -1,12 +1,15 @@
 /** What stands where the plan would be: one sentence, what would help as buttons, and all the reasons on demand. */
 
 import { button, element } from "../dom.js";
+import { Mending } from "./mending.js";
 import { details, explanation } from "./reasons.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { ranked, SuggestionSearch } from "./suggestion_search.js";
 
 const SHOWN_MAX = 3;
 const REST_MS = 500;
+/** How long is looked when that is asked for: some changes take long to be proven (s). */
+const LONG_S = 60;
 const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
 
 export class NoPlan {
@@ -14,7 +17,10 @@ export class NoPlan {
   constructor(store) {
     this.store = store;
     this.search = new SuggestionSearch();
+    this.mending = new Mending(store);
     this.sentence = element("p", "reason");
+    this.longer = button("chip look-longer", () => this.lookLonger());
+    this.longer.hidden = true;
     this.help = element("div", "suggestions");
     this.help.setAttribute("role", "group");
     this.help.setAttribute("aria-label", "Suggestions");
@@ -25,8 +31,8 @@ export class NoPlan {
     this.all.setAttribute("aria-label", "Reasons");
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
-    this.root = element("div", "no-plan", this.sentence, this.progress, this.help, this.inFull);
-    this.search.addEventListener("change", () => this.showFound());
+    this.root = element("div", "no-plan", this.sentence, this.progress, this.longer, this.help, this.inFull);
+    for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     this.unfold(false);
   }
@@ -42,14 +48,16 @@ export class NoPlan {
     this.why.hidden = all.length === 0;
   }
 
-  /** Search while the drawing rests without a plan; anything else ends it. */
+  /** Search, or ask what would mend it, while the drawing rests without a plan; anything else ends it. */
   follow() {
+    this.mending.follow();
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
     const rests = isAnswered && SEARCHABLE.has(message?.status ?? "");
     const wanted = rests ? state.version : null;
     if (wanted === this.searched) return;
     this.searched = wanted;
+    this.isLong = false;
     this.unfold(false);
     this.store.setPreview(null);
     if (rests) this.search.start(state, { delay_ms: REST_MS });
@@ -58,15 +66,27 @@ export class NoPlan {
 
   showFound() {
     const { found, isRunning, fault } = this.search;
-    const order = ranked(found);
+    const order = [...this.mending.found, ...ranked(found)];
     const offered = order.slice(0, SHOWN_MAX);
     const make = (one, index) => suggestionButton(this.store, one, index === 0 ? "is-first" : "");
-    if (!isUnderHand(this.help, found)) fill(this.help, offered, make);
+    if (!isUnderHand(this.help, order)) fill(this.help, offered, make);
     fill(this.more, order.slice(SHOWN_MAX), make);
     this.progress.classList.toggle("is-searching", isRunning);
     this.progress.hidden = !isRunning && offered.length > 0;
     this.progress.textContent = isRunning ? looking(offered.length) : this.nothing(fault);
     this.progress.hidden ||= !isRunning && this.searched === null;
+    this.offerLonger(!isRunning && !offered.length && typeof this.searched === "number", fault);
+  }
+
+  lookLonger() {
+    this.isLong = true;
+    this.search.start(this.store.state, { limit_s: LONG_S });
+  }
+
+  /** Nothing was found: there is more time for it, once, or another try. */
+  offerLonger(isNothing, fault) {
+    this.longer.hidden = !isNothing || (Boolean(this.isLong) && !fault);
+    this.longer.textContent = fault ? "Look again" : "Look longer";
   }
 
   nothing(fault) {

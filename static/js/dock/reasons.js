@@ -6,6 +6,8 @@ import { capital, foldName, length, place, spoken } from "./words.js";
 export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
 
 const UP_DOWN = 0.5;
+/** A shorter drag need not be told (m). */
+const DRAGGED_M = 1e-3;
 
 const SAYS = {
   out_of_reach: outOfReach,
@@ -14,6 +16,7 @@ const SAYS = {
   grips_too_close: ({ short_by_m: short }) => `the two hands would be ${short ? `${length(short)} ` : ""}too close`,
   red_needs_hold: ({ needed_grip_radius_m: radius }) =>
     radius ? "the hands that still hold are too far from its corners" : "no hand still holds what it moves",
+  not_a_g_state: atRest,
   slips: ({ needed_friction: friction }) =>
     `the cloth would slip off the table${friction ? `, unless friction were ${Math.ceil(100 * friction) / 100}` : ""}`,
   collision: () => "the arms would touch something on every way tried",
@@ -27,8 +30,8 @@ const SAYS = {
  */
 export function sentence(reason, folds) {
   const says = SAYS[reason.code];
-  if (!says) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
-  const told = says(reason);
+  const told = says?.(reason) ?? "";
+  if (!told) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
   return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
 }
 
@@ -40,19 +43,25 @@ export function sentence(reason, folds) {
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
   if (message.status === "budget_exceeded") return "The time for searching ran out.";
-  const first = (message.plan?.reasons ?? []).find((reason) => reason.message);
+  const first = firstReason(message);
   if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
   return told(message);
 }
 
 /**
- * The same with all that helps where there is more room: how far a search came that did not come to an end.
+ * The same with all that helps where there is more room: how far a search came that did not come to an end, how far the
+ * cloth had been dragged by then.
  * @param {any} message of kind `plan`
  * @param {any} state of kind `document`
  */
 export function explanation(message, state) {
-  return message.status === "budget_exceeded" ? told(message) : headline(message, state);
+  if (message.status === "budget_exceeded") return told(message);
+  const by_m = message.status === "infeasible" ? Math.hypot(...(firstReason(message)?.offset_m ?? [0, 0])) : 0;
+  const after = by_m < DRAGGED_M ? "" : `, after the cloth was dragged ${length(by_m)}`;
+  return headline(message, state).replace(/\.$/, `${after}.`);
 }
+
+const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
 
 /** What the server says, as a sentence. */
 const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
@@ -82,6 +91,16 @@ function problemSentence(problem, drawing) {
 
 function subject(field) {
   return field.startsWith("outline") ? "outline" : field.replaceAll("_", " ");
+}
+
+/** How the cloth lies at the start, in the page's unit; nothing of what comes later. */
+function atRest({ fold, message, short_by_m: short }) {
+  if (fold !== null || !short) return "";
+  const [, edge] = message.match(/^as the garment lies at the start, .*hangs over the (\w+) edge and nothing/) ?? [];
+  if (edge) return `the cloth hangs ${length(short)} over the table\u2019s ${edge} edge, and nothing holds it there`;
+  const isBeside = message.includes("nothing of the cloth lies on the table");
+  if (isBeside) return `the cloth lies ${length(short)} beside the table`;
+  return message.includes("covers the table's corner") ? "the cloth hangs over two edges of the table at a corner" : "";
 }
 
 /** A radius that will do: rounded up. */

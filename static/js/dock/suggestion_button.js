@@ -15,9 +15,11 @@ export function suggestionButton(store, suggestion, className) {
   const what = spoken(message.replace(/: [\d.]+ s$/, ""), store.state.drawing.folds);
   const apply = () => {
     store.setPreview(null);
-    store.edit(label(what), (drawing) => applyChange(drawing, change));
+    const isStillMeant = () => !change.drawing || change.version === store.state.version;
+    store.edit(label(what), (drawing) => (isStillMeant() ? applyChange(drawing, change) : drawing));
   };
-  const parts = [element("span", "suggestion-what", what), element("span", "suggestion-cost", seconds(cost))];
+  const parts = [element("span", "suggestion-what", what)];
+  if (cost !== null) parts.push(element("span", "suggestion-cost", seconds(cost)));
   const made = button(`suggestion ${className}`, apply, ...parts);
   if (isAssumed) parts[0].prepend(element("span", "tag", "assumption"), " ");
   made.dataset.kind = suggestion.kind;

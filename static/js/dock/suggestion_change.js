@@ -4,9 +4,11 @@ const SAME_M = 1e-9;
 
 /**
  * @param {any} drawing is altered
- * @param {any} change fields of a plan request
+ * @param {any} change fields of a plan request, or the whole drawing as it is to be
+ * @returns {any} another drawing in place of the altered one, if there is one
  */
 export function applyChange(drawing, change) {
+  if (change.drawing) return structuredClone(change.drawing);
   for (const field of ["placement", "scene", "start_station", "comfort_radius_m"]) {
     if (change[field] !== undefined) drawing[field] = change[field];
   }

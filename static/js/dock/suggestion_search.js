@@ -9,7 +9,7 @@ import { eventStream } from "./event_stream.js";
  * @property {string} message
  * @property {any} change fields of a plan request
  * @property {number} size
- * @property {number} cost_s of the plan with the change
+ * @property {number|null} cost_s of the plan with the change; null if that is not known
  */
 
 const ADDRESS = "/api/suggestions";
@@ -80,6 +80,10 @@ function rest(delay_ms, signal) {
   });
 }
 
+/** Nearer than this two changes are one, unless the larger one's plan is cheaper by so much (m, s). */
+const SAME_M = 0.01;
+const WORTH_S = 1;
+
 /** What is easily done comes first. */
 const EASE = ["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"];
 
@@ -98,8 +102,26 @@ export function ranked(found) {
   return groups.flat().sort((a, b) => rank(a) - rank(b));
 }
 
-/** Smallest first; a larger change only if its plan is cheaper than those of all smaller ones. */
+/** Smallest first; a larger change only if its plan is cheaper than those of all smaller ones, and of two alike one. */
 function cheaperAsTheyGrow(group) {
   const inOrder = group.toSorted((a, b) => a.size - b.size);
-  return inOrder.filter((one, index) => inOrder.slice(0, index).every((smaller) => one.cost_s < smaller.cost_s));
+  return inOrder
+    .filter((one, index) => inOrder.slice(0, index).every((smaller) => one.cost_s < smaller.cost_s))
+    .reduce((kept, one) => {
+      const twin = kept.find((other) => isAlike(one, other));
+      if (!twin) return [...kept, one];
+      return twin.cost_s - one.cost_s > WORTH_S ? kept.map((other) => (other === twin ? one : other)) : kept;
+    }, /** @type {Suggestion[]} */ ([]));
 }
+
+/** Whether the cloth, or the folds, would come to lie nearly the same. */
+function isAlike({ kind, change: one }, { change: other }) {
+  if (kind === "placement") return isNear(place(one.placement), place(other.placement));
+  return kind === "fold_line" && isNear(ends(one.garment), ends(other.garment));
+}
+
+/** A turn counts as the way of what is a metre away. */
+const place = ({ x_m, y_m, yaw_rad }) => [x_m, y_m, Math.cos(yaw_rad), Math.sin(yaw_rad)];
+const ends = ({ folds }) => folds.flatMap(({ start, end }) => [...start, ...end]);
+const isNear = (one, other) =>
+  one.length === other.length && one.every((value, index) => Math.abs(value - other[index]) <= SAME_M);

@@ -1,0 +1,61 @@
+"""What could mend a fold that is not legal: another colour, another line, or none at all. None is tried out here."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from app.drawing.drawing import Crease, Drawing, End
+from app.drawing.mend import Mend
+from app.drawing.problem import Problem
+from app.drawing.solution import Solution
+from planner.folds.fold_cloth import flap_silhouette
+from planner.geometry.chord import nearest_chord
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
+
+
+def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
+    """Changes to the fold that a problem is about, what keeps most of it first."""
+    assert problem.fold is not None
+    drawing, index = solution.drawing, problem.fold
+    fold = drawing.folds[index]
+    called = f"fold {index} '{fold.name}'"
+    colours = [Mend(f"Make {called} blue", _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
+    what = "flap" if fold.is_red else "cloth"
+    moved = [
+        Mend(f"Put {called} onto the {what}", _with(drawing, index, _along(fold, line)))
+        for line in _lines(solution, problem, is_red=fold.is_red)
+    ]
+    is_off = problem.code == "fold_off_boundary"
+    yield from (*moved, *colours) if is_off else (*colours, *moved)
+    yield Mend(f"Delete {called}", _without(drawing, index))
+
+
+def _lines(solution: Solution, problem: Problem, *, is_red: bool) -> Iterator[Segment]:
+    """Lines near the fold's own that end on the boundary: on the line itself, and between the nearest places."""
+    if not problem.lines or (is_red and not solution.folded):
+        return
+    line = problem.lines[0]
+    silhouette = flap_silhouette(solution.cloths[-1], is_red=is_red)
+    chord = nearest_chord(silhouette, line)
+    if chord is not None:
+        yield chord
+    (sx, sy), (ex, ey) = silhouette.nearest_boundary_points(np.array([line.start, line.end])).tolist()
+    if math.dist((sx, sy), (ex, ey)) > LENGTH_M:
+        yield Segment((sx, sy), (ex, ey))
+
+
+def _along(fold: Crease, line: Segment) -> Crease:
+    return replace(fold, start=End(line.start), end=End(line.end))
+
+
+def _with(drawing: Drawing, index: int, fold: Crease) -> Drawing:
+    return replace(drawing, folds=(*drawing.folds[:index], fold, *drawing.folds[index + 1 :]))
+
+
+def _without(drawing: Drawing, index: int) -> Drawing:
+    gone = drawing.folds[index].id
+    left = (*drawing.folds[:index], *drawing.folds[index + 1 :])
+    return replace(drawing, folds=tuple(replace(fold, twin=None) if fold.twin == gone else fold for fold in left))

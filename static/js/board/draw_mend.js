@@ -1,0 +1,49 @@
+/** A mend that is pointed at: the outline and the folds that would be others, and a cross on what would be gone. */
+
+import { crossAt } from "./draw_findings.js";
+import { foldItems } from "./draw_folds.js";
+import { between, distance } from "./geometry.js";
+import { path } from "./sheet.js";
+
+const SAME_M = 1e-9;
+const CROSS_PX = 9;
+
+/** @param {import("./board.js").Board} board @returns {(import("./sheet.js").Item|null|false)[]} */
+export function drawMend({ store, view, drawing }) {
+  const wanted = store.preview?.drawing;
+  if (!wanted) return [];
+  const isCornerKept = (corner) => wanted.outline.some(({ id }) => id === corner.id);
+  const goneCorners = drawing.outline.filter((corner) => !isCornerKept(corner)).map(({ point }) => point);
+  const goneFolds = drawing.folds.filter(({ id }) => !wanted.folds.some((fold) => fold.id === id));
+  const gone = [...goneCorners, ...goneFolds.map(({ start, end }) => between(start.point, end.point))];
+  return [
+    ...outline(view, drawing, wanted),
+    ...folds(view, drawing, wanted),
+    ...gone.map((at, n) => crossAt(`mend:gone${n}`, view.toPx(at), CROSS_PX)),
+  ];
+}
+
+function outline(view, drawing, wanted) {
+  const [before, after] = [drawing, wanted].map((one) => one.outline.map(({ point }) => point));
+  if (before.length === after.length && before.every((point, index) => isSame(point, after[index]))) return [];
+  return [{ key: "mend:outline", tag: "path", class: "preview", d: path(after.map((point) => view.toPx(point))) }];
+}
+
+function folds(view, drawing, wanted) {
+  const before = new Map(drawing.folds.map((fold) => [fold.id, fold]));
+  const changed = wanted.folds.filter((fold) => !isSameFold(fold, before.get(fold.id)));
+  return changed.flatMap(({ id, kind, start, end }) =>
+    foldItems({
+      key: `mend:${id}`,
+      kind,
+      ends: [view.toPx(start.point), view.toPx(end.point)],
+      state: " is-preview",
+      number: null,
+    }),
+  );
+}
+
+const isSame = (a, b) => distance(a, b) <= SAME_M;
+
+const isSameFold = (fold, other) =>
+  other?.kind === fold.kind && isSame(fold.start.point, other.start.point) && isSame(fold.end.point, other.end.point);

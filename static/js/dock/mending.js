@@ -1,0 +1,46 @@
+/** What would mend a drawing that cannot be planned: asks the server once the drawing rests. */
+
+/** @typedef {import("./suggestion_search.js").Suggestion} Suggestion */
+
+export class Mending extends EventTarget {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    /** @type {Suggestion[]} the best first */
+    this.found = [];
+    /** @type {number|null} the version that is asked about */
+    this.version = null;
+  }
+
+  /** Ask while the drawing rests with something wrong; anything else forgets what was found. */
+  follow() {
+    const { plan: message, state } = this.store;
+    const isWrong = message?.status === "illegal" && message.version === state?.version;
+    const wanted = isWrong && !state.gesture && state.drawing.outline.length ? state.version : null;
+    if (wanted === this.version) return;
+    this.version = wanted;
+    if (this.found.length) this.store.setPreview(null);
+    this.take([]);
+    if (wanted !== null) this.ask(wanted);
+  }
+
+  async ask(version) {
+    const answer = await fetch(`${this.store.path}/mends`).catch(() => null);
+    const told = answer?.ok ? await answer.json() : null;
+    if (this.version !== version || told?.version !== version) return;
+    this.take(told.mends.map(({ label, drawing }) => suggestion(label, { drawing, version })));
+  }
+
+  /** @param {Suggestion[]} found */
+  take(found) {
+    if (!found.length && !this.found.length) return;
+    this.found = found;
+    this.dispatchEvent(new Event("change"));
+  }
+}
+
+/** A mend has no plan yet, and so no cost. @returns {Suggestion} */
+function suggestion(message, change) {
+  return { kind: "mend", is_assumption: false, message, change, size: 0, cost_s: null };
+}

@@ -1,0 +1,71 @@
+"""Cloth that would not stay on the table as it lies: what is said of it, its picture, and the button that mends it."""
+
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.app.samples import towel
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.status_pill import expect_planned
+
+NewSheet = Callable[[Garment], Sheet]
+
+
+def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
+    """A towel whose outline begins at a place of the table, which ends at 0.8 m and at 0.49 m: 0.4 m on, 0.3 m left."""
+    return new_sheet(towel(placement={"x_m": x_m, "y_m": y_m, "yaw_rad": 0.0}))
+
+
+@pytest.mark.parametrize(
+    ("place", "said", "by", "lines"),
+    [
+        # 0.3 m of towel from 0.38 m on: 0.19 m of it are beyond the left edge, more than half.
+        ((-0.5, 0.38), "The cloth would slip off the table", "19.0 cm over the edge", 1),
+        # All of it is beyond the left edge, its near side 0.11 m.
+        ((-0.5, 0.6), "The cloth lies 11 cm beside the table.", "11.0 cm beside the table", 0),
+    ],
+)
+def test_cloth_over_the_edge_is_a_sentence_a_picture_and_a_button(
+    page: Page, new_sheet: NewSheet, place: tuple[float, float], said: str, by: str, lines: int
+) -> None:
+    sheet = lying_at(new_sheet, *place)
+    page.goto(sheet.page_url)
+    expect(page.locator(".reason")).to_contain_text(said)
+    expect(page.locator(".overhang")).to_have_count(1)
+    expect(page.locator(".problem-line")).to_have_count(lines)
+    expect(page.locator(".problem-cross")).to_have_count(1)
+    expect(page.locator(".reason-text")).to_have_text(by)
+    move = page.get_by_role("group", name="Suggestions").get_by_role("button", name="Move the garment")
+    move.first.click()
+    expect_planned(page)
+    expect(page.locator(".overhang, .problem-cross")).to_have_count(0)
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator(".overhang")).to_have_count(1)
+
+
+def test_a_corner_of_the_table_under_the_cloth_is_marked_with_both_edges(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(lying_at(new_sheet, 0.7, 0.39).page_url)
+    expect(page.locator(".reason")).to_have_text("The cloth hangs over two edges of the table at a corner.")
+    # What hangs over each edge is hatched, and what hangs over both is in both.
+    expect(page.locator(".overhang")).to_have_count(2)
+    expect(page.locator(".problem-line")).to_have_count(2)
+    expect(page.locator(".problem-cross")).to_have_count(1)
+
+
+def test_what_hangs_loose_is_said_in_the_unit_of_the_page(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(lying_at(new_sheet, -0.5, 0.3).page_url)
+    told = page.evaluate(
+        """async () => {
+          const { sentence } = await import("/static/js/dock/reasons.js");
+          const message = "as the garment lies at the start, layer 0 hangs over the far edge and nothing holds its "
+            + "corner at (0.61, 0.57) m of the garment, 0.18 m beyond the edge; place it so that it stays";
+          const reason = { fold: null, code: "not_a_g_state", short_by_m: 0.177, message };
+          const later = { ...reason, fold: 0, message: "fold 0 'half': it hangs; and more" };
+          return [sentence(reason, []), sentence(later, [{ name: "half" }])];
+        }"""
+    )
+    assert told == [
+        "The cloth hangs 17.7 cm over the table\N{RIGHT SINGLE QUOTATION MARK}s far edge, and nothing holds it there.",
+        "\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: it hangs.",
+    ]
