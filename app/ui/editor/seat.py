@@ -25,6 +25,7 @@ from planner.robot.card import RobotCard
 PANEL_LABEL = "Table"
 
 _PANEL_PX = 250
+_PANEL_GAP_PX = 15
 _ZOOM_STEP = 1.2
 
 Ask = Callable[[Callable[[], None], bool], None]
@@ -37,7 +38,7 @@ class Seat:
     def __init__(
         self, client: viser.ClientHandle, document: Document, card: RobotCard, opening: Viewpoint, ask: Ask
     ) -> None:
-        """Build panels and aids; the panels are closed at first, not to cover the picture.
+        """Build panels and aids; the panels are closed at first, and lie where there is mostly no cloth.
 
         Args:
             client: the visitor.
@@ -55,7 +56,7 @@ class Seat:
         self._is_dark = document.state.is_dark
         with client.atomic():
             client.gui.set_panel_label(PANEL_LABEL)
-            client.gui.main_panel.set_width(_PANEL_PX)
+            client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
             client.gui.main_panel.minimize()
             self._edit_panel = EditPanel(client, lambda act: ask(lambda: act(self._editor), False))
             self._camera_panel = CameraPanel(client, opening, lambda preset: ask(lambda: self._look(preset), False))
