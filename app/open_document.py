@@ -11,7 +11,7 @@ from app.plan_store import PlanStore
 from app.player import Player
 from app.replanner import Replanner
 from app.ui.editor.desk import Desk
-from app.ui.stage import OPENING, Stage
+from app.ui.stage import Stage
 from planner.robot.pr2 import load_robot
 
 ROBOT = "pr2"
@@ -42,7 +42,7 @@ class OpenDocument:
         with self._lock:
             if self._shown is None:
                 stage = Stage(self._card, self.document.state.drawing.scene)
-                desk = Desk(self.document, stage.server, self._card, OPENING)
+                desk = Desk(self.document, stage.server, self._card, stage.opening)
                 self._shown = (stage, Player(self.document, stage, desk))
             return self._shown[0]
 

@@ -2,7 +2,8 @@
 
 The page is one file, the same for all stages. It works out where its websocket is from its own address less
 the trailing slash, so page and websocket differ by that slash alone. Its notices, and on a phone its panel of
-controls, have no place in our frame: the style that we add hides all but the canvas and the panels that float. A
+controls, have no place in our frame: the style that we add hides all but the canvas and the panels that float, and lays
+the board's ground behind them. A
 frame is narrower than a window, so what viser takes for a phone is made narrower too.
 
 A page that has its stage drawn by the processor asks for it under `/viser/{document}/by-software`.
@@ -34,6 +35,10 @@ _HIDE = (
     b"<style>#root * { visibility: hidden }"
     b"#root canvas, #root canvas ~ div, #root canvas ~ div *, "
     b"#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
+)
+_GROUND = (
+    b"<style>body { background: #fafaf8 !important }"
+    b' [data-mantine-color-scheme="dark"] body { background: #16181c !important }</style>'
 )
 _NARROW = (
     b"<script>{ const asked = window.matchMedia.bind(window);"
@@ -88,7 +93,8 @@ async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> 
 
 @functools.lru_cache(maxsize=1)
 def _bare_page() -> bytes:
-    return VISER_PAGE.read_bytes().replace(b"<head>", b"<head>" + _NARROW, 1).replace(b"</head>", _HIDE + b"</head>", 1)
+    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
+    return styled.replace(b"<head>", b"<head>" + _NARROW, 1)
 
 
 def _dial(stage: Stage, subprotocols: list[str]) -> connect:

@@ -3,9 +3,12 @@
 The browser maps light to screen colours by a film curve (the ACES fit that three.js has): it greys and
 darkens, so cream comes out as cold white. The lights here are white and their sum on whatever lies level is known.
 So the curve can be run backwards: `paint` is the surface colour that, lying level in this light, looks like the
-colour asked for. What stands upright gets less light and looks darker, which is what shows its form.
+colour asked for, and `ink` that of a line, on which no light falls. What is brighter than the film can show comes as
+near to it as can be. What stands upright gets less light and looks darker, which is what shows its form.
 """
 
+import functools
+import itertools
 import math
 
 import numpy as np
@@ -21,9 +24,11 @@ _SKY_INTENSITY = 4.4
 _GROUND_COLOUR = (120, 120, 122)
 _SUN_INTENSITY = 3.0  # of viser's default light, which stands nearly overhead and casts the shadows
 _SUN_COSINE = 1.0 / math.hypot(1.0, 0.2, 0.2)
+_SHEEN = 0.011  # of the lights in a surface, whatever its colour, seen from where cameras mostly are: as measured
 _LEVEL_LIGHT = (_SKY_INTENSITY + _SUN_INTENSITY * _SUN_COSINE) / math.pi
 
 _EXPOSURE = 1.0 / 0.6
+_FIRST_STEP = 32
 _INTO_FILM = np.array([[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]])
 _OUT_OF_FILM = np.array([[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]])
 _SHOULDER = (0.0245786, 0.000090537, 0.983729, 0.4329510, 0.238081)
@@ -40,12 +45,12 @@ def add_lights(server: viser.ViserServer) -> None:
 
 def paint(wanted: Rgb) -> Rgb:
     """The colour of a surface that looks as wanted when it lies level; as near as paint can come."""
-    return _before_film(wanted, _LEVEL_LIGHT)
+    return _before_film(wanted, _LEVEL_LIGHT, _SHEEN)
 
 
 def ink(wanted: Rgb) -> NDArray[np.uint8]:
     """The colour of a line, on which no light falls, that looks as wanted; as near as ink can come. Shape (3,)."""
-    return np.array(_before_film(wanted, 1.0), dtype=np.uint8)
+    return np.array(_before_film(wanted, 1.0, 0.0), dtype=np.uint8)
 
 
 def instance_paint(wanted: Rgb) -> Rgb:
@@ -56,15 +61,41 @@ def instance_paint(wanted: Rgb) -> Rgb:
 
 def seen(painted: Rgb) -> Rgb:
     """What a surface of a colour looks like when it lies level."""
+    return _on_film(painted, _LEVEL_LIGHT, _SHEEN)
+
+
+def seen_line(inked: Rgb) -> Rgb:
+    """What a line of a colour looks like."""
+    return _on_film(inked, 1.0, 0.0)
+
+
+def _on_film(colour: Rgb, light: float, sheen: float) -> Rgb:
     a, b, c, d, e = _SHOULDER
-    x = _INTO_FILM @ (_linear(painted) * _LEVEL_LIGHT * _EXPOSURE)
+    x = _INTO_FILM @ ((_linear(colour) * light + sheen) * _EXPOSURE)
     film = (x * (x + a) - b) / (x * (c * x + d) + e)
     return _codes(_OUT_OF_FILM @ film)
 
 
-def _before_film(wanted: Rgb, light: float) -> Rgb:
+@functools.cache
+def _before_film(wanted: Rgb, light: float, sheen: float) -> Rgb:
+    """The colour before the film that is nearest to a wanted one after it.
+
+    Bright saturated colours are beyond what the film shows. Cut off in each channel they would take on another hue, so
+    the way to the nearest goes from there in ever smaller steps.
+    """
     film = np.linalg.solve(_OUT_OF_FILM, _linear(wanted))
-    return _codes(np.linalg.solve(_INTO_FILM, _unshouldered(film)) / _EXPOSURE / light)
+    nearest = _codes((np.linalg.solve(_INTO_FILM, _unshouldered(film)) / _EXPOSURE - sheen) / light)
+    step = _FIRST_STEP
+    while step:
+        around = [_moved(nearest, turn, step) for turn in itertools.product((0, -1, 1), repeat=3)]
+        best = min(around, key=lambda colour: math.dist(_on_film(colour, light, sheen), wanted))
+        nearest, step = best, step if best != nearest else step // 2
+    return nearest
+
+
+def _moved(colour: Rgb, turn: tuple[int, ...], step: int) -> Rgb:
+    red, green, blue = (min(max(part + way * step, 0), 255) for part, way in zip(colour, turn, strict=True))
+    return red, green, blue
 
 
 def _unshouldered(film: FloatArray) -> FloatArray:

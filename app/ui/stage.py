@@ -17,6 +17,7 @@ from app.ui.colours import DARK, LIGHT
 from app.ui.fold_view import FoldView
 from app.ui.grip_view import GripView
 from app.ui.lighting import add_lights
+from app.ui.opening import opening
 from app.ui.private_viser import start_private_viser
 from app.ui.progress import Stint, stints
 from app.ui.robot_view import RobotView
@@ -31,8 +32,8 @@ from planner.plan.plan import Plan
 from planner.primitives.scene import Scene
 from planner.robot.card import RobotCard
 
-OPENING = Viewpoint(position=(1.41, 2.38, 1.93), look_at=(-0.34, -0.06, -0.21))
-"""The table and the robot fit into a square view, also while the robot is backed off."""
+_SQUARE = 1.0
+"""Of no picture the aspect is known before somebody looks; what is whole in a square is whole in all that are wider."""
 
 
 class Stage:
@@ -40,6 +41,7 @@ class Stage:
 
     Attributes:
         scene: the scene that is shown.
+        opening: where the camera of whoever comes is at first.
         port: the loopback port of its viser server.
         secret: what that port wants to hear (see `app.ui.private_viser`).
     """
@@ -47,6 +49,7 @@ class Stage:
     def __init__(self, card: RobotCard, scene: Scene) -> None:
         """Start a server and build everything that is always there; about half a second the first time."""
         self.scene = scene
+        self.opening: Viewpoint = opening(scene, _SQUARE)
         self._card = card
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()
@@ -156,8 +159,8 @@ class Stage:
     def _look(self) -> None:
         add_lights(self._server)
         camera = self._server.initial_camera
-        camera.position, camera.look_at = OPENING.position, OPENING.look_at
-        camera.fov = OPENING.fov_rad
+        camera.position, camera.look_at = self.opening.position, self.opening.look_at
+        camera.fov = self.opening.fov_rad
 
     def _waiting_joints(self) -> dict[str, float]:
         homes = [np.array(arm.home) for arm in self._card.arms]

@@ -6,7 +6,7 @@ import pytest
 from app.ui.cloth_view import outlines
 from app.ui.colours import DARK, LIGHT, Palette
 from app.ui.dashes import dash_dot, solid, split_at
-from app.ui.lighting import paint, seen
+from app.ui.lighting import ink, paint, seen, seen_line
 from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
@@ -20,6 +20,15 @@ from tests.app.pose_matrix import matrix
 def test_what_lies_level_looks_like_the_colour_asked_for(palette: Palette) -> None:
     for wanted in (palette.cloth_front, palette.cloth_back, palette.table, palette.robot_light, palette.robot_grey):
         assert np.abs(np.subtract(seen(paint(wanted)), wanted)).max() <= 2
+
+
+@pytest.mark.parametrize("palette", [LIGHT, DARK])
+def test_lines_keep_their_hue_where_the_film_does_not_show_all_of_their_light(palette: Palette) -> None:
+    brightest = 226  # of white, after the film
+    for wanted in (palette.fold_blue, palette.fold_red, palette.cloth_edge, palette.route):
+        red, green, blue = ink(wanted).tolist()
+        assert np.abs(np.subtract(seen_line((red, green, blue)), np.minimum(wanted, brightest))).max() <= 14
+    assert seen_line((255, 255, 255)) == (brightest, brightest, brightest)
 
 
 def sheet(*layers: tuple[float, float, float]) -> ClothSurface:

@@ -150,19 +150,15 @@ def test_another_garment_is_planned_and_shown(page: Page) -> None:
     expect_planned(page)
 
 
-def test_the_stage_takes_on_the_pages_theme(page: Page) -> None:
-    background = """() => {
-      const stage = document.getElementById("stage").contentDocument;
-      let part = stage.querySelector("canvas");
-      const colour = () => getComputedStyle(part).backgroundColor;
-      while (part.parentElement && colour() === "rgba(0, 0, 0, 0)") part = part.parentElement;
-      return colour();
-    }"""
-    light = page.evaluate(background)
+def test_the_stage_takes_on_the_pages_theme_and_its_ground(page: Page) -> None:
+    grounds = """() => [document, document.getElementById("stage").contentDocument].map(
+      ({ body, defaultView }) => defaultView.getComputedStyle(body).backgroundColor)"""
+    dark, light = ["rgb(22, 24, 28)"] * 2, ["rgb(250, 250, 248)"] * 2
+    until(lambda: page.evaluate(grounds) == light)
     page.get_by_role("button", name="Dark").click()
-    until(lambda: page.evaluate(background) != light)
+    until(lambda: page.evaluate(grounds) == dark)
     page.get_by_role("button", name="Light").click()
-    until(lambda: page.evaluate(background) == light)
+    until(lambda: page.evaluate(grounds) == light)
 
 
 @pytest.mark.parametrize("width", [721, 900, 1000, 1440])

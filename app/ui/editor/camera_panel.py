@@ -1,5 +1,6 @@
 """The panel with places to look from; it moves nobody's camera but that of the visitor who pressed."""
 
+from collections import deque
 from collections.abc import Callable
 
 import viser
@@ -8,6 +9,9 @@ from app.ui.editor.presets import Lens, Preset
 from app.ui.viewpoint import Viewpoint
 
 LABEL = "Camera"
+
+_REMEMBERED = 8
+"""How many openings: what a browser tells of its camera may be some of them old."""
 
 OnPreset = Callable[[Preset], None]
 
@@ -27,6 +31,8 @@ class CameraPanel:
         self._client = client
         self._on_preset = on_preset
         self._free = opening
+        self._openings = deque([opening], _REMEMBERED)
+        self._has_begun = self._is_left = False
         self._preset: Viewpoint | None = None
         self._folder = client.gui.add_folder(LABEL)
         with self._folder:
@@ -36,10 +42,29 @@ class CameraPanel:
     @property
     def lens(self) -> Lens:
         """What the camera takes in."""
-        return Lens(self._camera.aspect)
+        return Lens(self._camera.image_width / max(self._camera.image_height, 1))
+
+    @property
+    def is_opening(self) -> bool:
+        """Whether the camera is where it was put at first: nobody has moved it since or pressed a button.
+
+        A browser may tell of a camera before it has put it anywhere.
+        """
+        is_there = not all(self._has_moved(opening) for opening in self._openings)
+        self._is_left = self._is_left or (self._has_begun and not is_there)
+        self._has_begun = self._has_begun or is_there
+        return is_there and not self._is_left
+
+    def open_on(self, viewpoint: Viewpoint) -> None:
+        """Begin at another place, if the camera is still where it was put at first."""
+        if self.is_opening and self._has_moved(viewpoint):
+            self._openings.append(viewpoint)
+            self._free = viewpoint
+            self._move(viewpoint)
 
     def go_to(self, viewpoint: Viewpoint) -> None:
         """Go to a place, and remember the one where somebody has gone by hand."""
+        self._is_left = True
         if self._preset is None or self._has_moved(self._preset):
             self._free = self._here
         self._preset = viewpoint

@@ -17,6 +17,7 @@ from app.ui.editor.glass import Glass, Touch
 from app.ui.editor.ground import Ground, on_table
 from app.ui.editor.presets import Preset, robots_eye, side, top
 from app.ui.grip_view import ROOT as MARKS
+from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import Pose2
 from planner.robot.card import RobotCard
@@ -24,6 +25,7 @@ from planner.robot.card import RobotCard
 PANEL_LABEL = "Table"
 
 _PANEL_PX = 250
+_PANEL_GAP_PX = 15
 _ZOOM_STEP = 1.2
 
 Ask = Callable[[Callable[[], None], bool], None]
@@ -36,7 +38,7 @@ class Seat:
     def __init__(
         self, client: viser.ClientHandle, document: Document, card: RobotCard, opening: Viewpoint, ask: Ask
     ) -> None:
-        """Build panels and aids; the panels are closed at first, not to cover the picture.
+        """Build panels and aids; the panels are closed at first, and lie where there is mostly no cloth.
 
         Args:
             client: the visitor.
@@ -54,14 +56,15 @@ class Seat:
         self._is_dark = document.state.is_dark
         with client.atomic():
             client.gui.set_panel_label(PANEL_LABEL)
-            client.gui.main_panel.set_width(_PANEL_PX)
+            client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
             client.gui.main_panel.minimize()
             self._edit_panel = EditPanel(client, lambda act: ask(lambda: act(self._editor), False))
             self._camera_panel = CameraPanel(client, opening, lambda preset: ask(lambda: self._look(preset), False))
             self._aids = AidsView(client, DARK if self._is_dark else LIGHT)
             self._glass = Glass(client, self._touched)
             self._marks = client.scene.add_frame(MARKS, show_axes=False)
-        client.camera.on_update(self._zoomed)
+        self._open()
+        client.camera.on_update(self._camera_changed)
 
     def show(self, state: DocumentState) -> None:
         """Bring everything up to date."""
@@ -86,6 +89,12 @@ class Seat:
         act = {"press": editor.press, "drag": editor.drag, "release": editor.release, "tap": editor.tap}[touch]
         self._ask(lambda: act(aim), touch == "drag")
 
+    def _open(self) -> None:
+        """Have table and robot whole in the picture, whatever its shape, until somebody moves the camera."""
+        state = self._document.state
+        scene, panel = state.drawing.scene, self._camera_panel
+        panel.open_on(opening_of(scene, panel.lens.aspect, self._starting_base(state)))
+
     def _look(self, preset: Preset) -> None:
         panel, state = self._camera_panel, self._document.state
         scene = state.drawing.scene
@@ -105,10 +114,17 @@ class Seat:
         """Where the robot stands now."""
         if state.film is not None:
             return state.film.timeline.at(self._document.t_s).base
+        return self._starting_base(state)
+
+    @staticmethod
+    def _starting_base(state: DocumentState) -> Pose2:
+        """Where it waits before a plan begins."""
         stations = dict(state.drawing.scene.stations)
         return stations.get(state.drawing.start_station) or next(iter(stations.values()))
 
-    async def _zoomed(self, _: viser.CameraHandle) -> None:
+    async def _camera_changed(self, _: viser.CameraHandle) -> None:
+        if self._camera_panel.is_opening:
+            self._ask(self._open, False)
         if self._editor.is_drawing and self._zoom_now != self._zoom:
             self._ask(lambda: None, False)
 

@@ -8,6 +8,7 @@ import { FoldPaint } from "./fold_paint.js";
 import { Framing } from "./framing.js";
 import { Keyboard } from "./keyboard.js";
 import { Layers } from "./layers.js";
+import { Legend } from "./legend.js";
 import { Loupe } from "./loupe.js";
 import { Numbers } from "./numbers.js";
 import { Overlays } from "./overlays.js";
@@ -94,6 +95,7 @@ export class Board extends Shown {
     this.numbers = new Numbers(this);
     this.typed = new TypedLength(this);
     this.callout = new Callout(this);
+    this.legend = new Legend(this);
     this.loupe = new Loupe(this.root, "board-scene");
   }
 

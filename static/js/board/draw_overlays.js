@@ -125,7 +125,7 @@ function paths(board, found) {
   });
 }
 
-/** What the plan would cost if the garment's middle lay there: the darker the cheaper. */
+/** What the plan would cost if the garment's middle lay there: the stronger the cheaper. */
 function costs({ view, drawing }, places) {
   const box = boxOf(drawing.outline.map(({ point }) => point));
   if (!places || !box) return [];

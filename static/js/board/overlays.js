@@ -23,6 +23,10 @@ export class Overlays {
     this.isMapping = false;
     /** The map that was made last, and for which version. */
     this.mapped = { version: "", places: null };
+    /** @type {import("./sheet.js").Item[]} what was drawn last beneath the cloth */
+    this.beneath = [];
+    /** @type {import("./sheet.js").Item[]} and above it */
+    this.above = [];
     this.stopPlaces = new AbortController();
     const { store } = board;
     for (const name of ["overlays", "plan", "playback", "hover-time", "document"])
@@ -111,11 +115,18 @@ export class Overlays {
   }
 
   under() {
-    return drawUnder(this.board, this.shown.length ? this.found : null, this.places);
+    this.beneath = drawUnder(this.board, this.shown.length ? this.found : null, this.places).filter(Boolean);
+    return this.beneath;
   }
 
   over() {
-    return drawOver(this.board, this.shown.length ? this.found : null);
+    this.above = drawOver(this.board, this.shown.length ? this.found : null).filter(Boolean);
+    return this.above;
+  }
+
+  /** All that was drawn last. */
+  get drawn() {
+    return [...this.beneath, ...this.above];
   }
 }
 

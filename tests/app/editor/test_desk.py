@@ -10,8 +10,9 @@ from app.drawing.drawing import Drawing
 from app.player import Player
 from app.ui.editor.desk import Desk
 from app.ui.editor.glass import NODE
+from app.ui.opening import opening
 from app.ui.private_viser import start_private_viser
-from app.ui.stage import OPENING, Stage
+from app.ui.stage import Stage
 from planner import Scene
 from planner.robot.pr2 import load_robot
 from tests.app.drawing.drawings import towel_drawing
@@ -25,7 +26,7 @@ ELSEWHERE = (-0.35, -0.3)
 @pytest.fixture(scope="module")
 def opened() -> Iterator[tuple[Document, Stage]]:
     document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
-    player = Player(document, stage, Desk(document, stage.server, CARD, OPENING))
+    player = Player(document, stage, Desk(document, stage.server, CARD, stage.opening))
     yield document, stage
     player.close()
     stage.close()
@@ -153,7 +154,7 @@ def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_els
 ) -> None:
     with Visitor(opened[1]) as other:
         other.until(lambda: NODE in other.nodes)
-        opening = [OPENING.position]  # what a new visitor is told
+        opening = [opened[1].opening.position]  # what a new visitor is told
         assert visitor.camera == other.camera == opening
         visitor.choose("Mode", "Move points")
         visitor.until(lambda: visitor.is_shown(NODE))
@@ -173,10 +174,35 @@ def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_els
         assert other.camera == opening
 
 
+def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(opened: tuple[Document, Stage]) -> None:
+    start, tall, taller = opened[1].opening, (390, 680), (312, 680)
+    with Visitor(opened[1], (3.0, 3.0, 3.0), tall) as visitor:  # a browser's own place, before it is told of another
+        visitor.until(lambda: "Mode" in visitor.controls)
+        visitor.look(start.position, tall)
+        visitor.until(lambda: len(visitor.camera) == 2)
+        assert visitor.camera[1] == pytest.approx(opening(Scene(), 390 / 680).position)
+        visitor.look(visitor.camera[1], taller)
+        visitor.until(lambda: len(visitor.camera) == 3)
+        assert visitor.camera[2] == pytest.approx(opening(Scene(), 312 / 680).position)
+
+
+def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, Stage]) -> None:
+    start = opened[1].opening
+    with Visitor(opened[1], start.position, (800, 500)) as visitor:
+        visitor.until(lambda: "Mode" in visitor.controls)
+        visitor.look(EYE, (800, 500))
+        visitor.look(EYE, (390, 680))
+        visitor.look(start.position, (390, 680))  # by hand back to where it began
+        visitor.choose("Look from", "Top")
+        visitor.until(lambda: len(visitor.camera) == 2)
+        assert visitor.camera[1][2] > 2.5  # nothing but the button has moved it
+        assert visitor.camera[1][:2] == pytest.approx((0.0, 0.0), abs=0.01)
+
+
 def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, OPENING)
+        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, opening(Scene(), 1.0))
         done: list[str] = []
         for visitor, name, is_passing in (
             (1, "press", False),
@@ -195,7 +221,7 @@ def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
 def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest.LogCaptureFixture) -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, OPENING)
+        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, opening(Scene(), 1.0))
         done: list[str] = []
         desk._ask(1, lambda: done.append(str(1 // 0)), False)
         desk._ask(2, lambda: done.append("second"), False)

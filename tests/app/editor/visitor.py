@@ -12,7 +12,7 @@ from app.ui.editor.aim import CLOTH_HEIGHT_M
 from app.ui.editor.glass import NODE
 from app.ui.private_viser import LOOPBACK, SECRET_HEADER
 from app.ui.stage import Stage
-from planner.geometry.pose import Point2
+from planner.geometry.pose import Point2, Point3
 
 SUBPROTOCOL = "viser-v1.1.1"
 EYE = (0.0, 0.0, 2.0)
@@ -20,7 +20,7 @@ PATIENCE_S = 20.0
 
 
 class Visitor:
-    """Looks at the middle of the table from 2 m above it.
+    """Looks at the middle of the table from 2 m above it, unless its camera is said to be elsewhere.
 
     Attributes:
         nodes: the scene as it is shown, by name: properties, and whether it is visible.
@@ -28,7 +28,7 @@ class Visitor:
         camera: the places that the server has sent the camera to.
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: Stage, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
         self._socket = connect(
             f"ws://{LOOPBACK}:{stage.port}",
             subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
@@ -39,15 +39,19 @@ class Visitor:
         self.nodes: dict[str, dict[str, Any]] = {}
         self.controls: dict[str, dict[str, Any]] = {}
         self.camera: list[tuple[float, ...]] = []
+        self.look(eye, size)
+
+    def look(self, eye: Point3, size: tuple[int, int]) -> None:
+        """Say that the camera is there, and the picture's width and height (px)."""
         self._say(
             "ViewerCameraMessage",
             wxyz=(0.0, 1.0, 0.0, 0.0),
-            position=EYE,
+            position=eye,
             fov=0.72,
             near=0.01,
             far=1000.0,
-            image_height=500,
-            image_width=800,
+            image_height=size[1],
+            image_width=size[0],
             look_at=(0.0, 0.0, 0.0),
             up_direction=(0.0, 0.0, 1.0),
         )

@@ -39,11 +39,11 @@ def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Des
     expect(wait).to_be_visible()
     expect(reach).to_have_attribute("aria-busy", "true")
     asked[0].continue_()
-    expect(page.locator(".reach")).to_have_count(2)
+    expect(page.locator(".layer-under .reach")).to_have_count(2)
     expect(wait).to_have_count(0)
     expect(reach).to_have_attribute("aria-busy", "false")
     reach.click()
-    expect(page.locator(".reach")).to_have_count(0)
+    expect(page.locator(".layer-under .reach")).to_have_count(0)
     page.unroute("**/overlays?*")
 
 
@@ -54,9 +54,9 @@ def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -
     chip = page.get_by_role("button", name="Cost map")
     for _ in range(2):
         chip.click()
-        expect(page.locator(".cost").first).to_be_visible()
+        expect(page.locator(".layer-under .cost").first).to_be_visible()
         chip.click()
-        expect(page.locator(".cost")).to_have_count(0)
+        expect(page.locator(".layer-under .cost")).to_have_count(0)
     assert len(asked) == 1
 
 

@@ -1,0 +1,68 @@
+"""Where a camera is at first: as near as it can be with all of the table and the robot in the picture.
+
+In a wide picture the table is seen across. A tall one would see it small that way, so the narrower it is, the more the
+camera comes round to look along the table at the robot. Table frame, z up.
+"""
+
+import itertools
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.ui.viewpoint import FOV_RAD, Viewpoint
+from planner.geometry.pose import FloatArray, Point3, Pose2
+from planner.primitives.scene import Scene
+
+_LOOK_AT: Point3 = (-0.34, -0.06, -0.21)
+_RISE_RAD = math.radians(35.5)
+_WIDE, _ACROSS_RAD = 1.0, math.radians(54.35)
+_TALL, _ALONG_RAD = 0.5, math.radians(10.0)
+_NARROWEST = 0.2
+_NEAREST_M = 3.687
+_MARGIN = 1.02
+_TRUNK_M = (((-0.34, 0.34), (-0.34, 0.34), (0.0,)), ((-0.1, 0.1), (0.0,), (1.65,)))
+"""Base and head: each from x to x, y to y and at heights over the floor, base frame."""
+_ARMS_M = (((-0.1, 0.39), (-0.64, 0.64), (0.8, 1.4)),)
+"""The arms while it waits; backed off it has them before it, over the table."""
+
+
+def opening(scene: Scene, aspect: float, base: Pose2 | None = None) -> Viewpoint:
+    """Sees the table and the robot whole, also while the robot is backed off.
+
+    Args:
+        scene: table and stations.
+        aspect: the picture's width divided by its height; a picture narrower than a fifth of it is not filled.
+        base: where the robot stands, table frame; without it, at the first station.
+    """
+    look_at, aspect = np.array(_LOOK_AT), max(aspect, _NARROWEST)
+    share = min(max((aspect - _TALL) / (_WIDE - _TALL), 0.0), 1.0)
+    yaw_rad = _ALONG_RAD + share * (_ACROSS_RAD - _ALONG_RAD)
+    level = math.cos(_RISE_RAD)
+    back = np.array([level * math.cos(yaw_rad), level * math.sin(yaw_rad), math.sin(_RISE_RAD)])
+    away_m = _distance(whole(scene, base or scene.stations[0][1]) - look_at, back, aspect)
+    x, y, z = (look_at + max(_NEAREST_M, _MARGIN * away_m) * back).tolist()
+    return Viewpoint((x, y, z), _LOOK_AT)
+
+
+def whole(scene: Scene, base: Pose2) -> FloatArray:
+    """The corners of the table and of the robot, where it stands and where it may back off to, shape (n, 3), m."""
+    floor_z_m = -scene.table.height_m
+    table = [(x, y, z) for x, y in scene.table.corners for z in (0.0, floor_z_m)]
+    trunk, arms = _corners(_TRUNK_M, floor_z_m), _corners(_ARMS_M, floor_z_m)
+    backed_off = base.ahead(-scene.back_off_max_m)
+    return np.concatenate([np.array(table), base.to_outer(trunk), base.to_outer(arms), backed_off.to_outer(trunk)])
+
+
+def _corners(boxes: Sequence[Sequence[Sequence[float]]], floor_z_m: float) -> FloatArray:
+    points = [point for box in boxes for point in itertools.product(*box)]
+    return np.asarray(np.array(points) + np.array([0.0, 0.0, floor_z_m]))
+
+
+def _distance(points: FloatArray, back: FloatArray, aspect: float) -> float:
+    """From how far off in a direction all points are in the picture whose middle is the origin (m)."""
+    right = np.cross((0.0, 0.0, 1.0), back)
+    right /= np.linalg.norm(right)
+    up, high = np.cross(back, right), math.tan(FOV_RAD / 2.0)
+    needed = np.maximum(np.abs(points @ up) / high, np.abs(points @ right) / (aspect * high))
+    return float(np.max(points @ back + needed))

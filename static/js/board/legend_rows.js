@@ -1,0 +1,82 @@
+/** What the shades and lines of the overlays mean: a row for each kind of them that is drawn, and for no other. */
+
+import { drawChecks } from "./draw_findings.js";
+import { length } from "./units.js";
+
+/** A swatch is so large, in the units that its marks are written in. */
+export const SWATCH = { width: 34, height: 18 };
+
+/** @typedef {Record<string, unknown> & {tag: string}} Mark what a swatch is drawn of: an SVG element and its attributes */
+/** @typedef {{words: string, marks: Mark[]}} Row */
+
+/** @param {import("./board.js").Board} board @returns {Row[]} */
+export function legendRows(board) {
+  const { overlays, store } = board;
+  const grips = store.overlays.has("grips") ? drawChecks(board) : [];
+  const drawn = new Set([...overlays.drawn, ...grips].filter(isSeen).map((item) => String(item.class)));
+  return [
+    ...reach(overlays.found, drawn),
+    ...PLAIN.filter(({ marks }) => marks.every((mark) => drawn.has(mark.class))),
+    ...costs(overlays.places),
+  ];
+}
+
+/** A path of one point leaves no trace. @param {import("./sheet.js").Item} item */
+const isSeen = ({ tag, d }) => tag !== "path" || /[Lh]/.test(String(d));
+
+const line = (className, d = "M1 9L33 9") => ({ tag: "path", class: className, d });
+const cell = (className, x, width = 15) => ({ tag: "rect", class: className, x, y: 2, width, height: 14 });
+
+/** What means the same at every moment. @type {{words: string, marks: (Mark & {class: string})[]}[]} */
+const PLAIN = [
+  { words: "Slip limit: so much may hang over that edge", marks: [line("slip")] },
+  { words: "The base at this moment", marks: [cell("robot-base", 9)].map((mark) => ({ ...mark, rx: 1 })) },
+  { words: "Way of the base", marks: [line("base-way")] },
+  { words: "Where it stands and looks", marks: [line("base-stand", "M8 9a4 4 0 1 0 8 0a4 4 0 1 0 -8 0M12 9L28 9")] },
+  {
+    words: "Way of the hand L or R at this moment, and its end",
+    marks: [line("hand-path is-now", "M1 9L20 9"), end("hand-end is-now")],
+  },
+  { words: "Ways of the hands at other times", marks: [line("hand-path", "M1 9L20 9"), end("hand-end")] },
+  { words: "Must be held", marks: [line("must-hold", "M17 2L24 9L17 16L10 9Z")] },
+  { words: "Where a hand takes it", marks: [{ tag: "circle", class: "grip", cx: 17, cy: 9, r: 8 }] },
+];
+
+function end(className) {
+  return { tag: "circle", class: className, cx: 26, cy: 9, r: 6 };
+}
+
+/** Shades with comfort, where they overlap twice as strong; and a line round what is within reach at all. */
+function reach(found, drawn) {
+  const arms = (found?.reach ?? []).filter(({ arm }) => drawn.has(`reach is-${arm}`));
+  const letters = arms.map(({ arm }) => arm[0].toUpperCase());
+  const comfort = found?.reach?.[0]?.comfort_m ?? 0;
+  const shades = arms.flatMap((_, n) => [cell("reach", 2 + 10 * n, 20), cell("reach-line", 2 + 10 * n, 20)]);
+  const both = arms.length > 1 ? "; stronger: both" : "";
+  const ease = comfort > 0 ? ` with ${length(comfort)} of comfort` : "";
+  return [
+    arms.length > 0 && { words: `${letters.join(", ")}: can grip${ease}${both}`, marks: shades },
+    comfort > 0 &&
+      drawn.has("reach-line is-bare") && { words: "Limit of reach, without comfort", marks: [line("reach-line is-bare")] },
+  ].filter((row) => row !== false);
+}
+
+/** How full the shades of the quickest place and the slowest are. */
+const STRONGEST = 0.6;
+const FAINTEST = 0.1;
+
+/** @param {any} places */
+function costs(places) {
+  const known = (places?.cells ?? []).map(({ cost_s }) => cost_s).filter((cost) => cost !== null);
+  const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => `${cost.toFixed(1)}\u00A0s`);
+  const shades = [0, 1, 2, 3].map((n) => ({
+    ...cell("cost", 1 + 8 * n, 8),
+    "fill-opacity": STRONGEST + ((FAINTEST - STRONGEST) * n) / 3,
+  }));
+  const range = least === most ? `takes ${least}` : `takes ${least} (strongest) to ${most}`;
+  return [
+    known.length > 0 && { words: `The plan ${range}, the cloth\u2019s middle there`, marks: shades },
+    places && known.length < places.cells.length && { words: "Empty: no plan from there", marks: [cell("cost is-none", 9)] },
+    places && !places.complete && { words: "No square: not tried, time was up", marks: [] },
+  ].filter((row) => Boolean(row));
+}

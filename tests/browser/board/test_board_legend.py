@@ -1,0 +1,117 @@
+"""The legend says what the overlays' shades and lines mean, of all that is drawn and of nothing else."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Locator, Page, Route, expect
+
+from tests.browser.board_desk import Desk
+from tests.browser.board_hand import Hand
+from tests.browser.status_pill import expect_planned
+
+SWITCHES = ["Reach", "Grips", "Hand paths", "Base path", "Slip limit", "Cost map"]
+
+
+@pytest.fixture
+def legend(page: Page, towel: Desk) -> Iterator[Locator]:
+    """The legend of a planned towel; what has been switched on is switched off again."""
+    expect_planned(page)
+    yield page.get_by_role("list", name="Legend")
+    page.unroute_all()
+    for name in SWITCHES:
+        switch = chip(page, name)
+        if switch.get_attribute("aria-pressed") == "true":
+            switch.click()
+
+
+def chip(page: Page, name: str) -> Locator:
+    return page.get_by_role("button", name=name, exact=True)
+
+
+def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page, legend: Locator) -> None:
+    expect(legend).to_have_count(0)
+    asked: list[Route] = []
+    page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))
+    chip(page, "Slip limit").click()
+    expect(chip(page, "Slip limit")).to_have_attribute("aria-busy", "true")
+    expect(legend).to_have_count(0)
+    asked[0].continue_()
+    expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: so much may hang over that edge"])
+    chip(page, "Slip limit").click()
+    expect(legend).to_have_count(0)
+
+
+def test_the_shades_of_reach_are_named_with_their_comfort_and_hands(page: Page, legend: Locator) -> None:
+    chip(page, "Reach").click()
+    # 3 cm of comfort are asked for where nobody says otherwise.
+    rows = ["L, R: can grip with 3.0 cm of comfort; stronger: both", "Limit of reach, without comfort"]
+    expect(legend.get_by_role("listitem")).to_have_text(rows)
+    for drawn in ("fill", "stroke-dasharray", "stroke-opacity"):
+        row, board = legend.locator(".is-bare"), page.locator(".layer-over .is-bare").first
+        assert style(row, drawn) == style(board, drawn)
+
+
+def style(drawn: Locator, name: str) -> str:
+    return str(drawn.evaluate("(node, name) => getComputedStyle(node).getPropertyValue(name)", name))
+
+
+def test_the_ways_of_base_and_hands_are_named_when_there_are_any(page: Page, legend: Locator) -> None:
+    for name in ("Hand paths", "Base path"):
+        chip(page, name).click()
+    expect(page.locator(".layer-over .hand-path.is-now").first).to_be_attached()
+    for words in ("The base at this moment", "Where it stands and looks", "Way of the hand L or R at this moment"):
+        expect(legend.get_by_text(words)).to_be_visible()
+    chip(page, "Hand paths").click()
+    expect(legend.get_by_text("Way of the hand")).to_have_count(0)
+    expect(legend.get_by_text("The base at this moment")).to_be_visible()
+
+
+def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, legend: Locator) -> None:
+    cells = [
+        {"move": [0.1 * n, 0.0], "placement": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0}, "cost_s": cost_s}
+        for n, cost_s in enumerate((41.26, None, 57.8))
+    ]
+    told = {"version": 1, "step_m": 0.1, "cells": cells, "best": cells[0], "complete": False}
+    page.route("**/overlays/places?*", lambda route: route.fulfill(json=told))
+    chip(page, "Cost map").click()
+    rows = [
+        "The plan takes 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s,"
+        " the cloth\N{RIGHT SINGLE QUOTATION MARK}s middle there",
+        "Empty: no plan from there",
+        "No square: not tried, time was up",
+    ]
+    expect(legend.get_by_role("listitem")).to_have_text(rows)
+
+
+def test_the_legend_is_clear_of_the_cloth_and_the_pointer_goes_through(page: Page, legend: Locator) -> None:
+    chip(page, "Slip limit").click()
+    expect(legend).to_be_visible()
+    box, cloth = legend.bounding_box(), page.locator(".layer-cloth").bounding_box()
+    assert box is not None and cloth is not None
+    beside = box["x"] + box["width"] <= cloth["x"] or cloth["x"] + cloth["width"] <= box["x"]
+    assert beside or box["y"] + box["height"] <= cloth["y"] or cloth["y"] + cloth["height"] <= box["y"]
+    middle = [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2]
+    below = page.evaluate("([x, y]) => Boolean(document.elementFromPoint(x, y).closest('#drafting-board'))", middle)
+    assert below
+
+
+@pytest.mark.parametrize("text", ["100%", "200%"])
+@pytest.mark.parametrize("size", [(390, 844), (1280, 800)])
+def test_all_of_the_legend_is_on_the_board_also_in_large_letters(
+    page: Page, legend: Locator, text: str, size: tuple[int, int]
+) -> None:
+    for name in ("Reach", "Slip limit"):
+        chip(page, name).click()
+    width, height = size
+    page.set_viewport_size({"width": width, "height": height})
+    page.evaluate("(size) => document.documentElement.style.setProperty('font-size', size)", text)
+    expect(legend.get_by_role("listitem")).to_have_count(3)
+    page.wait_for_timeout(200)  # the board is measured anew a frame later
+    box, board = legend.bounding_box(), Hand(page).board.bounding_box()
+    page.evaluate("document.documentElement.style.removeProperty('font-size')")
+    page.set_viewport_size({"width": 1280, "height": 800})
+    assert box is not None and board is not None
+    assert board["x"] <= box["x"] and box["x"] + box["width"] <= board["x"] + board["width"]
+    assert board["y"] <= box["y"] and box["y"] + box["height"] <= board["y"] + board["height"]
+    assert re.fullmatch(r"[\d.]+", str(box["height"])) and box["height"] < 0.63 * board["height"]
