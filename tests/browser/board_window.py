@@ -112,9 +112,10 @@ class Window:
         self.page.keyboard.press("Delete")
 
     def draw_fold(self, start: Point, end: Point, colour: str) -> None:
+        """On the cloth as it lies then, which may be elsewhere than where it was spread out."""
         self.clear()
-        self.hand.tool("Draw fold")
-        self.hand.tool(colour)
+        for name in ("Draw fold", "Fit", colour):
+            self.hand.tool(name)
         self.page.evaluate(DRAWN)
         self.hand.drag(start, end)
 

@@ -56,6 +56,17 @@ def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sh
     assert stuck.drawing["placement"] == FAR
 
 
+def test_what_is_suggested_follows_the_unit(page: Page, stuck: Sheet) -> None:
+    move = suggestions(page).filter(has_text=re.compile(r"Move the garment [\d.]+ cm"))
+    expect(move.first).to_be_visible()
+    page.get_by_role("button", name="Unit: cm").click()
+    expect(suggestions(page).filter(has_text=re.compile(r"Move the garment [\d.]+ in")).first).to_be_visible()
+    expect(suggestions(page).filter(has_text=" cm")).to_have_count(0)
+    page.get_by_role("button", name="Why?").click()
+    expect(page.get_by_role("list", name="Reasons")).to_contain_text(re.compile(r"grip at \([-\d., ]+\) in"))
+    page.get_by_role("button", name="Unit: in").click()
+
+
 def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:

@@ -34,7 +34,14 @@ export class NoPlan {
     this.root = element("div", "no-plan", this.sentence, this.progress, this.longer, this.help, this.inFull);
     for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
+    addEventListener("unit", () => this.reword());
     this.unfold(false);
+  }
+
+  /** Buttons with lengths in them are made anew. */
+  reword() {
+    for (const root of [this.help, this.more]) root.replaceChildren();
+    this.showFound();
   }
 
   /**
