@@ -159,6 +159,10 @@ class Document:
 
         self._change(change)
 
+    def plan_again(self) -> None:
+        """Want an answer to a version that has none because planning was stopped or has failed."""
+        self._change(lambda state: replace(state, failure=None) if state.failure else state)
+
     def play(self) -> None:
         """Let time run; without a solved plan nothing happens."""
         self._change_playback(lambda playback: playback.played(self._clock()))

@@ -48,6 +48,7 @@ class Replanner:
         self._arms = arms
         self._lock = threading.Lock()
         self._version = 0
+        self._has_failed = False
         self._job: Job[None] | None = None
         self._asked: DocumentState | None = None
         self._is_behind = False
@@ -67,7 +68,8 @@ class Replanner:
     def _look(self) -> None:
         state = self._document.state
         with self._lock:
-            if state.version <= self._version:
+            is_again, self._has_failed = self._has_failed and state.failure is None, state.failure is not None
+            if state.version <= self._version and not is_again:
                 return
             self._version = state.version
             if self._asked is not None and state.question is not None and self._asked.question == state.question:

@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from app.api.messages import COMMANDS, Choose, Command, Pause, Play, Seek, SetSpeed, SetTheme, Stop
+from app.api.messages import COMMANDS, Choose, Command, Pause, PlanAgain, Play, Seek, SetSpeed, SetTheme, Stop
 from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.edit import Edit
@@ -39,6 +39,8 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             document.set_theme(is_dark=is_dark)
         case Choose(garment=name):
             put_garment(document, workspace.garments.garment(name))
+        case PlanAgain():
+            document.plan_again()
         case Stop():
             document.stop_planning()
 

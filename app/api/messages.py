@@ -105,5 +105,11 @@ class Stop(StrictModel):
     do: Literal["stop"]
 
 
-Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop
+class PlanAgain(StrictModel):
+    """Plan what has no answer because planning was stopped or has failed."""
+
+    do: Literal["plan"]
+
+
+Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])

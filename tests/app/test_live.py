@@ -7,15 +7,10 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.samples import towel
+from tests.app.document_requests import created, moved, put
 from tests.app.websocket import Listener
 
 pytestmark = pytest.mark.anyio
-
-
-async def created(client: httpx.AsyncClient, garment: object = None) -> dict[str, Any]:
-    state: dict[str, Any] = (await client.post("/api/documents", json={"garment": garment or towel()})).json()
-    return state
 
 
 def listening(client: httpx.AsyncClient, document_id: str) -> Listener:
@@ -24,13 +19,10 @@ def listening(client: httpx.AsyncClient, document_id: str) -> Listener:
 
 
 async def move(client: httpx.AsyncClient, state: dict[str, Any], x_m: float, **request: Any) -> dict[str, Any]:
-    first, *others = state["drawing"]["outline"]
-    drawing = {**state["drawing"], "outline": [{**first, "point": [x_m, first["point"][1]]}, *others]}
-    body = {"base_version": state["version"], "label": "Move", "drawing": drawing, **request}
-    answer = await client.put(f"/api/documents/{state['id']}/drawing", json=body)
+    answer = await put(client, state, moved(state, x_m), **request)
     assert answer.status_code == 200, answer.text
-    moved: dict[str, Any] = answer.json()
-    return moved
+    after: dict[str, Any] = answer.json()
+    return after
 
 
 async def test_a_page_is_told_everything_when_it_comes(client: httpx.AsyncClient) -> None:
@@ -102,6 +94,20 @@ async def test_commands_come_by_websocket_too_and_bad_ones_are_told_of(client: h
     await page.until("plan", status="solved", version=2)
     page.say({"do": "speed", "speed": 4.0})
     await page.until("playback", speed=4.0)
+    await page.hang_up()
+
+
+async def test_what_failed_is_planned_again_when_a_page_asks_for_it(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    page = listening(client, state["id"])
+    drawing = {**state["drawing"], "scene": {**state["drawing"]["scene"], "torso_m": 0.9}}
+    await put(client, state, drawing)
+    await page.until("plan", status="failed", version=2)
+    page.keep_all = True
+    page.say({"do": "plan"})
+    async with asyncio.timeout(60.0):
+        while [one["status"] for one in page.heard if one["kind"] == "plan"][:2] != ["planning", "failed"]:
+            await asyncio.sleep(0.002)
     await page.hang_up()
 
 

@@ -177,10 +177,15 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
         assert endless.stopped.wait(PATIENCE_S)
     assert status_text(desk.document.state) == "No plan: planning was stopped; the next change is planned again"
     assert not desk.document.state.is_planning
+    desk.document.plan_again()
+    desk.rest()
+    assert desk.document.state.is_answered
     desk.document.edit(Edit("Move", moved(2)))
     desk.rest()
     desk.document.stop_planning()
     assert desk.document.state.failure is None, "there is nothing to stop any more"
+    desk.document.plan_again()
+    assert desk.document.state.is_answered, "nor to plan"
 
 
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

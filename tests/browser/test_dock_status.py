@@ -75,6 +75,38 @@ def test_while_a_quicker_plan_is_looked_for_the_one_on_show_can_be_kept(
     assert status.inner_text() == before
 
 
+def test_what_was_stopped_can_be_planned_again(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    page.route_web_socket("**/live", stopped)
+    page.goto(new_sheet(napkin()).page_url)
+    expect(page.get_by_role("status")).to_have_text("No plan: Planning was stopped")
+    again = page.get_by_role("button", name="Plan again")
+    again.click()
+    expect_planned(page)
+    expect(again).to_be_hidden()
+
+
+def stopped(page: WebSocketRoute) -> None:
+    """A server that has been told to stop, until it is told to plan again."""
+    server = page.connect_to_server()
+    kept: list[str] = []
+
+    def tell(text: str) -> None:
+        message = json.loads(text)
+        if message["kind"] == "plan":
+            kept[:] = [text]
+            message |= {"status": "failed", "text": "No plan: planning was stopped", "plan": None}
+        page.send(json.dumps(message))
+
+    def hear(text: str) -> None:
+        if json.loads(text) == {"do": "plan"}:
+            page.send(kept[0])
+        else:
+            server.send(text)
+
+    server.on_message(tell)
+    page.on_message(hear)
+
+
 def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:

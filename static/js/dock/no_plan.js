@@ -21,6 +21,7 @@ export class NoPlan {
     this.sentence = element("p", "reason");
     this.longer = button("chip look-longer", () => this.lookLonger());
     this.longer.hidden = true;
+    this.again = button("chip", () => store.command({ do: "plan" }), "Plan again");
     this.help = element("div", "suggestions");
     this.help.setAttribute("role", "group");
     this.help.setAttribute("aria-label", "Suggestions");
@@ -31,7 +32,7 @@ export class NoPlan {
     this.all.setAttribute("aria-label", "Reasons");
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
-    this.root = element("div", "no-plan", this.sentence, this.progress, this.longer, this.help, this.inFull);
+    this.root = element("div", "no-plan", this.sentence, this.progress, this.again, this.longer, this.help, this.inFull);
     for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     addEventListener("unit", () => this.reword());
@@ -50,6 +51,7 @@ export class NoPlan {
    */
   show(message, state) {
     this.sentence.textContent = explanation(message, state);
+    this.again.hidden = message.status !== "failed";
     const all = details(message, state);
     this.all.replaceChildren(...all.map((text) => element("li", "", text)));
     this.why.hidden = all.length === 0;
