@@ -97,17 +97,23 @@ async def test_commands_come_by_websocket_too_and_bad_ones_are_told_of(client: h
     await page.hang_up()
 
 
-async def test_what_failed_is_planned_again_when_a_page_asks_for_it(client: httpx.AsyncClient) -> None:
+async def test_what_failed_is_planned_again_when_a_page_asks_for_it(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
     state = await created(client)
     page = listening(client, state["id"])
-    drawing = {**state["drawing"], "scene": {**state["drawing"]["scene"], "torso_m": 0.9}}
-    await put(client, state, drawing)
-    await page.until("plan", status="failed", version=2)
-    page.keep_all = True
+    await page.until_planned(1)
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("a bug")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("app.replanner.make_plan", fail)
+        patch.setattr("app.replanner.quick_plan", fail)
+        await move(client, state, -0.01)
+        await page.until("plan", status="failed", version=2)
     page.say({"do": "plan"})
-    async with asyncio.timeout(60.0):
-        while [one["status"] for one in page.heard if one["kind"] == "plan"][:2] != ["planning", "failed"]:
-            await asyncio.sleep(0.002)
+    await page.until_planned(2)
     await page.hang_up()
 
 
