@@ -83,9 +83,11 @@ class Desk:
                 asked.done()
 
     def show(self, state: DocumentState) -> None:
-        """Bring everybody's panels and aids up to date."""
-        for seat in tuple(self._seats.values()):
-            seat.show(state)
+        """Bring everybody's panels and aids up to date, but of those who have just gone."""
+        here = self._server.get_clients()
+        for visitor, seat in tuple(self._seats.items()):
+            if visitor in here:
+                seat.show(state)
 
     def _ask(self, visitor: int, act: Callable[[], None], is_passing: bool) -> None:
         self._tray.append(_Asked(visitor, act, is_passing))
