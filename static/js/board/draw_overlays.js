@@ -125,6 +125,9 @@ function paths(board, found) {
   });
 }
 
+/** How full the shade of a place is. @param {number} share 1 for the quickest, 0 for the slowest */
+export const fullness = (share) => 0.1 + 0.5 * share;
+
 /** What the plan would cost if the garment's middle lay there: the stronger the cheaper. */
 function costs({ view, drawing }, places) {
   const box = boxOf(drawing.outline.map(({ point }) => point));
@@ -150,7 +153,7 @@ function costs({ view, drawing }, places) {
         key: `cell${n}`,
         tag: "path",
         class: cost_s === null ? "cost is-none" : "cost",
-        "fill-opacity": cost_s === null ? 0 : 0.1 + 0.5 * share,
+        "fill-opacity": cost_s === null ? 0 : fullness(share),
         d: path(corners),
       },
       cost_s !== null &&

@@ -1,6 +1,7 @@
 /** What the shades and lines of the overlays mean: a row for each kind of them that is drawn, and for no other. */
 
 import { drawChecks } from "./draw_findings.js";
+import { fullness } from "./draw_overlays.js";
 import { length } from "./units.js";
 
 /** A swatch is so large, in the units that its marks are written in. */
@@ -61,18 +62,11 @@ function reach(found, drawn) {
   ].filter((row) => row !== false);
 }
 
-/** How full the shades of the quickest place and the slowest are. */
-const STRONGEST = 0.6;
-const FAINTEST = 0.1;
-
 /** @param {any} places */
 function costs(places) {
   const known = (places?.cells ?? []).map(({ cost_s }) => cost_s).filter((cost) => cost !== null);
   const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => `${cost.toFixed(1)}\u00A0s`);
-  const shades = [0, 1, 2, 3].map((n) => ({
-    ...cell("cost", 1 + 8 * n, 8),
-    "fill-opacity": STRONGEST + ((FAINTEST - STRONGEST) * n) / 3,
-  }));
+  const shades = [0, 1, 2, 3].map((n) => ({ ...cell("cost", 1 + 8 * n, 8), "fill-opacity": fullness(1 - n / 3) }));
   const range = least === most ? `takes ${least}` : `takes ${least} (strongest) to ${most}`;
   return [
     known.length > 0 && { words: `The plan ${range}, the cloth\u2019s middle there`, marks: shades },
