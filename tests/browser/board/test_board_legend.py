@@ -33,9 +33,11 @@ def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page,
     expect(legend).to_have_count(0)
     asked: list[Route] = []
     page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))
-    chip(page, "Slip limit").click()
+    with page.expect_request("**/overlays?*"):
+        chip(page, "Slip limit").click()
     expect(chip(page, "Slip limit")).to_have_attribute("aria-busy", "true")
     expect(legend).to_have_count(0)
+    page.evaluate("0")  # what was asked before that has been heard of by then
     asked[0].continue_()
     expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: so much may hang over that edge"])
     chip(page, "Slip limit").click()
