@@ -114,7 +114,8 @@ def _checks(work: Work) -> Iterator[FoldCheck]:
         done = (1 << fold.index) - 1
         found = work.sequence.covers(done, fold.index, angle, arms)
         if fold.is_red:
-            covers = [c for held in left_held for c in held_covers(work, done, fold.index, _as_held(held))]
+            held_sets = [c for held in left_held for c in held_covers(work, done, fold.index, _as_held(held))]
+            covers = [tuple(h.point for h in cover) for cover in held_sets]
             obstacle = None if covers else _not_held(work, done, fold.index, left_held)
         else:
             covers = list(found.covers)

@@ -131,8 +131,8 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
         yield FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
 
 
-def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
-    """The smallest sets of grips already held that hold all that a fold needs; empty if none does.
+def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
+    """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
 
     Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
@@ -140,17 +140,23 @@ def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tup
 
 
 class _HeldCovers:
-    """What grips already held hold of what folds need: many states hold the same, so answers are kept."""
+    """What grips already held hold of what folds need: many states hold the same, so answers are kept.
+
+    Grips that are the same to the grid share an answer though their points differ by a rounding error, so an answer
+    says which of the grips it means, not where they are.
+    """
 
     def __init__(self, work: Work) -> None:
         self._work = work
-        self._known: dict[tuple[object, ...], tuple[Cover, ...]] = {}
+        self._known: dict[tuple[object, ...], tuple[tuple[int, ...], ...]] = {}
 
-    def of(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
+    def of(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
         key = (done, fold, *(h.key for h in held))
         if key not in self._known:
-            self._known[key] = self._search(done, fold, held)
-        return self._known[key]
+            number = {h.point: i for i, h in enumerate(held)}
+            covers = self._search(done, fold, held)
+            self._known[key] = tuple(tuple(number[point] for point in cover) for cover in covers)
+        return tuple(tuple(held[i] for i in numbers) for numbers in self._known[key])
 
     def _search(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
         work = self._work
@@ -228,7 +234,7 @@ def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tu
         message = f"{label}: the grips still held from the fold before do not hold all that must be held"
         work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, message, 1.0, state))
     for cover in covers:
-        yield cover, tuple(next(h.arm for h in state.held if h.point == point) for point in cover)
+        yield tuple(h.point for h in cover), tuple(h.arm for h in cover)
 
 
 def _approaches(work: Work, state: State, grip: Point2) -> NDArray[np.int64]:

@@ -12,10 +12,11 @@ import pytest
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.primitives.base_legs import unbeaten
+from planner.primitives.fold_trial import fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.scene import Scene
-from planner.primitives.state import State
+from planner.primitives.state import Held, State
 from planner.primitives.work import Work
 from tests.builders import WideReach, fold, garment, rectangle_points, work
 
@@ -192,3 +193,16 @@ def test_of_ends_those_stay_that_cannot_be_had_by_driving_on():
     # From end 2 (cost 1) end 3 costs 2 by driving on, so its own 2 is no better and its own 1 would be.
     assert unbeaten(np.array([9, 5, 1, 2, 2])) == [2, 4]
     assert unbeaten(np.array([9, 5, 1, 1])) == [2, 3]
+
+
+def test_grips_that_are_the_same_to_the_grid_are_held_alike_though_a_rounding_error_lies_between():
+    # A drag that is tried from two places may find its grips a rounding error apart: equal states, unequal points.
+    problem = work(towel(NEAR_HALF))
+    ways = []
+    for off_m in (0.0, 1e-9):
+        held = tuple(Held(arm, (x + off_m, off_m)) for arm, x in enumerate((0.0, 0.4)))
+        state = State(0, (-0.1, 0.0), 0, 2, held, dragged=1)
+        (trial,) = fold_trials(problem, state, 0)
+        ways.append((state, trial.arms))
+        assert sorted(trial.cover) == sorted(h.point for h in held)
+    assert ways[0] == ways[1]
