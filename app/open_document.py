@@ -7,9 +7,9 @@ from contextlib import contextmanager
 
 from app.document import Document
 from app.job_pool import JobPool
-from app.plan_store import PlanStore
 from app.player import Player
 from app.replanner import Replanner
+from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
 from planner.robot.pr2 import load_robot

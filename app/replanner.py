@@ -21,7 +21,7 @@ from app.document_state import DocumentState, Question
 from app.held_folds import held_folds
 from app.job_pool import Job, JobPool, ShouldStop
 from app.known_plans import KnownPlans
-from app.plan_store import PlanStore
+from app.store.plan_store import PlanStore
 from planner import make_plan, quick_plan
 from planner.errors import FoldingError, SceneError
 from planner.plan.plan import Plan

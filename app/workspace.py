@@ -4,15 +4,15 @@ import logging
 import threading
 
 from app.document import Document
-from app.document_shelf import DocumentShelf
 from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.garment_shelf import GarmentShelf
 from app.job_pool import JobPool
 from app.open_document import OpenDocument
-from app.plan_store import PlanStore
 from app.settings import Settings
+from app.store.document_shelf import DocumentShelf
+from app.store.garment_shelf import GarmentShelf
+from app.store.plan_store import PlanStore
 from planner.errors import FoldingError
 
 FIRST_GARMENT = "t-shirt"

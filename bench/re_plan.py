@@ -24,8 +24,8 @@ from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.job_pool import JobPool
-from app.plan_store import PlanStore
 from app.replanner import Replanner
+from app.store.plan_store import PlanStore
 from bench.paper import TABLE_2
 from bench.report import Report, Row
 from planner import load_garment

@@ -13,9 +13,9 @@ from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
 from app.document import EndedDocumentError
-from app.document_keeper import UnkeptDocumentError
-from app.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
-from app.plan_store import UnknownPlanError
+from app.store.document_keeper import UnkeptDocumentError
+from app.store.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
+from app.store.plan_store import UnknownPlanError
 from planner.errors import (
     FieldError,
     FoldingError,

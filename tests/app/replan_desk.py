@@ -11,8 +11,8 @@ from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.job_pool import JobPool
-from app.plan_store import PlanStore
 from app.replanner import Replanner
+from app.store.plan_store import PlanStore
 from planner import make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled

@@ -10,8 +10,8 @@ import pytest
 from app.api.live_messages import status_text
 from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
-from app.plan_store import UnknownPlanError
 from app.replanner import Replanner
+from app.store.plan_store import UnknownPlanError
 from planner import Plan
 from tests.app.drawing.drawings import crease, outlined
 from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning

@@ -7,11 +7,11 @@ their own, which outlives the end of this process and need not outlive a power f
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.document_file import document_text, preview_text
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.history import History
-from app.durable_file import write_at_once
+from app.store.document_file import document_text, preview_text
+from app.store.durable_file import write_at_once
 from planner.errors import FoldingError
 
 

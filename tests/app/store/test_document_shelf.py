@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 
 from app.document import Document
-from app.document_keeper import UnkeptDocumentError
-from app.document_shelf import BrokenDocumentError, DocumentShelf, UnknownDocumentError
 from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
+from app.store.document_keeper import UnkeptDocumentError
+from app.store.document_shelf import BrokenDocumentError, DocumentShelf, UnknownDocumentError
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import outlined, pulled
 from tests.app.samples import towel

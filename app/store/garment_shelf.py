@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.durable_file import write_at_once
+from app.store.durable_file import write_at_once
 from planner.cloth.garment import NAME_PATTERN, Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, UnknownGarmentError

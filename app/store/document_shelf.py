@@ -7,11 +7,11 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from app.document_file import DocumentModel, PreviewModel, header_of
-from app.document_keeper import DocumentKeeper
 from app.drawing.draft import Draft
 from app.drawing.solve import solve
-from app.durable_file import sync_folder, write_at_once
+from app.store.document_file import DocumentModel, PreviewModel, header_of
+from app.store.document_keeper import DocumentKeeper
+from app.store.durable_file import sync_folder, write_at_once
 from planner.errors import FieldError, FoldingError, RequestError
 from planner.strict_model import first_error
 
