@@ -13,7 +13,7 @@ import numpy as np
 
 from app.overlays.moment import Moment
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import EDGE_NAMES
+from planner.cloth.g_state import EDGE_NAMES, is_held
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import GRID_M
@@ -71,7 +71,7 @@ def slip_overlay(moment: Moment) -> dict[str, Any]:
         "pull_m2": pull,
         "lying_m2": lying,
         "hanging_m2": hanging,
-        "holds": pull <= friction * lying * (1.0 + GRID_M),
+        "holds": is_held(pull, lying, friction),
         "limits": [_limit(cloth, name, edge, friction) for name, edge in edges.items()],
     }
 

@@ -179,12 +179,21 @@ def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad:
     return None
 
 
+def is_held(pull_m2: float, lying_m2: float, friction: float) -> bool:
+    """Whether friction on the cloth that lies (m^2, layers counted) holds a pull (m^2) against it.
+
+    A pull that is less than a sliver of cloth weighs counts as none: sums of areas that balance differ in the last
+    digits, which no friction would have to hold.
+    """
+    return pull_m2 <= friction * lying_m2 + AREA_M2
+
+
 def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, friction: float) -> Unrest | None:
     """The friction law: the net pull of all hanging parts against what the weight on the table holds."""
     hanging = [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
     lying = max(sum(layer.region.area for layer in cloth.layers) - sum(hanging), 0.0)
     pull = float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
-    if pull <= friction * lying * (1.0 + LENGTH_M):
+    if is_held(pull, lying, friction):
         return None
     needed = pull / max(lying, AREA_M2)
     whole = lying + sum(hanging)
