@@ -16,6 +16,7 @@ from app.api.described import problems
 from app.api.problems import ProblemResponse
 from app.api.waiting import answer_of
 from app.document_state import DocumentState
+from app.files.crease_reading import Creases
 from app.files.exports import EXPORTS, Export, UnavailableFileError, find_export
 from app.files.import_errors import UnitsNeededError
 from app.files.import_file import LARGEST_FILE, Imported, import_file
@@ -34,15 +35,24 @@ _ANY_FILE = {
 FileName = Annotated[str, Query(max_length=300)]
 Units = Annotated[str | None, Query(description="what one unit of the drawing is: mm, cm, m or in")]
 Scale = Annotated[float, Query(allow_inf_nan=False)]
+Lines = Annotated[
+    Creases | None, Query(description="the cloth that fold lines are drawn on: as the folds before leave it, or flat")
+]
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
 
 
 class ImportAnswer(BaseModel):
-    """A garment out of a file, and what is to be said about it."""
+    """A garment out of a file, and what is to be said about it.
+
+    `creases` says on which cloth the fold lines of a drawing were read; null where that makes no difference. `sizes`
+    says how wide and how high a drawing would be in other units (m).
+    """
 
     format: Literal["json", "svg", "dxf"]
     garment: GarmentFile
     notes: list[str]
+    creases: Creases | None
+    sizes: dict[str, tuple[float, float]] | None
 
 
 class FileEntry(BaseModel):
@@ -62,14 +72,17 @@ class FileEntry(BaseModel):
     openapi_extra=_ANY_FILE,
     responses={200: {"model": ImportAnswer}, **problems(413, 422)},
 )
-async def post_import(request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0) -> Response:
+async def post_import(
+    request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0, creases: Lines = None
+) -> Response:
     """The garment in a file that is sent as it is: a garment file, SVG or DXF, told by the ending of its name.
 
-    Where the file does not say how long a unit is, the problem is about the field `units` and has `sizes`: how large
-    the garment would be in each.
+    Where the file does not say how long a unit is, or says what cannot be, the problem is about the field `units` and
+    has `sizes`: how large the garment would be in each. Fold lines are read on that cloth on which more of them are
+    legal, unless `creases` says which.
     """
     data = await read_bytes(request, LARGEST_FILE)
-    job = workspace_of(request).pool.start(lambda _: import_file(filename, data, units, scale))
+    job = workspace_of(request).pool.start(lambda _: import_file(filename, data, units, scale, creases))
     try:
         return JSONResponse(_imported(await answer_of(request, job)))
     except UnitsNeededError as error:
@@ -115,4 +128,10 @@ def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: Sho
 
 
 def _imported(imported: Imported) -> dict[str, Any]:
-    return {"format": imported.format, "garment": imported.garment.to_dict(), "notes": list(imported.notes)}
+    return {
+        "format": imported.format,
+        "garment": imported.garment.to_dict(),
+        "notes": list(imported.notes),
+        "creases": imported.creases,
+        "sizes": imported.sizes,
+    }

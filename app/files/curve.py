@@ -26,6 +26,11 @@ class Curve(Protocol):
         """Points in whose convex hull it lies but for the bulges of arcs, its ends first and last, shape (n, 2)."""
         ...
 
+    @property
+    def is_bent(self) -> bool:
+        """Whether it is anything but straight segments, so that flattening changes it."""
+        ...
+
     def flattened(self, tolerance: float) -> FloatArray:
         """Points on it, ends included, from which it deviates by no more than this (units), shape (n, 2)."""
         ...
@@ -48,6 +53,11 @@ class SvgCurve:
         """The ends and control points of its segments, and the middles of its arcs."""
         with np.errstate(all="ignore"):  # what is beyond all numbers is refused by who reads it
             return self._placed(np.concatenate([_controls(segment) for segment in self.segments]))
+
+    @property
+    def is_bent(self) -> bool:
+        """Whether any of its segments is a curve with a bend."""
+        return any(_bend(segment) > 0.0 for segment in self.segments)
 
     def flattened(self, tolerance: float) -> FloatArray:
         """Points on it, evenly spaced within each segment."""
@@ -72,10 +82,12 @@ class DrawnCurve:
     Attributes:
         extent: its ends and control points, shape (n, 2).
         cut: gives points on it for a tolerance, shape (n, 2).
+        is_bent: whether it is anything but straight segments.
     """
 
     extent: FloatArray
     cut: Callable[[float], FloatArray]
+    is_bent: bool
 
     def flattened(self, tolerance: float) -> FloatArray:
         """Points on it."""

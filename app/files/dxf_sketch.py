@@ -165,7 +165,7 @@ def _curve(path: Path) -> DrawnCurve:
     extent = _plane(path.control_vertices())
     if not np.all(np.isfinite(extent)):
         raise broken("a number in it is too large")
-    return DrawnCurve(extent, cut)
+    return DrawnCurve(extent, cut, path.has_curves)
 
 
 def _plane(points: Iterable[Vec3]) -> FloatArray:

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.document_state import DocumentState
+from app.drawing.solve import garment_of
 from app.files.fold_format import fold_format
 from app.files.plan_table import plan_table
 from app.files.recording import recording
 from app.files.svg_drawing import svg_drawing
 from app.job_pool import ShouldStop
 from planner.cloth.garment import Garment
-from planner.errors import FoldingError
+from planner.errors import FoldingError, GarmentError
 from planner.plan.plan import Plan
 
 Make = Callable[[DocumentState, float, ShouldStop], bytes]
@@ -75,14 +76,23 @@ def find_export(what: str) -> Export | None:
     return next((export for export in EXPORTS if export.what == what), None)
 
 
-def _no_garment(state: DocumentState) -> str | None:
+def _no_outline(state: DocumentState) -> str | None:
+    """Why there is no garment file: its outline must be good, its folds may be wrong."""
+    try:
+        _as_drawn(state)
+    except GarmentError as error:
+        return f"The drawing is not finished: {error}."
+    return None
+
+
+def _not_legal(state: DocumentState) -> str | None:
     if not state.solution.problems:
         return None
     return f"The drawing is not finished: {state.solution.problems[0].message}."
 
 
 def _no_answer(state: DocumentState) -> str | None:
-    if (unfinished := _no_garment(state)) is not None:
+    if (unfinished := _not_legal(state)) is not None:
         return unfinished
     if state.failure is not None:
         return f"There is no plan: {state.failure}."
@@ -97,6 +107,11 @@ def _no_plan(state: DocumentState) -> str | None:
         return None
     why = plan.reasons[0].message if plan.reasons else "the planner ran out of time"
     return f"There is no plan: {why}."
+
+
+def _as_drawn(state: DocumentState) -> Garment:
+    """The garment with its folds as they are drawn, legal or not; raises `GarmentError`."""
+    return state.solution.garment or garment_of(state.solution.drawing)
 
 
 def _garment(state: DocumentState) -> Garment:
@@ -117,11 +132,11 @@ def _json(data: Any) -> bytes:  # noqa: ANN401
 
 
 def _garment_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
-    return _json(_garment(state).to_dict())
+    return _json(_as_drawn(state).to_dict())
 
 
 def _garment_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
-    return svg_drawing(_garment(state)).encode("utf-8", "replace")
+    return svg_drawing(_as_drawn(state)).encode("utf-8", "replace")
 
 
 def _garment_fold(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
@@ -148,7 +163,7 @@ EXPORTS = (
         "Outline, folds and placement; Pleat opens it again.",
         ".json",
         "application/json",
-        _no_garment,
+        _no_outline,
         _garment_json,
     ),
     Export(
@@ -157,7 +172,7 @@ EXPORTS = (
         "The outline and the fold lines in centimetres, for any drawing program; Pleat reads it again.",
         ".svg",
         "image/svg+xml",
-        _no_garment,
+        _no_outline,
         _garment_svg,
     ),
     Export(
@@ -166,7 +181,7 @@ EXPORTS = (
         "The crease pattern and the cloth after each fold, for origami programs.",
         ".fold",
         "application/json",
-        _no_garment,
+        _not_legal,
         _garment_fold,
     ),
     Export(

@@ -4,11 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import PurePath
 
+from app.files.crease_reading import Creases
 from app.files.dxf_sketch import read_dxf
 from app.files.garment_json import read_garment_json
 from app.files.import_errors import ImportedFileError
 from app.files.sketch import Sketch
-from app.files.sketch_garment import UNITS_M, garment_of
+from app.files.sketch_garment import UNITS_M, Sizes, garment_of
 from app.files.svg_sketch import read_svg
 from planner.cloth.garment import Garment
 
@@ -29,14 +30,20 @@ class Imported:
         format: "json", "svg" or "dxf".
         garment: the garment.
         notes: what is to be said about it, in sentences.
+        creases: on which cloth the fold lines of a drawing were read; None where that makes no difference.
+        sizes: how large a drawing would be in other units; None for a garment file.
     """
 
     format: str
     garment: Garment
     notes: tuple[str, ...]
+    creases: Creases | None = None
+    sizes: Sizes | None = None
 
 
-def import_file(filename: str, data: bytes, units: str | None = None, scale: float = 1.0) -> Imported:
+def import_file(
+    filename: str, data: bytes, units: str | None = None, scale: float = 1.0, creases: Creases | None = None
+) -> Imported:
     """The garment in a file.
 
     Args:
@@ -44,10 +51,11 @@ def import_file(filename: str, data: bytes, units: str | None = None, scale: flo
         data: what is in it.
         units: what a unit of a drawing is, one of `UNITS_M`; None: what the file says.
         scale: everything is so many times as large.
+        creases: on which cloth the fold lines of a drawing are; None: that on which more of them are legal.
 
     Raises:
         ImportedFileError: the file is no garment; the field is ``file``, ``filename``, ``units`` or ``scale``.
-        UnitsNeededError: nobody says how long a unit of the drawing is.
+        UnitsNeededError: nobody says how long a unit of the drawing is, or what the file says cannot be.
         GarmentError: what is in it is no garment; the field is that of a garment file.
     """
     path = PurePath(filename.replace("\\", "/"))
@@ -61,5 +69,5 @@ def import_file(filename: str, data: bytes, units: str | None = None, scale: flo
     if ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES))
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale)
-    return Imported(ending, found.garment, found.notes)
+    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases)
+    return Imported(ending, found.garment, found.notes, found.creases, found.sizes)

@@ -26,11 +26,15 @@ class FoundOutline:
     Attributes:
         points: its corners (m), shape (n, 2), the first not repeated.
         tolerance_m: how far they deviate from the curves at most (m).
+        is_bent: whether any of the curves is more than straight segments.
+        is_simplified: whether corners that were drawn have been left out.
         others: the other closed curves, each by its lowest and highest coordinates (m), shape (n, 2, 2).
     """
 
     points: FloatArray
     tolerance_m: float
+    is_bent: bool
+    is_simplified: bool
     others: FloatArray
 
     def is_about(self, line: FloatArray) -> bool:
@@ -44,6 +48,29 @@ class FoundOutline:
         return not is_others and float(np.hypot(*away)) <= float(np.hypot(*(high - low)))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Line:
+    """A flattened curve, or several joined at their ends.
+
+    Attributes:
+        points: its points (m), shape (n, 2).
+        is_bent: whether any of the curves is more than straight segments.
+    """
+
+    points: FloatArray
+    is_bent: bool
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it ends where it begins, to the length of the shortest edge of an outline."""
+        return float(np.hypot(*(self.points[0] - self.points[-1]))) <= EDGE_MIN_M
+
+    @property
+    def reversed(self) -> "_Line":
+        """The same line, walked the other way."""
+        return _Line(self.points[::-1], self.is_bent)
+
+
 def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
     """The largest closed curve, lines that meet at their ends joined before, by at most 400 corners.
 
@@ -54,23 +81,31 @@ def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
     Raises:
         ImportedFileError: none is closed.
     """
-    lines, count = [], 0
+    lines: list[_Line] = []
+    count = 0
     for curve in curves:
-        lines.append(curve.flattened(TOLERANCE_M / unit_m) * unit_m)
-        count += len(lines[-1])
+        lines.append(_Line(curve.flattened(TOLERANCE_M / unit_m) * unit_m, curve.is_bent))
+        count += len(lines[-1].points)
         if count > 2 * CURVE_POINTS_MAX:
             raise broken(f"its curves need more than {2 * CURVE_POINTS_MAX} points")
     rings = _rings(lines)
     if not rings:
         raise broken("there is no closed line in it that could be the outline of a garment")
-    others = [(ring.min(axis=0), ring.max(axis=0)) for ring in rings[1:]]
-    whole = points = _spaced(rings[0])
-    spacing_m = EDGE_MIN_M if len(whole) < len(rings[0]) - 1 else 0.0
+    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in rings[1:]]
+    ring = rings[0]
+    whole = points = _spaced(ring.points)
+    spacing_m = EDGE_MIN_M if len(whole) < len(ring.points) - 1 else 0.0
     tolerance_m = 0.0
     while len(points) > POINTS_MAX:
         tolerance_m = 2.0 * tolerance_m or TOLERANCE_M
         points = _spaced(_simplified(whole, tolerance_m))
-    return FoundOutline(points, TOLERANCE_M + spacing_m + tolerance_m, np.array(others).reshape(-1, 2, 2))
+    return FoundOutline(
+        points,
+        TOLERANCE_M + spacing_m + tolerance_m,
+        ring.is_bent,
+        len(points) < len(ring.points) - 1,
+        np.array(others).reshape(-1, 2, 2),
+    )
 
 
 def area(ring: FloatArray) -> float:
@@ -79,24 +114,20 @@ def area(ring: FloatArray) -> float:
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
 
 
-def _rings(lines: Sequence[FloatArray]) -> list[FloatArray]:
+def _rings(lines: Sequence[_Line]) -> list[_Line]:
     """The closed lines that could be cloth, the largest first."""
-    closed = [line for line in lines if len(line) > 3 and _is_closed(line)]
-    loose = [line for line in lines if len(line) > 1 and not _is_closed(line)]
-    closed.extend(line for line in _joined(loose) if _is_closed(line))
-    return sorted((ring for ring in closed if abs(area(ring)) >= AREA_MIN_M2), key=lambda ring: -abs(area(ring)))
+    closed = [line for line in lines if len(line.points) > 3 and line.is_closed]
+    loose = [line for line in lines if len(line.points) > 1 and not line.is_closed]
+    closed.extend(line for line in _joined(loose) if line.is_closed)
+    cloth = (ring for ring in closed if abs(area(ring.points)) >= AREA_MIN_M2)
+    return sorted(cloth, key=lambda ring: -abs(area(ring.points)))
 
 
-def _is_closed(line: FloatArray) -> bool:
-    """Whether a line ends where it begins, to the length of the shortest edge of an outline."""
-    return float(np.hypot(*(line[0] - line[-1]))) <= EDGE_MIN_M
-
-
-def _joined(lines: Sequence[FloatArray]) -> list[FloatArray]:
+def _joined(lines: Sequence[_Line]) -> list[_Line]:
     """Lines put together where exactly two of them meet."""
     meeting: dict[tuple[int, int], list[int]] = defaultdict(list)
     for number, line in enumerate(lines):
-        for end in (line[0], line[-1]):
+        for end in (line.points[0], line.points[-1]):
             meeting[_place(end)].append(number)
     left = set(range(len(lines)))
     found = []
@@ -104,23 +135,23 @@ def _joined(lines: Sequence[FloatArray]) -> list[FloatArray]:
         if number in left:
             left.remove(number)
             forwards = _continued(lines[number], lines, meeting, left)
-            found.append(_continued(forwards[::-1], lines, meeting, left))
+            found.append(_continued(forwards.reversed, lines, meeting, left))
     return found
 
 
-def _continued(
-    line: FloatArray, lines: Sequence[FloatArray], meeting: dict[tuple[int, int], list[int]], left: set[int]
-) -> FloatArray:
+def _continued(line: _Line, lines: Sequence[_Line], meeting: dict[tuple[int, int], list[int]], left: set[int]) -> _Line:
     """A line with all that follows it, as long as it is clear what does; that is taken from what is left."""
-    parts = [line]
+    parts = [line.points]
+    is_bent = line.is_bent
     while len(there := meeting[_place(parts[-1][-1])]) == 2:
         following = next((number for number in there if number in left), None)
         if following is None:
             break
         left.remove(following)
-        more = lines[following]
+        more = lines[following].points
+        is_bent = is_bent or lines[following].is_bent
         parts.append(more[1:] if _place(more[0]) == _place(parts[-1][-1]) else more[-2::-1])
-    return np.concatenate(parts)
+    return _Line(np.concatenate(parts), is_bent)
 
 
 def _place(point: FloatArray) -> tuple[int, int]:

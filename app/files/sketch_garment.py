@@ -3,11 +3,12 @@
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
 import numpy as np
 
+from app.files.crease_reading import Creases, ReadCreases, read_creases
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.outline import TOLERANCE_M, FoundOutline, find_outline
 from app.files.sketch import Sketch
@@ -16,6 +17,7 @@ from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import GarmentError
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
+from planner.geometry.tolerance import SNAP_M
 from planner.strict_model import LARGEST_M
 
 UNITS_M: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
@@ -27,6 +29,9 @@ UNITS_MIN_MAX_M = (1e-9, 1e3)
 ODD_SIZES_M = (0.05, 4.0)
 """A garment narrower or wider than this is doubted (m)."""
 
+LIKELY_M = (0.01, LARGEST_M)
+"""No garment is shorter or longer than this (m): the file's unit is wrong."""
+
 KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
 """What an exported drawing keeps beside its lines: fields of a garment file."""
 
@@ -34,15 +39,30 @@ _NAME_MAX = 63
 _SHEET_MAX_M = 100.0
 
 
+Sizes: TypeAlias = dict[str, tuple[float, float]]
+"""For each unit that a drawing may be in, how wide and how high the garment would be (m)."""
+
+
 @dataclass(frozen=True, slots=True)
 class SketchedGarment:
-    """A garment, and what is to be said about how it came about, in sentences."""
+    """A garment out of a drawing.
+
+    Attributes:
+        garment: the garment.
+        notes: what is to be said about how it came about, in sentences.
+        creases: on which cloth its fold lines were read; None where that makes no difference.
+        sizes: how large it would be in other units.
+    """
 
     garment: Garment
     notes: tuple[str, ...]
+    creases: Creases | None
+    sizes: Sizes
 
 
-def garment_of(sketch: Sketch, name: str, units: str | None, scale: float) -> SketchedGarment:
+def garment_of(
+    sketch: Sketch, name: str, units: str | None, scale: float, creases: Creases | None = None
+) -> SketchedGarment:
     """The garment that a drawing shows.
 
     Args:
@@ -50,9 +70,10 @@ def garment_of(sketch: Sketch, name: str, units: str | None, scale: float) -> Sk
         name: what to call it if the drawing has no title.
         units: what one of its units is, one of `UNITS_M`; None: what the file says.
         scale: everything is so many times as large.
+        creases: on which cloth its fold lines are drawn; None: that on which more of them are legal.
 
     Raises:
-        UnitsNeededError: neither the file nor the caller says how long a unit is.
+        UnitsNeededError: neither the file nor the caller says how long a unit is, or what the file says cannot be.
         ImportedFileError: there is no outline in it, or it is too large.
         GarmentError: the outline is none of a garment.
     """
@@ -62,6 +83,8 @@ def garment_of(sketch: Sketch, name: str, units: str | None, scale: float) -> Sk
     unit_m *= scale
     if not UNITS_MIN_MAX_M[0] <= unit_m <= UNITS_MIN_MAX_M[1]:
         raise ImportedFileError("scale", f"one unit of the drawing would be {unit_m:.3g} m; give another scale")
+    if units is None and scale == 1.0:
+        _require_likely(sketch, unit_m)
     with np.errstate(all="ignore"):
         extent = _extent(sketch) * unit_m
     _require_size(extent, _SHEET_MAX_M, "the drawing")
@@ -76,7 +99,41 @@ def garment_of(sketch: Sketch, name: str, units: str | None, scale: float) -> Sk
         "outline": (found.points - origin).tolist(),
         "folds": list(_folds(sketch, found, unit_m, origin, notes)),
     }
-    return SketchedGarment(_garment(drawn, sketch.kept or {}, notes), tuple(notes))
+    garment, read = _read(_garment(drawn, sketch.kept or {}, notes), creases, notes)
+    size = tuple((found.points.max(axis=0) - found.points.min(axis=0)).tolist())
+    sizes = {name: (size[0] * each / unit_m * scale, size[1] * each / unit_m * scale) for name, each in UNITS_M.items()}
+    return SketchedGarment(garment, tuple(notes), read, sizes)
+
+
+def _read(garment: Garment, creases: Creases | None, notes: list[str]) -> tuple[Garment, Creases | None]:
+    """A garment with its fold lines on the cloth, and on which cloth they were read; adds to the notes."""
+    ways: dict[Creases, ReadCreases] = {
+        "folded": read_creases(garment.outline, garment.folds, "folded"),
+        "flat": read_creases(garment.outline, garment.folds, "flat"),
+    }
+    best: Creases = "flat" if ways["flat"].legal > ways["folded"].legal else "folded"
+    is_alike = _is_alike(ways["folded"], ways["flat"])
+    used = "folded" if is_alike else creases or best
+    read = ways[used]
+    if creases is None and used == "flat":
+        notes.append(
+            "The fold lines were read on the flat cloth: on the cloth as the folds before leave it "
+            f"{ways['folded'].legal} of {len(garment.folds)} would fit."
+        )
+    if read.cut_m:
+        told = (f"{garment.folds[index].name!r} by {1000 * by:.0f} mm" for index, by in read.cut_m.items())
+        notes.append(f"Fold lines were made to end at the edge of the cloth: {', '.join(told)}.")
+    if read.problem:
+        notes.append(f"The line {garment.folds[read.legal].name!r} does not fit: {read.problem}.")
+    return replace(garment, folds=read.folds), None if is_alike else used
+
+
+def _is_alike(one: ReadCreases, other: ReadCreases) -> bool:
+    """Whether both ways of reading give the same folds, to the tolerance."""
+    return one.legal == other.legal and all(
+        max(math.dist(a.start, b.start), math.dist(a.end, b.end)) <= SNAP_M
+        for a, b in zip(one.folds, other.folds, strict=True)
+    )
 
 
 def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[str]) -> Garment:
@@ -97,7 +154,19 @@ def plain_name(title: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:_NAME_MAX].strip("-") or "imported"
 
 
-def _sizes(sketch: Sketch, scale: float) -> dict[str, tuple[float, float]]:
+def _require_likely(sketch: Sketch, unit_m: float) -> None:
+    """Ask for the units where those that the file says make a garment of no possible size.
+
+    Drawing programs write a unit into every file, whether somebody has chosen it or not.
+    """
+    sizes = _sizes(sketch, 1.0)
+    longest_m = max(sizes["m"]) * unit_m
+    if not LIKELY_M[0] <= longest_m <= LIKELY_M[1]:
+        said = f"the unit that it names, {1000 * unit_m:.6g} mm, would make the garment {longest_m:.3g} m long"
+        raise UnitsNeededError(said, sizes)
+
+
+def _sizes(sketch: Sketch, scale: float) -> Sizes:
     """How large the garment would be in each unit (m)."""
     extent = _extent(sketch)
     with np.errstate(all="ignore"):
@@ -154,10 +223,13 @@ def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Ite
     if len(found.others):
         lines = "another closed line" if len(found.others) == 1 else f"{len(found.others)} other closed lines"
         yield f"The largest closed line was taken as the outline; {lines} in the file left out."
-    yield (
-        f"The outline has {len(found.points)} corners; any curves were replaced by straight edges that are at most "
-        f"{1000 * found.tolerance_m:g} mm off."
-    )
+    off = f"at most {1000 * found.tolerance_m:g} mm off"
+    if found.is_bent:
+        yield f"The outline has {len(found.points)} corners; curves were replaced by straight edges that are {off}."
+    elif found.is_simplified:
+        yield f"The outline has {len(found.points)} corners; others were left out, so that its edges are {off}."
+    else:
+        yield f"The outline has {len(found.points)} corners."
     width, height = found.points.max(axis=0) - found.points.min(axis=0)
     said = "" if units is None else ", as you said"
     yield f"One unit of the drawing was taken as {1000 * unit_m:.6g} mm{said}: {width:.3f} m by {height:.3f} m."

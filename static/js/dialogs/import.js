@@ -1,5 +1,7 @@
 /** `Import`: a garment file, an SVG or a DXF, chosen or dropped on the page. */
 
+import { boxOf } from "../board/geometry.js";
+import { length, parsed, problemOf, unit, worded } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
@@ -7,12 +9,14 @@ import { picture } from "./picture.js";
 
 const KINDS = ".json,.svg,.dxf";
 const UNITS = ["mm", "cm", "m", "in"];
+/** No garment is shorter or longer (m). */
+const [LEAST_M, MOST_M] = [0.01, 10];
 
 /** @param {import("../store.js").Store} store @param {File|null} first a file that was dropped */
 export function showImport(store, first = null) {
   const body = element("div", "import");
   openDialog("Import", "", body);
-  if (first) read(store, body, first, null);
+  if (first) read(store, body, first, {});
   else ask(store, body);
 }
 
@@ -36,7 +40,7 @@ function ask(store, body, problem = "") {
   input.type = "file";
   input.accept = KINDS;
   input.setAttribute("aria-label", "File");
-  input.addEventListener("change", () => input.files?.[0] && read(store, body, input.files[0], null));
+  input.addEventListener("change", () => input.files?.[0] && read(store, body, input.files[0], {}));
   const said = element("p", "dialog-problem", problem);
   said.setAttribute("role", "alert");
   body.replaceChildren(
@@ -57,31 +61,66 @@ function ask(store, body, problem = "") {
   );
 }
 
-async function read(store, body, file, units) {
+/**
+ * What is to be said beside the file to read it; without it the file says so itself.
+ * @typedef {{units?: string, scale?: number, creases?: "folded"|"flat"}} How
+ */
+
+/** @param {How} how */
+async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", `Reading ${file.name}...`));
-  const query = new URLSearchParams({ filename: file.name, ...(units ? { units } : {}) });
+  const query = new URLSearchParams({ filename: file.name });
+  for (const [name, value] of Object.entries(how)) query.set(name, String(value));
   const answer = await fetch(`/api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
   const told = answer ? await answer.json() : null;
-  if (answer?.ok) found(store, body, file, told);
-  else if (told?.sizes) askUnits(store, body, file, told.sizes);
+  if (answer?.ok) found(store, body, file, how, told);
+  else if (told?.sizes) askSize(store, body, file, how, told.sizes, told.detail);
   else ask(store, body, told ? `${file.name}: ${sentenceOf(told)}` : OFFLINE);
 }
 
-function askUnits(store, body, file, sizes) {
-  const choices = UNITS.filter((name) => sizes[name]).map((name) => {
-    const [wide, tall] = sizes[name].map((metres) => `${(100 * metres).toPrecision(3)} cm`);
-    return button("plain-button", () => read(store, body, file, name), `${name}: ${wide} x ${tall}`);
+/** How large the garment is: by one of the units, or by its width. */
+function askSize(store, body, file, how, sizes, why) {
+  const readAs = (size) => read(store, body, file, { ...how, ...size });
+  const isPossible = (sides) => Math.min(...sides) > 0 && Math.max(...sides) >= LEAST_M && Math.max(...sides) <= MOST_M;
+  const choices = UNITS.filter((name) => sizes[name] && isPossible(sizes[name])).map((name) => {
+    const [wide, tall] = sizes[name].map((metres) => length(metres));
+    return button("plain-button", () => readAs({ units: name, scale: how.scale ?? 1 }), `${name}: ${wide} x ${tall}`);
+  });
+  const said = element("p", "dialog-problem");
+  said.setAttribute("role", "alert");
+  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
+  input.autocomplete = "off";
+  const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
+  const label = element("label", "measure", element("span", "measure-name", "Its width"), input);
+  label.append(element("span", "measure-unit", unit.name));
+  form.append(label, element("button", "plain-button", "Use this width"));
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    said.textContent = problemOf(input.value, LEAST_M);
+    if (!said.textContent) readAs(scaledTo(parsed(input.value) ?? 0, sizes, how.scale ?? 1));
   });
   body.replaceChildren(
-    element("p", "dialog-text", `${file.name} does not say how long a unit is. How large is the garment?`),
+    element("p", "dialog-text", `${file.name}: ${worded(why)}.`),
+    element("p", "dialog-text", "How large is the garment?"),
     element("div", "unit-choices", ...choices),
+    form,
+    said,
   );
 }
 
-function found(store, body, file, { garment, notes }) {
+/** The unit and the scale of it that make a garment so wide; the scale that is nearest to 1. @returns {How} */
+function scaledTo(width_m, sizes, scale) {
+  const ways = UNITS.filter((name) => sizes[name]).map((units) => ({ units, scale: (scale * width_m) / sizes[units][0] }));
+  return ways.reduce((best, way) => (Math.abs(Math.log(way.scale)) < Math.abs(Math.log(best.scale)) ? way : best));
+}
+
+/** @param {How} how */
+function found(store, body, file, how, { garment, notes, creases, sizes }) {
   const said = element("p", "dialog-problem");
   const here = button("main-button", () => open(store, body, file, garment), "Open here");
   const anew = button("plain-button", () => create(garment, said), "As a new document");
+  const other = () => askSize(store, body, file, how, sizes, `the garment is ${sizeOf(garment)}`);
+  const verbs = sizes ? [button("plain-button", other, "Another size")] : [];
   body.replaceChildren(
     element(
       "div",
@@ -92,13 +131,36 @@ function found(store, body, file, { garment, notes }) {
         "",
         element("h3", "", garment.title),
         element("p", "dialog-text", counted(garment)),
-        element("ul", "notes", ...notes.map((note) => element("li", "", note))),
+        element("ul", "notes", ...notes.map((note) => element("li", "", worded(note)))),
       ),
     ),
+    ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
     said,
-    element("div", "dialog-buttons", anew, here),
+    element("div", "dialog-buttons", ...verbs, anew, here),
   );
   here.focus();
+}
+
+/** On which cloth the fold lines are drawn, where that matters. */
+function onWhichCloth(creases, onChoice) {
+  const choice = (value, text) => {
+    const input = /** @type {HTMLInputElement} */ (element("input", ""));
+    Object.assign(input, { type: "radio", name: "creases", value, checked: value === creases });
+    input.addEventListener("change", () => onChoice(value));
+    return element("label", "choice", input, text);
+  };
+  return element(
+    "fieldset",
+    "choices",
+    element("legend", "", "The fold lines are drawn on"),
+    choice("folded", "the cloth as the folds before leave it"),
+    choice("flat", "the flat cloth, all of them"),
+  );
+}
+
+function sizeOf({ outline }) {
+  const box = boxOf(outline);
+  return box ? `${length(box.high[0] - box.low[0])} by ${length(box.high[1] - box.low[1])}` : "";
 }
 
 const counted = ({ outline, folds }) =>

@@ -71,6 +71,32 @@ def test_a_plain_file_without_units_asks_for_them_and_takes_them():
     assert sorted(outline(read(made, "mm")))[-1] == (0.6, 0.4)
 
 
+METRES = 6
+
+
+def test_a_plain_file_in_metres_is_taken_as_it_is():
+    made = drawing(METRES)
+    made.modelspace().add_lwpolyline([(0, 0), (0.6, 0), (0.6, 0.4), (0, 0.4)], close=True)
+    assert outline(read(made)) == [(0.0, 0.0), (0.6, 0.0), (0.6, 0.4), (0.0, 0.4)]
+
+
+def test_a_file_that_says_metres_of_millimetres_asks_for_its_units():
+    made = drawing(METRES)
+    made.modelspace().add_lwpolyline(SQUARE, close=True)
+    with pytest.raises(UnitsNeededError, match="600 m long") as caught:
+        read(made)
+    assert caught.value.sizes["mm"] == pytest.approx((0.6, 0.4))
+    assert max(x for x, _ in read(made, "mm").garment.outline) == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize(("is_bent", "told"), [(False, "4 corners."), (True, "at most 0.5 mm off.")])
+def test_arcs_are_said_to_be_replaced_and_straight_lines_are_not(is_bent: bool, told: str):
+    made = drawing()
+    corners = [(0, 0, 0.2 if is_bent else 0.0), (600, 0, 0), (600, 400, 0), (0, 400, 0)]
+    made.modelspace().add_lwpolyline(corners, format="xyb", close=True)
+    assert any(note.startswith("The outline has") and note.endswith(told) for note in read(made).notes)
+
+
 def test_blue_and_red_lines_are_folds_by_their_colour_that_of_their_layer_or_its_name():
     made = drawing()
     made.layers.add("marks", color=1)

@@ -151,6 +151,42 @@ async def test_an_unfinished_drawing_has_no_files_and_says_why(client: httpx.Asy
         assert "not finished" in problem["detail"]
 
 
+async def test_while_a_fold_is_wrong_the_garment_can_be_saved_with_it(client: httpx.AsyncClient) -> None:
+    fold = {"name": "short", "kind": "blue", "start": [0.1, 0.0], "end": [0.1, 0.1], "grip_radius_m": 0.127}
+    garment = towel(folds=[fold])
+    document_id = (await client.post("/api/documents", json={"garment": garment})).json()["id"]
+    entries = (await client.get(f"/api/documents/{document_id}/files")).json()
+    assert [entry["what"] for entry in entries if entry["available"]] == ["garment.json", "garment.svg"]
+    saved = await fetched(client, document_id, "garment.json")
+    assert saved.json()["folds"] == [fold]
+    again = await imported(client, saved.content, filename="a.json")
+    assert again.json()["garment"] == saved.json()
+    assert_problem(await fetched(client, document_id, "garment.fold"), 409)
+    drawing = await fetched(client, document_id, "garment.svg")
+    assert (await imported(client, drawing.content, filename="a.svg")).json()["garment"]["folds"] == [fold]
+
+
+async def test_an_outline_that_crosses_itself_can_not_be_saved(client: httpx.AsyncClient) -> None:
+    document_id = await created(client)
+    state = (await client.get(f"/api/documents/{document_id}")).json()
+    outline = state["drawing"]["outline"]
+    outline[0]["point"], outline[1]["point"] = outline[1]["point"], outline[0]["point"]
+    body = {"base_version": state["version"], "label": "Cross", "drawing": state["drawing"]}
+    await client.put(f"/api/documents/{document_id}/drawing", json=body)
+    problem = assert_problem(await fetched(client, document_id, "garment.json"), 409)
+    assert "cross" in problem["detail"]
+
+
+async def test_the_cloth_that_fold_lines_are_read_on_can_be_chosen(client: httpx.AsyncClient) -> None:
+    flat = SVG.replace(b"</svg>", b'<line x1="30" y1="0" x2="30" y2="30" stroke="blue"/></svg>')
+    answer = (await imported(client, flat, filename="towel.svg")).json()
+    assert (answer["creases"], answer["sizes"]["cm"]) == ("flat", pytest.approx([0.4, 0.3]))
+    chosen = (await imported(client, flat, filename="towel.svg", creases="folded")).json()
+    assert chosen["creases"] == "folded"
+    assert chosen["garment"]["folds"] != answer["garment"]["folds"]
+    assert_problem(await imported(client, flat, filename="towel.svg", creases="damp"), 422)
+
+
 async def test_without_a_plan_there_is_its_reason_but_no_table_and_no_recording(client: httpx.AsyncClient) -> None:
     # Far beside the table.
     document_id = await planned(client, placement={"x_m": 5.0, "y_m": 0.0, "yaw_rad": 0.0})

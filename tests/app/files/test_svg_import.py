@@ -276,11 +276,46 @@ def test_what_is_wrong_is_said_with_its_place(data: bytes, message: str):
     assert message in refusal(data)
 
 
-def test_a_drawing_larger_than_a_room_is_refused_with_its_size():
+LONG = '<path d="M 0 0 H 6000 V 40 H 0 Z"/>'
+TINY = '<path d="M 0 0 H 0.6 V 0.4 H 0 Z"/>'
+
+
+@pytest.mark.parametrize(
+    ("shape", "told", "mm"), [(LONG, "60 m long", (6.0, 0.04)), (TINY, "0.006 m long", (6e-4, 4e-4))]
+)
+def test_where_the_units_of_the_file_cannot_be_meant_they_are_asked_for(shape: str, told: str, mm: tuple[float, float]):
+    with pytest.raises(UnitsNeededError, match=told) as caught:
+        read(svg(shape))
+    assert caught.value.sizes["mm"] == pytest.approx(mm)
+
+
+def test_a_drawing_larger_than_a_room_by_the_units_that_were_said_is_refused_with_its_size():
     with pytest.raises(ImportedFileError) as caught:
-        read(svg('<path d="M 0 0 H 6000 V 40 H 0 Z"/>'))
+        read(svg(LONG), "cm")
     assert caught.value.field == "scale"
     assert "the outline is 60 m wide" in caught.value.message
+
+
+def test_the_sizes_in_other_units_are_told_with_the_garment():
+    sizes = read(svg(SQUARE)).sizes
+    assert sizes is not None
+    assert sizes["cm"] == pytest.approx((0.6, 0.4))
+    assert sizes["in"] == pytest.approx((60 * 0.0254, 40 * 0.0254))
+
+
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        (SQUARE, "The outline has 4 corners."),
+        ('<path d="M0 0C20 0 40 0 60 0V40H0Z"/>', "The outline has 4 corners."),
+        ('<path d="M0 0H60V40Q30 50 0 40Z"/>', "curves were replaced by straight edges that are at most 0.5 mm off."),
+        ('<path d="M0 0H60V40H30.05V40.05H0Z"/>', "others were left out, so that its edges are at most 1.5 mm off."),
+    ],
+    ids=["straight", "a curve that is straight", "bent", "corners too near to each other"],
+)
+def test_curves_are_said_to_be_replaced_only_where_there_are_some(shape: str, told: str):
+    notes = read(svg(shape)).notes
+    assert next(note for note in notes if note.startswith("The outline has")).endswith(told)
 
 
 def test_an_odd_size_is_pointed_out():

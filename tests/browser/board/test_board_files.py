@@ -119,6 +119,58 @@ def test_a_drawing_without_units_asks_for_them(page: Page, shirt: Desk) -> None:
     assert max(corner["point"][0] for corner in shirt.drawing["outline"]) == pytest.approx(0.5, abs=1e-9)
 
 
+def dxf(units: int, *corners: tuple[float, float]) -> str:
+    pattern = ezdxf.new("R2000", units=units)
+    pattern.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"layer": "1"})
+    written = io.StringIO()
+    pattern.write(written)
+    return written.getvalue()
+
+
+def test_where_no_unit_fits_the_width_is_written(page: Page, shirt: Desk) -> None:
+    # A header that says metres of a drawing in pixels: as millimetres it would be 3.2 m wide, as metres 3,200.
+    choose_file(page, "pixels.dxf", dxf(6, (0, 0), (3200, 0), (3200, 1600), (0, 1600)))
+    dialog = page.get_by_role("dialog", name="Import")
+    expect(dialog.locator(".unit-choices button")).to_have_text(["mm: 320.0 cm x 160.0 cm"])
+    width = dialog.get_by_label("Its width")
+    width.fill("half")
+    page.keyboard.press("Enter")
+    expect(dialog.get_by_role("alert")).to_contain_text("no number")
+    width.fill("64")
+    dialog.get_by_role("button", name="Use this width").click()
+    page.get_by_role("button", name="Open here").click()
+    expect(page.locator(".corner")).to_have_count(4)
+    sides = [corner["point"] for corner in shirt.drawing["outline"]]
+    assert (max(x for x, _ in sides), max(y for _, y in sides)) == pytest.approx((0.64, 0.32), abs=1e-9)
+
+
+def test_another_size_can_be_given_to_what_was_read(page: Page, shirt: Desk) -> None:
+    choose_file(page, "square.svg", SVG)
+    page.get_by_role("button", name="Another size").click()
+    page.get_by_label("Its width").fill("20")
+    page.get_by_role("button", name="Use this width").click()
+    page.get_by_role("button", name="Open here").click()
+    expect(page.locator(".corner")).to_have_count(4)
+    assert max(corner["point"][0] for corner in shirt.drawing["outline"]) == pytest.approx(0.2, abs=1e-9)
+
+
+def test_fold_lines_are_read_on_the_cloth_that_is_chosen(page: Page, shirt: Desk) -> None:
+    # The first line halves the square; the second one runs over all of it, as on cloth that nobody has folded.
+    flat = SVG.replace("</svg>", '<line x1="0" y1="200" x2="400" y2="200" stroke="blue"/></svg>')
+    choose_file(page, "square.svg", flat.replace("100", "200"))
+    dialog = page.get_by_role("dialog", name="Import")
+    expect(dialog.get_by_label("the flat cloth")).to_be_checked()
+    dialog.get_by_label("the cloth as the folds before leave it").check()
+    expect(dialog.get_by_label("the cloth as the folds before leave it")).to_be_checked()
+    expect(dialog.locator(".notes")).to_contain_text("does not fit")
+    dialog.get_by_label("the flat cloth").check()
+    expect(dialog.locator(".notes")).not_to_contain_text("does not fit")
+    dialog.get_by_role("button", name="Open here").click()
+    expect_step(page, "Import square.svg")
+    expect_planned(page)
+    assert shirt.state["problems"] == []
+
+
 def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
     choose_file(page, "broken.svg", "<svg><path")
     expect(page.get_by_role("dialog").get_by_role("alert")).to_contain_text("broken.svg")
