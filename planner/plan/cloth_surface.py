@@ -3,7 +3,7 @@
 Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the
 baseline: what has not been lifted yet and what is laid down already lie flat, what is between stands. Flat parts
 are cut by the table's edges, beyond which they hang. Layers are drawn a little apart, as if each were one thickness
-of cloth, and standing cloth a little longer than it is, up to the tool frame that holds it.
+of cloth. Standing cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer
-from planner.folds.fold_path import REST_HEIGHT_M, FoldPath
+from planner.folds.fold_path import FoldPath
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
@@ -100,7 +100,6 @@ class _Mesh:
     def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
         """Add cloth that a fold has lifted."""
         swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
-        swept[:, 2] += np.minimum(swept[:, 2], REST_HEIGHT_M)
         lean = pieces.gaps[..., None] * np.array([*path.line.left, 0.0])
         self._add(pieces, self.top.over_edge(swept).reshape(-1, 3, 3) - lean)
 

@@ -230,5 +230,9 @@ def _cues(carrying: Sequence[tuple[int, Phase]], moments: Moments, times: FloatA
     start = 0.0
     for number, (primitive, phase) in enumerate(carrying):
         rows = np.flatnonzero((moments.phases == number) & (times > start))
+        if len(rows) == 0:
+            # In a motion slower than it should be, a phase through which the hands rest takes no time at all.
+            yield Cue.even(primitive, phase, 0.0)
+            continue
         yield Cue(primitive, phase, np.append(start, times[rows]) - start, np.append(0.0, moments.fractions[rows]))
         start = float(times[rows[-1]])

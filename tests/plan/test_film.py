@@ -5,12 +5,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from planner import Plan
+from planner import Plan, Scene, make_plan
+from planner.geometry.pose import Pose2
 from planner.plan.cue import Cue
 from planner.plan.film import Film, FilmMaker
 from planner.plan.joint_track import CLOSED_M, OPEN_M, JointTrack
 from planner.plan.timeline import standing
 from planner.robot.pr2 import load_robot
+from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
 
 RATE_HZ = 25.0
@@ -139,3 +141,18 @@ def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
     assert timeline.at(0.1).cloth is still
     surfaces = [timeline.at(t_s).cloth for t_s in moving]
     assert len({id(surface) for surface in [still, *surfaces]}) == len(moving) + 1
+
+
+def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none():
+    # The grips lie nearer to the fold line than the far corner does, so they rest while the cloth begins to rise; and
+    # between two stands of the base that takes no time where the motion as a whole is slower than 1 ms (in a way that is tried).
+    towel = garment(
+        rectangle_points(0.2, 0.4),
+        fold((0.0, 0.39604646049498443), (0.2, 0.3877103804729817)),
+        placement=Pose2(0.162323971451364, -0.025457994644062065, np.pi / 2),
+    )
+    plan = make_plan(towel, Scene(approach_cone_rad=0.0, arm_motion_s=0.001, base_speed_m_s=1000.0), time_limit_s=60.0)
+    assert plan.is_solved
+    film = film_of(plan)
+    assert film.starts_s[-1] + film.cues[-1].duration_s == pytest.approx(plan.cost_s)
+    assert [frame.t_s for frame in plan.timeline().samples(50.0)][-1] == plan.cost_s
