@@ -74,6 +74,7 @@ class SceneFile(BaseModel):
     support_angle_rad: float = 0.0873
     approach_cone_rad: float = 1.309
     back_off_max_m: float = 0.8
+    edge_clear_m: float = 0.03
     arm_motion_s: float = 3.0
     base_speed_m_s: float = 0.25
     base_turn_rad_s: float = 0.5

@@ -8,6 +8,7 @@ from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
+from planner.primitives.scene import Scene
 
 _DEPTH_M, _GRIP_M = 0.40, 0.30
 _HANGING_M, _LINE_M = 0.15, 0.10
@@ -53,7 +54,7 @@ def _beside_the_edge(view: View) -> None:
     top = TableTop.of(table)
     at_edge = table.depth_m / 2
     line = Segment((at_edge - _LINE_M, 0.2), (at_edge - _LINE_M, -0.2))
-    path = FoldPath(line, _LINE_M + _HANGING_M, top, top)
+    path = FoldPath(line, _LINE_M + _HANGING_M, top, top, Scene().edge_clear_m)
     seen = View(view.sheet, view.origin, view.scale, (at_edge, 0.0))
     seen.polygon(
         "table", [(at_edge + x, z) for x, z in ((-0.5, 0), (0, 0), (0, -0.04), (-0.5, -0.04))], Style(NONE, TABLE)

@@ -33,12 +33,14 @@ class FoldPath:
         top: the table's top.
         rising_top: the top until the apex: where cloth beyond an edge starts out held at the table's
             height, not hanging, it moves as if the table went on there.
+        edge_clear_m: how far outside an edge's plane a tool holds cloth that hangs there (m).
     """
 
     line: Segment
     depth_m: float
     top: TableTop
     rising_top: TableTop
+    edge_clear_m: float = 0.0
 
     def swept(self, points: FloatArray, sweep: float | FloatArray) -> FloatArray:
         """Where points of the moving part are in the unrolled plane.
@@ -78,10 +80,18 @@ class FoldPath:
         """The same at several moments, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
         unrolled = self.swept(grips, sweeps[:, None]) + np.array([0.0, 0.0, REST_HEIGHT_M])
         if self.rising_top == self.top:
-            return self.top.over_edge(unrolled).transpose(1, 0, 2)
+            return self.over_edge(unrolled, self.top).transpose(1, 0, 2)
         rising, falling = unrolled[sweeps < 1.0], unrolled[sweeps >= 1.0]
-        paths = np.concatenate([self.rising_top.over_edge(rising), self.top.over_edge(falling)])
+        paths = np.concatenate([self.over_edge(rising, self.rising_top), self.over_edge(falling, self.top)])
         return paths.transpose(1, 0, 2)
+
+    def over_edge(self, unrolled: FloatArray, top: TableTop) -> FloatArray:
+        """Where tools of the unrolled plane, shape (..., 3), are in space, table frame (m).
+
+        In the edge's plane fingers would be in the table. So a tool that is below the top keeps clear of the plane by
+        `edge_clear_m`; on its way over the edge it comes to it gradually.
+        """
+        return top.clear_of_edge(unrolled, self.edge_clear_m, REST_HEIGHT_M)
 
     def sweeps(self, grips: FloatArray) -> FloatArray:
         """Waypoints, rising: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
@@ -93,7 +103,10 @@ class FoldPath:
     def _baseline_step(self, grips: FloatArray) -> float:
         """How far the baseline may go between waypoints (m).
 
-        A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge.
+        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far along it,
+        and outwards too where it comes to clear it.
         """
         ends = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
-        return SPACING_M / (math.sqrt(2.0) if self.top.covers(ends) else 2.0)
+        return SPACING_M / (
+            math.sqrt(2.0) if self.top.covers(ends) else math.hypot(2.0, self.edge_clear_m / REST_HEIGHT_M)
+        )

@@ -90,12 +90,33 @@ class TableTop:
         """
         if isinstance(gap_m, float) and gap_m == 0.0 and self.covers(points):
             return points.copy()
-        nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
-        out = points[..., :2] - nearest
-        beyond = np.hypot(out[..., 0], out[..., 1])
-        outwards = out / np.where(beyond > 0.0, beyond, 1.0)[..., None]
+        nearest, outwards, beyond = self._edge_beside(points)
         turn = droop * math.pi / 2
         level, down = (math.cos(turn), math.sin(turn)) if droop < 1.0 else (0.0, 1.0)
         z = points[..., 2] - down * beyond + np.where(beyond > 0.0, level, 1.0) * gap_m
         out_by = down * gap_m + level * beyond
         return np.concatenate([nearest + outwards * out_by[..., None], z[..., None]], axis=-1)
+
+    def clear_of_edge(self, points: FloatArray, clear_m: float, whole_m: float) -> FloatArray:
+        """Points of the unrolled plane taken over the edge as by `over_edge`, but kept clear of the edge's plane.
+
+        Args:
+            points: place in the unrolled plane, table frame, and height above it, shape (..., 3), m.
+            clear_m: how far outside the plane (m).
+            whole_m: so far beyond the edge, and further, points keep clear by all of that; nearer by less (m).
+
+        Returns:
+            The same points in space, table frame (m).
+        """
+        found = self.over_edge(points)
+        if clear_m > 0.0 and not self.covers(points):
+            _, outwards, beyond = self._edge_beside(points)
+            found[..., :2] += outwards * (clear_m * np.minimum(beyond / whole_m, 1.0))[..., None]
+        return found
+
+    def _edge_beside(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The nearest points on the top, the directions away from them, and how far beyond they lie (m)."""
+        nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
+        out = points[..., :2] - nearest
+        beyond = np.hypot(out[..., 0], out[..., 1])
+        return nearest, out / np.where(beyond > 0.0, beyond, 1.0)[..., None], beyond

@@ -177,7 +177,7 @@ class Alone:
         if missing.any():
             block = np.ix_(approaches[missing.any(axis=1)], places[missing.any(axis=0)])
             raised = point + np.column_stack([self._places[block[1][0]], np.full(block[1].size, REST_HEIGHT_M)])
-            tools = raised if asked.is_held_out else trial.path.top.over_edge(raised)
+            tools = raised if asked.is_held_out else trial.path.over_edge(raised, trial.path.top)
             is_found[block] = self._from_anywhere(asked.station, asked.arm, tools, block[0][:, 0])
             is_known[block] = True
         return np.asarray(is_found[np.ix_(approaches, places)])

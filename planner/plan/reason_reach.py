@@ -129,7 +129,7 @@ def _tools(attempt: Attempt, places: FloatArray) -> FloatArray:
     swept = attempt.path.swept(attempt.points, _EXTREMES[:, None])
     unrolled = swept.transpose(1, 0, 2)[:, :, None, :] + raised
     is_hanging = np.array([not attempt.state.is_dragged, True, True])
-    over_edge = attempt.path.top.over_edge(unrolled)
+    over_edge = attempt.path.over_edge(unrolled, attempt.path.top)
     return np.asarray(np.where(is_hanging[None, :, None, None], over_edge, unrolled))
 
 

@@ -204,9 +204,9 @@ def _path(work: Work, state: State, fold: int) -> FoldPath:
     in_table = Segment(_plain(ends[0]), _plain(ends[1]))
     top = TableTop.of(work.scene.table)
     if not state.is_dragged:
-        return FoldPath(in_table, depth, top, top)
+        return FoldPath(in_table, depth, top, top, work.scene.edge_clear_m)
     held = work.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
-    return FoldPath(in_table, depth, top, top.open_towards(held))
+    return FoldPath(in_table, depth, top, top.open_towards(held), work.scene.edge_clear_m)
 
 
 def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:

@@ -51,6 +51,7 @@ class Scene:
         approach_cone_rad: a pinch comes from within this angle of the bisector of the directions
             into the cloth (rad); pi asks nothing.
         back_off_max_m: the furthest that the base may back off from a station (m).
+        edge_clear_m: how far outside a table edge's plane a tool holds cloth that hangs there (m).
         arm_motion_s: the time of one arm motion (s).
         base_speed_m_s: the base's speed (m/s).
         base_turn_rad_s: the base's turning speed (rad/s).
@@ -63,6 +64,7 @@ class Scene:
     support_angle_rad: float = math.radians(5.0)
     approach_cone_rad: float = math.radians(75.0)
     back_off_max_m: float = 0.8
+    edge_clear_m: float = 0.03
     arm_motion_s: float = 3.0
     base_speed_m_s: float = 0.25
     base_turn_rad_s: float = 0.5
@@ -78,6 +80,7 @@ class Scene:
         _require_between("support_angle_rad", self.support_angle_rad, 0.0, SUPPORT_ANGLE_MAX_RAD)
         _require_between("approach_cone_rad", self.approach_cone_rad, 0.0, math.pi)
         _require_between("back_off_max_m", self.back_off_max_m, 0.0, 1.5)
+        _require_between("edge_clear_m", self.edge_clear_m, 0.0, 0.1)
         for name in ("arm_motion_s", "base_speed_m_s", "base_turn_rad_s"):
             _require_between(name, getattr(self, name), 1e-3, 1e3)
 
@@ -127,6 +130,7 @@ class _SceneModel(StrictModel):
     support_angle_rad: float | None = None
     approach_cone_rad: float | None = None
     back_off_max_m: float | None = None
+    edge_clear_m: float | None = None
     arm_motion_s: float | None = None
     base_speed_m_s: float | None = None
     base_turn_rad_s: float | None = None

@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -93,6 +94,22 @@ def test_a_hanging_grip_rises_at_the_edge_from_as_deep_as_it_hangs_to_as_high():
         assert x == pytest.approx(-0.8)
         assert z == pytest.approx(-0.15 + 0.5 * sweep + REST_HEIGHT_M)
     assert way.tool_points(grip, 1.0)[0] == pytest.approx([-0.7, 0.0, 0.25 + REST_HEIGHT_M])
+
+
+def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top():
+    # h = 0.15 as before. Beyond the edge by less than 0.02 m, where the tool is level with the top at rest, it comes to
+    # the edge's plane: at b = 0.11 it is still 0.01 m beyond, so half of 0.03 m outside, and 0.14 - 0.01 m high.
+    way, grip = replace(path(NEAR, 0.25), edge_clear_m=0.03), np.array([[-0.95, 0.0]])
+    assert way.tool_points(grip, 0.0)[0] == pytest.approx([-0.83, 0.0, -0.15 + REST_HEIGHT_M])
+    assert way.tool_points(grip, 0.52)[0] == pytest.approx([-0.83, 0.0, 0.11 + REST_HEIGHT_M])
+    assert way.tool_points(grip, 0.56)[0] == pytest.approx([-0.815, 0.0, 0.13 + REST_HEIGHT_M])
+    assert way.tool_points(grip, 0.6)[0] == pytest.approx([-0.8, 0.0, 0.15 + REST_HEIGHT_M])
+    assert way.tool_points(grip, 1.0)[0] == pytest.approx([-0.7, 0.0, 0.25 + REST_HEIGHT_M])
+
+
+def test_a_place_beyond_an_edge_is_clear_of_it_too():
+    way = replace(path(NEAR.reversed, 0.3), edge_clear_m=0.03)
+    assert way.tool_points(np.array([[-0.4, 0.0]]), 2.0)[0] == pytest.approx([-0.83, 0.0, -0.2 + REST_HEIGHT_M])
 
 
 def test_a_grip_that_lands_beyond_an_edge_sinks_to_its_depth():

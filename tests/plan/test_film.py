@@ -145,7 +145,7 @@ def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
 
 def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none():
     # The grips lie nearer to the fold line than the far corner does, so they rest while the cloth begins to rise; and
-    # between two stands of the base that takes no time where the motion as a whole is slower than 1 ms (in a way that is tried).
+    # between two stands of the base that takes no time in a way that is tried, slower as a whole than 1 ms.
     towel = garment(
         rectangle_points(0.2, 0.4),
         fold((0.0, 0.39604646049498443), (0.2, 0.3877103804729817)),

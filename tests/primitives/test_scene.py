@@ -63,6 +63,8 @@ def test_a_table_given_in_part_keeps_the_rest():
         ({"support_angle_rad": -0.01}, "support_angle_rad"),
         ({"approach_cone_rad": 4.0}, "approach_cone_rad"),
         ({"back_off_max_m": -0.05}, "back_off_max_m"),
+        ({"edge_clear_m": -0.01}, "edge_clear_m"),
+        ({"edge_clear_m": 0.11}, "edge_clear_m"),
         ({"arm_motion_s": 0.0}, "arm_motion_s"),
         ({"base_speed_m_s": 0.0}, "base_speed_m_s"),
         ({"base_turn_rad_s": -1.0}, "base_turn_rad_s"),

@@ -12,6 +12,7 @@ from tests.replay.flat import NEAR_M, SLIVER_M2, Line, Place, must_hold, polygon
 
 Space = tuple[float, float, float]
 REST_M = 0.02
+"""How high over the table a tool holds cloth (m); so far beyond the edge it is level with the top."""
 
 
 class TableSide:
@@ -19,6 +20,7 @@ class TableSide:
 
     def __init__(self, scene: dict[str, Any]) -> None:
         self.half_x, self.half_y = scene["table"]["depth_m"] / 2, scene["table"]["width_m"] / 2
+        self.clear_m = scene["edge_clear_m"]
         self.friction, self.support_rad = scene["friction"], scene["support_angle_rad"]
         x, y = self.half_x, self.half_y
         self.top = box(-x, -y, x, y)
@@ -31,9 +33,13 @@ class TableSide:
         ]
 
     def over_edge(self, place: Place, height_m: float) -> Space:
-        """Where a point of the unrolled plane at a height is in space."""
+        """Where the tool at a point of the unrolled plane at a height is in space: clear of the edge below the top."""
         x, y = min(max(place[0], -self.half_x), self.half_x), min(max(place[1], -self.half_y), self.half_y)
-        return x, y, height_m - math.dist(place, (x, y))
+        beyond = math.dist(place, (x, y))
+        if beyond == 0.0:
+            return x, y, height_m
+        clear = self.clear_m * min(beyond / REST_M, 1.0) / beyond
+        return x + clear * (place[0] - x), y + clear * (place[1] - y), height_m - beyond
 
     def unrolled(self, tool: Space) -> Place:
         """The place in the unrolled plane of cloth that a resting tool holds."""
@@ -42,9 +48,10 @@ class TableSide:
         if depth <= NEAR_M:
             return tool[:2]
         normal, line = min(self.edges, key=lambda edge: LineString(edge[1]).distance(Point(tool[:2])))
-        gap = LineString(line).distance(Point(tool[:2]))
-        assert gap <= NEAR_M, f"a tool {depth:.3f} m below its rest is {gap:.4f} m from the table's edge"
-        return tool[0] + depth * normal[0], tool[1] + depth * normal[1]
+        wanted, gap = self.clear_m * min(depth / REST_M, 1.0), LineString(line).distance(Point(tool[:2]))
+        assert abs(gap - wanted) <= NEAR_M, f"a tool {depth:.3f} m below its rest is {gap:.4f} m from the table's edge"
+        further = depth - wanted
+        return tool[0] + further * normal[0], tool[1] + further * normal[1]
 
     def hangs_towards(self, silhouette: BaseGeometry, direction: Place) -> bool:
         """Whether cloth hangs from an edge that faces a direction."""
