@@ -103,10 +103,11 @@ class FoldPath:
     def _baseline_step(self, grips: FloatArray) -> float:
         """How far the baseline may go between waypoints (m).
 
-        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far along it,
-        and outwards too where it comes to clear it.
+        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far, and where
+        it clears the edge outwards as well.
         """
-        ends = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
-        return SPACING_M / (
-            math.sqrt(2.0) if self.top.covers(ends) else math.hypot(2.0, self.edge_clear_m / REST_HEIGHT_M)
-        )
+        start, apex, end = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
+        if self.top.covers(np.array([start, apex, end])):
+            return SPACING_M / math.sqrt(2.0)
+        is_level = self.rising_top.covers(np.array([start, apex])) and self.top.covers(np.array([apex, end]))
+        return SPACING_M / (2.0 if is_level else math.hypot(2.0, self.edge_clear_m / REST_HEIGHT_M))

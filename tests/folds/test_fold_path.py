@@ -2,7 +2,6 @@
 
 import math
 import random
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,8 +17,8 @@ TOP = TableTop.of(Table(1.6, 0.98, 0.79))
 ACROSS = Segment((0.0, 0.3), (0.0, -0.3))
 
 
-def path(line: Segment = ACROSS, depth_m: float = 0.4, rising_top: TableTop = TOP) -> FoldPath:
-    return FoldPath(line, depth_m, TOP, rising_top)
+def path(line: Segment = ACROSS, depth_m: float = 0.4, rising_top: TableTop = TOP, clear_m: float = 0.0) -> FoldPath:
+    return FoldPath(line, depth_m, TOP, rising_top, clear_m)
 
 
 def tools(of: FoldPath, *grips: tuple[float, float], sweeps: int = 401) -> FloatArray:
@@ -99,7 +98,7 @@ def test_a_hanging_grip_rises_at_the_edge_from_as_deep_as_it_hangs_to_as_high():
 def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top():
     # h = 0.15 as before. Beyond the edge by less than 0.02 m, where the tool is level with the top at rest, it comes to
     # the edge's plane: at b = 0.11 it is still 0.01 m beyond, so half of 0.03 m outside, and 0.14 - 0.01 m high.
-    way, grip = replace(path(NEAR, 0.25), edge_clear_m=0.03), np.array([[-0.95, 0.0]])
+    way, grip = path(NEAR, 0.25, clear_m=0.03), np.array([[-0.95, 0.0]])
     assert way.tool_points(grip, 0.0)[0] == pytest.approx([-0.83, 0.0, -0.15 + REST_HEIGHT_M])
     assert way.tool_points(grip, 0.52)[0] == pytest.approx([-0.83, 0.0, 0.11 + REST_HEIGHT_M])
     assert way.tool_points(grip, 0.56)[0] == pytest.approx([-0.815, 0.0, 0.13 + REST_HEIGHT_M])
@@ -108,7 +107,7 @@ def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top():
 
 
 def test_a_place_beyond_an_edge_is_clear_of_it_too():
-    way = replace(path(NEAR.reversed, 0.3), edge_clear_m=0.03)
+    way = path(NEAR.reversed, 0.3, clear_m=0.03)
     assert way.tool_points(np.array([[-0.4, 0.0]]), 2.0)[0] == pytest.approx([-0.83, 0.0, -0.2 + REST_HEIGHT_M])
 
 
@@ -130,14 +129,17 @@ def longest_step(of: FoldPath, grip: tuple[float, float]) -> float:
     return float(np.linalg.norm(np.diff(tools(of, grip, sweeps=4001)[0], axis=0), axis=1).max())
 
 
-def test_no_way_jumps_wherever_line_and_grips_lie():
+@pytest.mark.parametrize(("clear_m", "steepest"), [(0.0, 2.0), (0.03, 2.5)])
+def test_no_way_jumps_wherever_line_and_grips_lie(clear_m: float, steepest: float):
+    # At the edge a tool goes twice as far as the baseline, and 0.03 m outwards in 0.02 m where it is to clear it.
     rng = random.Random(15)
     for _ in range(200):
         x, y, angle = rng.uniform(-0.7, 0.7), rng.uniform(-0.4, 0.4), rng.uniform(0.0, math.tau)
         line = Segment((x, y), (x + 0.3 * math.cos(angle), y + 0.3 * math.sin(angle)))
         depth, along = rng.uniform(0.05, 0.5), rng.uniform(0.0, 0.3)
         (nx, ny), (ax, ay) = line.left, line.at(along)
-        assert longest_step(path(line, depth), (ax + depth * nx, ay + depth * ny)) < 2.0 * depth / 2000 + 1e-9
+        of = path(line, depth, clear_m=clear_m)
+        assert longest_step(of, (ax + depth * nx, ay + depth * ny)) < steepest * depth / 2000 + 1e-9
 
 
 def test_a_grip_held_out_beside_its_line_cannot_be_folded_without_a_jump():
@@ -160,7 +162,7 @@ def test_waypoints_are_at_most_five_centimetres_apart_and_hold_the_apex_and_both
         for distance, along in ((depth * rng.uniform(0.5, 1.0), 0.0), (depth * rng.uniform(0.5, 1.0), 0.3)):
             (nx, ny), (ax, ay) = line.left, line.at(along)
             grips.append((ax + distance * nx, ay + distance * ny))
-        of, points = path(line, depth), np.array(grips)
+        of, points = path(line, depth, clear_m=rng.choice((0.0, 0.03))), np.array(grips)
         sweeps = of.sweeps(points)
         assert np.all(np.diff(sweeps) > 0.0)
         assert np.abs(sweeps - 1.0).min() < 1e-12
