@@ -16,10 +16,10 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     return {status: {"description": "A problem (RFC 9457)", "content": content} for status in statuses}
 
 
-def takes(model: type[BaseModel]) -> dict[str, Any]:
-    """A route's body, as an entry of its OpenAPI description."""
+def takes(model: type[BaseModel], *, may_be_empty: bool = False) -> dict[str, Any]:
+    """Describe a route's body, as an entry of its OpenAPI description."""
     content = {"application/json": {"schema": whole_schema(model)}}
-    return {"requestBody": {"required": True, "content": content}}
+    return {"requestBody": {"required": not may_be_empty, "content": content}}
 
 
 def whole_schema(model: type[BaseModel]) -> dict[str, Any]:

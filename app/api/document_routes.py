@@ -99,7 +99,7 @@ async def put_other_garment(request: Request, document_id: str) -> Response:
     return await _changed(opened, put)
 
 
-@router.post("/{document_id}/undo", openapi_extra=takes(TravelRequest), responses=_CHANGED)
+@router.post("/{document_id}/undo", openapi_extra=takes(TravelRequest, may_be_empty=True), responses=_CHANGED)
 async def undo(request: Request, document_id: str) -> Response:
     """Take the last step back; without one nothing happens."""
     wanted = await read_model(request, TravelRequest, may_be_empty=True)
@@ -107,7 +107,7 @@ async def undo(request: Request, document_id: str) -> Response:
     return await _changed(opened, partial(opened.document.undo, wanted.base_version))
 
 
-@router.post("/{document_id}/redo", openapi_extra=takes(TravelRequest), responses=_CHANGED)
+@router.post("/{document_id}/redo", openapi_extra=takes(TravelRequest, may_be_empty=True), responses=_CHANGED)
 async def redo(request: Request, document_id: str) -> Response:
     """Take the step again that was undone last; without one nothing happens."""
     wanted = await read_model(request, TravelRequest, may_be_empty=True)

@@ -2,7 +2,9 @@
 
 Any page in a browser on this machine can send requests to a loopback port, and under a name that resolves to
 127.0.0.1 it is even of "the same origin". So the `Host` must be one of our own names, and an `Origin`, when
-there is one, one of our own pages. Everything else is refused, websockets before they open.
+there is one, one of our own pages. Images, scripts and frames of other pages come without an `Origin`: browsers
+tell them by `Sec-Fetch-Site`. All these are refused, websockets before they open. A link on another page may still
+lead to one of our pages.
 """
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -11,10 +13,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.api.problems import ProblemResponse
 
 MISDIRECTED, FORBIDDEN = 421, 403
-_WHY = {
-    MISDIRECTED: "The header Host names none of this server's own names.",
-    FORBIDDEN: "The header Origin names a page of another server.",
-}
+_FOREIGN_NAME = (MISDIRECTED, "The header Host names none of this server's own names.")
+_FOREIGN_ORIGIN = (FORBIDDEN, "The header Origin names a page of another server.")
+_FOREIGN_SITE = (FORBIDDEN, "The header Sec-Fetch-Site says that a page of another server asks.")
+_OWN_SITES = frozenset({"same-origin", "none"})
+"""`none`: the reader's own doing, as with an address that is typed."""
+
+_NOT_PAGES = ("/api/", "/viser/")
 _POLICY_VIOLATION = 1008
 _LOOPBACK_NAMES = ("127.0.0.1", "localhost", "[::1]")
 _HTTP_PORT = 80
@@ -40,21 +45,31 @@ class OwnNamesOnly:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        refusal = self._refusal(Headers(scope=scope))
+        refusal = self._refusal(scope, Headers(scope=scope))
         if refusal is None:
             await self._app(scope, receive, _hardened(send))
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": _POLICY_VIOLATION})
         else:
-            await ProblemResponse(refusal, _WHY[refusal])(scope, receive, send)
+            await ProblemResponse(*refusal)(scope, receive, send)
 
-    def _refusal(self, headers: Headers) -> int | None:
+    def _refusal(self, scope: Scope, headers: Headers) -> tuple[int, str] | None:
+        """Return status and sentence for what is not to be answered."""
         hosts = headers.getlist("host")
         if len(hosts) != 1 or hosts[0].lower() not in self._names:
-            return MISDIRECTED
+            return _FOREIGN_NAME
         if any(origin.lower() not in self._origins for origin in headers.getlist("origin")):
-            return FORBIDDEN
-        return None
+            return _FOREIGN_ORIGIN
+        is_own = all(site.lower() in _OWN_SITES for site in headers.getlist("sec-fetch-site"))
+        return None if is_own or _is_link(scope, headers) else _FOREIGN_SITE
+
+
+def _is_link(scope: Scope, headers: Headers) -> bool:
+    """Return whether a whole window goes to one of the pages, which starts no work."""
+    path = scope["path"].removeprefix(scope.get("root_path", ""))
+    is_page = scope["type"] == "http" and not path.startswith(_NOT_PAGES)
+    is_window = headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
+    return is_page and is_window and scope["method"] in ("GET", "HEAD")
 
 
 def own_names(host: str, port: int) -> frozenset[str]:

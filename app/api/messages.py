@@ -29,6 +29,7 @@ GarmentField = Annotated[
     WithJsonSchema({"anyOf": [{"type": "string"}, whole_schema(GarmentFile)]}),
 ]
 SceneField = Annotated[Any, PlainValidator(_object), WithJsonSchema(whole_schema(SceneFile))]
+TimeLimit = Annotated[float, Field(ge=0.01, le=60.0)]
 
 
 class Placement(StrictModel):
@@ -55,8 +56,21 @@ class PlanRequest(StrictModel):
     robot: str = "pr2"
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=0.1)] = 0.03
     heuristic: Literal["arm_time", "zero"] = "arm_time"
-    time_limit_s: Annotated[float, Field(ge=0.01, le=60.0)] = 10.0
+    time_limit_s: TimeLimit = 10.0
     max_expanded: Annotated[int, Field(ge=1, le=1_000_000)] = 100_000
+
+
+class PlacesRequest(StrictModel):
+    """Asks what the plan costs wherever a garment could be laid."""
+
+    step_m: Annotated[float, Field(ge=0.02, le=1.0)] = 0.1
+    time_limit_s: TimeLimit = 10.0
+
+
+class PlacementsRequest(PlacesRequest):
+    """Asks that of a garment on the default table."""
+
+    garment: GarmentField
 
 
 class Play(StrictModel):

@@ -9,10 +9,11 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from app.api.asked import workspace_of
-from app.api.described import problems
+from app.api.body import read_model
+from app.api.described import problems, takes
+from app.api.messages import PlacesRequest
 from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
-from app.api.suggestion_routes import Step, TimeLimit
 from app.api.waiting import answer_of
 from app.document_state import DocumentState
 from app.job_pool import ShouldStop
@@ -54,16 +55,19 @@ async def read_overlays(
         return ProblemResponse(409, str(error))
 
 
-@router.get("/places", responses={200: {"model": PlacesAnswer}, **problems(404, 409, 422)})
-async def read_places(
-    request: Request, document_id: str, step_m: Step = 0.1, time_limit_s: TimeLimit = 10.0
-) -> Response:
-    """What the plan costs wherever the document's garment could be laid, not turned."""
+@router.post(
+    "/places",
+    openapi_extra=takes(PlacesRequest, may_be_empty=True),
+    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422)},
+)
+async def post_places(request: Request, document_id: str) -> Response:
+    """Plan the document's garment wherever it could be laid, not turned, and return what that costs."""
+    wanted = await read_model(request, PlacesRequest, may_be_empty=True)
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     state = opened.document.state
     if state.question is None:
         return ProblemResponse(409, "The drawing is not finished, so no placement can be tried.")
-    job = workspace_of(request).pool.start(partial(_places, state, step_m, time_limit_s))
+    job = workspace_of(request).pool.start(partial(_places, state, wanted))
     with opened.in_use():
         return JSONResponse(await answer_of(request, job))
 
@@ -92,7 +96,7 @@ def _overlays(
         raise error.within("scene") from None
 
 
-def _places(state: DocumentState, step_m: float, time_limit_s: float, should_stop: ShouldStop) -> dict[str, Any]:
+def _places(state: DocumentState, wanted: PlacesRequest, should_stop: ShouldStop) -> dict[str, Any]:
     question = state.question
     assert question is not None
     found = placement_map(
@@ -100,9 +104,9 @@ def _places(state: DocumentState, step_m: float, time_limit_s: float, should_sto
         question.scene,
         start_station=question.start_station,
         comfort_radius_m=question.comfort_radius_m,
-        time_limit_s=time_limit_s,
+        time_limit_s=wanted.time_limit_s,
         should_stop=should_stop,
-        step_m=step_m,
+        step_m=wanted.step_m,
     )
     here = question.garment.placement
     return {

@@ -7,7 +7,7 @@ from contextlib import suppress
 from functools import partial
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Depends, Request
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
@@ -16,7 +16,7 @@ from app.api.answers import PoseFile
 from app.api.asked import asked_garment, asked_scene, workspace_of
 from app.api.body import read_model
 from app.api.described import problems, takes
-from app.api.messages import PlanRequest
+from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.waiting import answer_of
 from app.job_pool import ShouldStop
 from app.workspace import Workspace
@@ -29,8 +29,6 @@ from planner.plan.suggestions import suggestions
 router = APIRouter(prefix="/api", tags=["suggestions"])
 
 Tell = Callable[[ServerSentEvent | None], None]
-Step = Annotated[float, Query(ge=0.02, le=1.0, allow_inf_nan=False)]
-TimeLimit = Annotated[float, Query(ge=0.01, le=60.0, allow_inf_nan=False)]
 
 
 class SuggestionEvent(BaseModel):
@@ -162,22 +160,24 @@ async def post_suggestions(
         yield event
 
 
-@router.get("/placements", responses={200: {"model": PlacementsAnswer}, **problems(404, 422)})
-async def read_placements(
-    request: Request, garment: str, step_m: Step = 0.1, time_limit_s: TimeLimit = 10.0
-) -> JSONResponse:
-    """What the plan costs wherever a garment could be laid on the default table, not turned."""
+@router.post(
+    "/placements",
+    openapi_extra=takes(PlacementsRequest),
+    responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422)},
+)
+async def post_placements(request: Request) -> JSONResponse:
+    """Plan a garment wherever it could be laid on the default table, not turned, and return what that costs."""
+    wanted = await read_model(request, PlacementsRequest)
     workspace = workspace_of(request)
-    job = workspace.pool.start(partial(_placements, workspace, garment, step_m, time_limit_s))
+    job = workspace.pool.start(partial(_placements, workspace, wanted))
     return JSONResponse(await answer_of(request, job))
 
 
-def _placements(
-    workspace: Workspace, name: str, step_m: float, time_limit_s: float, should_stop: ShouldStop
-) -> dict[str, Any]:
-    garment = asked_garment(workspace, name)
+def _placements(workspace: Workspace, wanted: PlacementsRequest, should_stop: ShouldStop) -> dict[str, Any]:
+    garment = asked_garment(workspace, wanted.garment)
+    limits = {"step_m": wanted.step_m, "time_limit_s": wanted.time_limit_s}
     try:
-        found = placement_map(garment, step_m=step_m, time_limit_s=time_limit_s, should_stop=should_stop)
+        found = placement_map(garment, **limits, should_stop=should_stop)
     except (FoldError, GarmentError) as error:
         raise error.within("garment") from None
     return found.to_dict()

@@ -71,7 +71,7 @@ async def list_templates() -> list[dict[str, Any]]:
 
 @router.post(
     "/{name}",
-    openapi_extra=takes(MadeRequest),
+    openapi_extra=takes(MadeRequest, may_be_empty=True),
     responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
 )
 async def post_template(request: Request, name: str) -> JSONResponse:

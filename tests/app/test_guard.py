@@ -2,6 +2,7 @@ import httpx
 import pytest
 
 from app.api.guard import own_names
+from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
 
@@ -37,6 +38,40 @@ async def test_a_foreign_origin_is_refused(client: httpx.AsyncClient, origin: st
     answer = await client.post("/api/dag", json={"garment": "tie"}, headers={"origin": origin})
     assert answer.status_code == 403
     assert_is_problem(answer, "Origin")
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site", ""])
+@pytest.mark.parametrize("destination", ["image", "iframe", "empty"])
+async def test_what_a_foreign_page_embeds_is_refused(client: httpx.AsyncClient, site: str, destination: str) -> None:
+    headers = {"sec-fetch-site": site, "sec-fetch-mode": "no-cors", "sec-fetch-dest": destination}
+    for path in ("/api/health", "/api/garments", "/", "/static/js/main.js"):
+        answer = await client.get(path, headers=headers)
+        assert answer.status_code == 403
+        assert_is_problem(answer, "Sec-Fetch-Site")
+
+
+async def test_a_foreign_page_may_link_to_a_page_but_to_nothing_that_works(client: httpx.AsyncClient) -> None:
+    headers = {"sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate", "sec-fetch-dest": "document"}
+    first = await client.get("/", headers=headers)
+    assert first.status_code == 307
+    assert (await client.get(first.headers["location"], headers=headers)).status_code == 200
+    assert (await client.get("/api/garments", headers=headers)).status_code == 403
+    assert (await client.post("/", headers=headers)).status_code == 403
+    assert (await client.get("/", headers={**headers, "sec-fetch-dest": "iframe"})).status_code == 403
+
+
+@pytest.mark.parametrize("site", ["same-origin", "none"])
+async def test_what_our_own_page_or_the_reader_asks_for_is_answered(client: httpx.AsyncClient, site: str) -> None:
+    headers = {"sec-fetch-site": site, "sec-fetch-mode": "no-cors", "sec-fetch-dest": "image"}
+    assert (await client.get("/api/garments", headers=headers)).status_code == 200
+
+
+async def test_nothing_that_plans_for_seconds_is_started_by_a_get(client: httpx.AsyncClient) -> None:
+    document_id = (await client.post("/api/documents", json={"garment": towel()})).json()["id"]
+    for path in ("/api/placements?garment=tie", f"/api/documents/{document_id}/overlays/places"):
+        answer = await client.get(path)
+        assert answer.status_code == 405
+        assert "POST" in answer.headers["allow"]
 
 
 def test_the_given_host_is_an_own_name_too() -> None:

@@ -111,7 +111,8 @@ def cpu_s(served: Served) -> float:
 
 async def test_the_map_of_placements_has_costs_and_a_best(client: httpx.AsyncClient) -> None:
     await client.put("/api/garments/my-towel", json=towel())
-    answer = await client.get("/api/placements", params={"garment": "my-towel", "step_m": 0.4, "time_limit_s": 20})
+    wanted = {"garment": "my-towel", "step_m": 0.4, "time_limit_s": 20}
+    answer = await client.post("/api/placements", json=wanted)
     assert answer.status_code == 200
     found = answer.json()
     assert set(found) == {"step_m", "cells", "best", "complete"}
@@ -124,20 +125,20 @@ async def test_the_map_of_placements_has_costs_and_a_best(client: httpx.AsyncCli
     ("options", "field"),
     [
         ({}, "garment"),
-        ({"garment": "tie", "step_m": "0"}, "step_m"),
-        ({"garment": "tie", "time_limit_s": "nan"}, "time_limit_s"),
+        ({"garment": "tie", "step_m": 0}, "step_m"),
+        ({"garment": "tie", "time_limit_s": "10"}, "time_limit_s"),
     ],
 )
 async def test_a_bad_question_about_placements_names_the_parameter(
-    client: httpx.AsyncClient, options: dict[str, str], field: str
+    client: httpx.AsyncClient, options: dict[str, Any], field: str
 ) -> None:
-    answer = await client.get("/api/placements", params=options)
+    answer = await client.post("/api/placements", json=options)
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["field"] == field
 
 
 async def test_placements_of_an_unknown_garment_are_not_found(client: httpx.AsyncClient) -> None:
-    assert (await client.get("/api/placements", params={"garment": "nothing"})).status_code == 404
+    assert (await client.post("/api/placements", json={"garment": "nothing"})).status_code == 404
 
 
 def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path) -> None:

@@ -105,7 +105,7 @@ export class Overlays {
     this.stopPlaces = new AbortController();
     const { signal } = this.stopPlaces;
     this.isMapping = true;
-    const places = await told(`${store.path}/overlays/places?step_m=0.1`, { signal });
+    const places = await told(`${store.path}/overlays/places`, { method: "POST", signal });
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;

@@ -96,8 +96,8 @@ async def test_parts_not_asked_for_are_null(client: httpx.AsyncClient) -> None:
 
 async def test_without_an_outline_there_is_nothing_to_lay_over(client: httpx.AsyncClient) -> None:
     document_id = (await client.post("/api/documents", json={})).json()["id"]
-    for path in ("overlays", "overlays?station=left", "overlays/places"):
-        assert_problem(await client.get(f"/api/documents/{document_id}/{path}"), 409)
+    for method, path in (("GET", "overlays"), ("GET", "overlays?station=left"), ("POST", "overlays/places")):
+        assert_problem(await client.request(method, f"/api/documents/{document_id}/{path}"), 409)
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,8 @@ async def test_a_lift_that_goes_nowhere_is_a_problem_of_the_scene(client: httpx.
 
 async def test_the_map_of_places_says_where_the_article_would_come(client: httpx.AsyncClient) -> None:
     document_id = await created(client)
-    found = (await client.get(f"/api/documents/{document_id}/overlays/places?step_m=0.4&time_limit_s=20")).json()
+    wanted = {"step_m": 0.4, "time_limit_s": 20}
+    found = (await client.post(f"/api/documents/{document_id}/overlays/places", json=wanted)).json()
     here = next(cell for cell in found["cells"] if cell["move"] == pytest.approx([0.0, 0.0]))
     assert here["placement"] == pytest.approx(towel()["placement"])
     assert here["cost_s"] == pytest.approx(9.0)
@@ -142,5 +143,5 @@ async def test_the_map_of_places_says_where_the_article_would_come(client: httpx
 
 
 async def test_unknown_documents_are_not_found(client: httpx.AsyncClient) -> None:
-    for path in ("overlays", "overlays/places"):
-        assert_problem(await client.get(f"/api/documents/nothere/{path}"), 404)
+    for method, path in (("GET", "overlays"), ("POST", "overlays/places")):
+        assert_problem(await client.request(method, f"/api/documents/nothere/{path}"), 404)

@@ -75,7 +75,7 @@ def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, legend:
         for n, cost_s in enumerate((41.26, None, 57.8))
     ]
     told = {"version": 1, "step_m": 0.1, "cells": cells, "best": cells[0], "complete": False}
-    page.route("**/overlays/places?*", lambda route: route.fulfill(json=told))
+    page.route("**/overlays/places", lambda route: route.fulfill(json=told))
     chip(page, "Cost map").click()
     rows = [
         "The plan takes 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s,"
