@@ -1,5 +1,6 @@
 """Serves the designer on one address, until it is told to stop."""
 
+import ipaddress
 import socket
 import sys
 from collections.abc import Callable
@@ -7,13 +8,19 @@ from collections.abc import Callable
 import uvicorn
 
 from app.api.create_app import create_app
+from app.log import logging_to, standard_error
 from app.settings import Settings
+from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
 _GRACE_S = 1
 _SWITCH_S = 0.0001
 """How long a thread keeps the interpreter (s). A request changes threads several times, each time waiting so long for a
 search that runs meanwhile; Python's own 5 ms would be felt."""
+
+
+class ExposedError(FoldingError):
+    """Other machines would come in, and nobody has said that they may."""
 
 
 class _AnnouncingServer(uvicorn.Server):
@@ -33,14 +40,15 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
     """Serve until interrupted; `announce` is told the URL as soon as it answers.
 
     Raises:
+        ExposedError: the address is beyond loopback, and `Settings.insecure` is not set.
         OSError: the address cannot be listened on.
     """
     sys.setswitchinterval(_SWITCH_S)
-    with _listening(settings.host, settings.port) as listener:
+    with _listening(settings) as listener, logging_to(standard_error()):
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
         config = uvicorn.Config(
             create_app(bound),
-            log_level="warning",
+            log_config=None,
             ws_max_size=_LARGEST_MESSAGE,
             ws_per_message_deflate=False,
             timeout_graceful_shutdown=_GRACE_S,
@@ -49,8 +57,14 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
         _AnnouncingServer(config, lambda: announce(_url(bound))).run(sockets=[listener])
 
 
-def _listening(host: str, port: int) -> socket.socket:
-    family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+def _listening(settings: Settings) -> socket.socket:
+    found = socket.getaddrinfo(settings.host, settings.port, type=socket.SOCK_STREAM)
+    family, kind, protocol, _, address = found[0]
+    if not settings.insecure and not ipaddress.ip_address(address[0]).is_loopback:
+        raise ExposedError(
+            f"{settings.host} can be reached from other machines, and whoever comes in from there could read, change "
+            "and delete your documents: nobody is asked for a password. Serve on 127.0.0.1, or say --insecure."
+        )
     listener = socket.socket(family, kind, protocol)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

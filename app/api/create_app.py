@@ -21,7 +21,10 @@ from app.api import (
     template_routes,
 )
 from app.api.described import describe_problem
+from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
+from app.api.methods import HeadAsGet
+from app.api.prefix import BelowPrefix
 from app.api.problems import install_problems
 from app.settings import Settings
 from app.workspace import Workspace
@@ -65,5 +68,8 @@ def create_app(settings: Settings) -> FastAPI:
     page_routes.mount_files(app)
     install_problems(app)
     describe_problem(app)
-    app.add_middleware(OwnNamesOnly, host=settings.host, port=settings.port)
+    app.add_middleware(FailuresAsProblems)
+    app.add_middleware(HeadAsGet)
+    app.add_middleware(OwnNamesOnly, settings=settings)
+    app.add_middleware(BelowPrefix, prefix=settings.root_path)
     return app

@@ -61,7 +61,8 @@ async def create_document(request: Request) -> JSONResponse:
     wanted = await read_model(request, NewDocument)
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
     message = await run_in_threadpool(document_message, opened.id, opened.document.state)
-    return JSONResponse(message, status_code=201, headers={"location": f"/d/{opened.id}"})
+    location = f"{request.scope.get('root_path', '')}/d/{opened.id}"
+    return JSONResponse(message, status_code=201, headers={"location": location})
 
 
 @router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(404, 422)})

@@ -22,7 +22,7 @@ _FRESH = {"cache-control": "no-cache"}
 async def read_first_page(request: Request) -> Response:
     """The document that was opened last, or a new one."""
     document_id = await run_in_threadpool(workspace_of(request).first)
-    return RedirectResponse(f"/d/{document_id}", headers=_FRESH)
+    return RedirectResponse(f"{request.scope.get('root_path', '')}/d/{document_id}", headers=_FRESH)
 
 
 @router.get("/d/{document_id}")

@@ -2,7 +2,6 @@
 
 import http
 import json
-import logging
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 
@@ -10,8 +9,10 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
+from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.store.document_keeper import UnkeptDocumentError
 from app.store.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
@@ -28,7 +29,9 @@ from planner.strict_model import field_path, plain_message
 
 MEDIA_TYPE = "application/problem+json"
 
-_log = logging.getLogger(__name__)
+CLIENT_GONE = 499
+"""For the log alone, as other servers have it: nobody reads the answer."""
+
 _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
     UnknownPlanError: 404,
@@ -85,6 +88,10 @@ class TooLargeError(FoldingError):
     """A request body is beyond the limit."""
 
 
+class ClientGoneError(FoldingError):
+    """Whoever asked has hung up."""
+
+
 def install_problems(app: FastAPI) -> None:
     """Have every exception answered as a problem."""
     handlers: dict[type[Exception], Callable[[Request, Any], Awaitable[Response]]] = {
@@ -92,15 +99,19 @@ def install_problems(app: FastAPI) -> None:
         RequestValidationError: _validation_problem,
         FieldError: _field_problem,
         TooLargeError: _too_large_problem,
+        ClientDisconnect: _unread_problem,
+        ClientGoneError: _unread_problem,
         FoldingError: _folding_problem,
-        Exception: _unexpected_problem,
     }
     for kind, handler in handlers.items():
         app.add_exception_handler(kind, handler)
 
 
 async def _http_problem(request: Request, error: HTTPException) -> Response:
-    return ProblemResponse(error.status_code, _http_detail(request, error), headers=dict(error.headers or {}))
+    answer = ProblemResponse(error.status_code, _http_detail(request, error), headers=dict(error.headers or {}))
+    if error.status_code == http.HTTPStatus.METHOD_NOT_ALLOWED:
+        answer.headers["allow"] = allowed_methods(request)
+    return answer
 
 
 async def _validation_problem(_: Request, error: RequestValidationError) -> Response:
@@ -122,9 +133,8 @@ async def _folding_problem(_: Request, error: FoldingError) -> Response:
     return ProblemResponse(status, str(error))
 
 
-async def _unexpected_problem(request: Request, error: Exception) -> Response:
-    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-    return ProblemResponse(500, "The server failed on this request; its log says why.")
+async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) -> Response:
+    return ProblemResponse(CLIENT_GONE, "The client went away.")
 
 
 def _title(status: int) -> str:

@@ -175,9 +175,8 @@ async def post_placements(request: Request) -> JSONResponse:
 
 def _placements(workspace: Workspace, wanted: PlacementsRequest, should_stop: ShouldStop) -> dict[str, Any]:
     garment = asked_garment(workspace, wanted.garment)
-    limits = {"step_m": wanted.step_m, "time_limit_s": wanted.time_limit_s}
     try:
-        found = placement_map(garment, **limits, should_stop=should_stop)
+        found = placement_map(garment, step_m=wanted.step_m, time_limit_s=wanted.time_limit_s, should_stop=should_stop)
     except (FoldError, GarmentError) as error:
         raise error.within("garment") from None
     return found.to_dict()

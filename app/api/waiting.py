@@ -5,14 +5,10 @@ from typing import Any, TypeVar
 
 from fastapi import Request
 
+from app.api.problems import ClientGoneError
 from app.job_pool import Job
-from planner.errors import FoldingError
 
 Answer = TypeVar("Answer")
-
-
-class ClientGoneError(FoldingError):
-    """Whoever asked has hung up."""
 
 
 async def answer_of(request: Request, job: Job[Answer]) -> Answer:

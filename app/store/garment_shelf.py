@@ -93,5 +93,7 @@ class GarmentShelf:
 def _read(path: Path) -> Garment:
     try:
         return Garment.from_dict(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, RecursionError, FieldError) as error:
+    except OSError as error:
+        raise GarmentFileError(f"{path.name}: {error.strerror}") from error
+    except (ValueError, RecursionError, FieldError) as error:
         raise GarmentFileError(f"{path.name}: {error}") from error

@@ -18,7 +18,7 @@ export function mountGarments(store) {
     select.value = name;
   };
   const load = async () => {
-    const answer = await fetch("/api/garments").catch(() => null);
+    const answer = await fetch("../api/garments").catch(() => null);
     if (!answer?.ok) return;
     entries = await answer.json();
     show();

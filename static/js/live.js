@@ -8,7 +8,9 @@ export class Live extends EventTarget {
   /** @param {string} name the document */
   constructor(name) {
     super();
-    this.url = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/documents/${name}/live`;
+    const url = new URL(`../api/documents/${name}/live`, location.href);
+    url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    this.url = url.href;
     this.waitMs = FIRST_WAIT_MS;
     this.opened = 0;
     this.open();

@@ -22,7 +22,7 @@ export function mountStage(store, onKey) {
   const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
   const pace = isDrawnBySoftware() ? "by-software/" : "";
   const load = () => {
-    frame.src = `/viser/${store.id}/${pace}`;
+    frame.src = `../viser/${store.id}/${pace}`;
   };
   frame.addEventListener("load", () => frame.contentDocument?.addEventListener("keydown", onKey));
   let wasLost = false;

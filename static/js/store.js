@@ -71,7 +71,7 @@ export class Store extends EventTarget {
 
   /** The path of the document's resources. */
   get path() {
-    return `/api/documents/${this.id}`;
+    return `../api/documents/${this.id}`;
   }
 
   /** The number of moments that can be shown, at least one. */

@@ -155,3 +155,11 @@ def test_check_of_a_fold_that_two_grippers_cannot_hold_is_status_3_and_says_what
     assert "3 points of its edge must be held" in result.stderr
     assert "a grip radius of 0.112 m would do" in result.stderr
     assert json.loads(pleat("check", path, "--json", "-").stdout)["is_holdable"] is False
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::"])
+def test_beyond_loopback_nothing_is_served_unless_that_is_said(tmp_path: Path, host: str) -> None:
+    result = pleat("serve", "--host", host, "--port", "0", "--data", str(tmp_path / "data"))
+    assert result.exit_code == 2
+    assert "other machines" in result.stderr and "--insecure" in result.stderr
+    assert not (tmp_path / "data").exists()

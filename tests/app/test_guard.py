@@ -1,7 +1,13 @@
+from collections.abc import AsyncIterator
+from pathlib import Path
+
 import httpx
 import pytest
 
+from app.api.create_app import create_app
 from app.api.guard import own_names
+from app.settings import Settings
+from tests.app.conftest import OWN_URL
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
@@ -78,6 +84,27 @@ def test_the_given_host_is_an_own_name_too() -> None:
     assert "192.0.2.7:80" in own_names("192.0.2.7", 80)
     assert "192.0.2.7" in own_names("192.0.2.7", 80)
     assert "[2001:db8::1]:8000" in own_names("2001:db8::1", 8000)
+
+
+@pytest.fixture
+async def everywhere(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
+    """Talks to a server that listens on all addresses of the machine."""
+    app = create_app(Settings(data=tmp_path, host="0.0.0.0", insecure=True))
+    async with httpx.AsyncClient(transport=httpx.ASGITransport(app=app), base_url=OWN_URL) as client:
+        yield client
+    app.state.workspace.close()
+
+
+@pytest.mark.parametrize("host", ["192.0.2.7:8000", "[2001:db8::1]:8000", "127.0.0.1:8000"])
+async def test_on_all_addresses_each_address_is_answered(everywhere: httpx.AsyncClient, host: str) -> None:
+    headers = {"host": host, "origin": f"http://{host}"}
+    assert (await everywhere.post("/api/dag", json={"garment": "tie"}, headers=headers)).status_code == 200
+
+
+async def test_on_all_addresses_no_foreign_name_or_page_is_answered(everywhere: httpx.AsyncClient) -> None:
+    assert (await everywhere.get("/api/health", headers={"host": "evil.example:8000"})).status_code == 421
+    headers = {"host": "192.0.2.7:8000", "origin": "http://192.0.2.8:8000"}
+    assert (await everywhere.get("/api/health", headers=headers)).status_code == 403
 
 
 async def test_other_pages_may_not_frame_ours(client: httpx.AsyncClient) -> None:

@@ -30,7 +30,7 @@ export class Blank {
   /** There is no document at this address. */
   showGone() {
     const link = element("a", "main-button", "Go to the last one");
-    link.setAttribute("href", "/");
+    link.setAttribute("href", "../");
     this.root.replaceChildren(
       element("p", "blank-title", "Nothing is kept under this address"),
       element("p", "", "The document was removed, or the address is mistyped."),

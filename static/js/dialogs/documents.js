@@ -5,11 +5,11 @@
  * @returns {Promise<Response>} what the server answered, if it was no new document
  */
 export async function goToNew(wanted) {
-  const answer = await fetch("/api/documents", {
+  const answer = await fetch("../api/documents", {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify(wanted),
   });
-  if (answer.status === 201) location.assign(answer.headers.get("location") ?? "/");
+  if (answer.status === 201) location.assign(answer.headers.get("location") ?? "../");
   return answer;
 }

@@ -66,7 +66,7 @@ export function showHelp() {
   );
   const more = element("p", "dialog-note", "Programs talk to Pleat by ");
   const link = element("a", "", "its REST interface");
-  link.setAttribute("href", "/docs");
+  link.setAttribute("href", "../docs");
   more.append(link, ".");
   openDialog("Help", "is-wide", element("div", "help", ...sections), more);
 }

@@ -71,7 +71,7 @@ async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", `Reading ${file.name}...`));
   const query = new URLSearchParams({ filename: file.name });
   for (const [name, value] of Object.entries(how)) query.set(name, String(value));
-  const answer = await fetch(`/api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
+  const answer = await fetch(`../api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
   const told = answer ? await answer.json() : null;
   if (answer?.ok) found(store, body, file, how, told);
   else if (told?.sizes) askSize(store, body, file, how, told.sizes, told.detail);

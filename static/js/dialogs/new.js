@@ -24,7 +24,7 @@ export async function showNew() {
   list.setAttribute("role", "listbox");
   list.setAttribute("aria-label", "Templates");
   openDialog("New garment", "is-wide", element("div", "new", list, detail));
-  const answer = await fetch("/api/templates").catch(() => null);
+  const answer = await fetch("../api/templates").catch(() => null);
   const templates = answer?.ok ? await answer.json() : [];
   const entries = [...templates, null];
   const options = entries.map((template, index) => tile(template, () => choose(index)));
@@ -127,7 +127,7 @@ function field({ name, label, text, default_m: first, min_m: least, max_m: most 
 }
 
 async function garmentOf(name, measures) {
-  const answer = await fetch(`/api/templates/${name}`, {
+  const answer = await fetch(`../api/templates/${name}`, {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify({ measures }),

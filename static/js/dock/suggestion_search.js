@@ -12,7 +12,7 @@ import { eventStream } from "./event_stream.js";
  * @property {number|null} cost_s of the plan with the change; null if that is not known
  */
 
-const ADDRESS = "/api/suggestions";
+const ADDRESS = "../api/suggestions";
 const LIMIT_S = 10;
 
 export class SuggestionSearch extends EventTarget {

@@ -1,0 +1,29 @@
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.app.conftest import Served
+from tests.browser.conftest import IS_THERE, STAGE_PATIENCE_MS
+from tests.browser.prefix_proxy import PREFIX, below_prefix
+from tests.browser.status_pill import expect_planned
+
+
+@pytest.mark.slow
+def test_page_stage_and_edits_work_below_a_proxys_prefix(browser: Browser, served: Served) -> None:
+    with below_prefix(served.port) as url:
+        faults: list[str] = []
+        page = browser.new_page(viewport={"width": 900, "height": 500})
+        page.set_default_timeout(STAGE_PATIENCE_MS)
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.on("response", lambda answer: faults.append(answer.url) if answer.status >= 400 else None)
+        page.goto(f"{url}/")
+        expect_planned(page)
+        assert page.url.startswith(f"{url}/d/")
+        page.wait_for_function(IS_THERE, arg="/cloth/front")
+        page.locator("#garment").select_option("hand-towel")
+        expect(page).to_have_title("Hand towel - Pleat")
+        expect_planned(page)
+        page.goto(f"{url}/docs")
+        expect(page.get_by_role("heading", name="Pleat")).to_be_visible()
+        expect(page.get_by_text("POST", exact=True).first).to_be_visible()
+        page.close()
+    assert PREFIX in url and faults == []
