@@ -113,8 +113,7 @@ def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
     table.add_column("assumption?")
     for one in sorted(found, key=lambda one: one.is_assumption):
         is_so = "yes" if one.is_assumption else "no"
-        what = one.message.rpartition(":")[0]
-        table.add_row(one.kind.replace("_", " "), what, f"{one.size:.3g}", f"{one.cost_s:.2f}", is_so)
+        table.add_row(one.kind.replace("_", " "), one.says.text, f"{one.size:.3g}", f"{one.cost_s:.2f}", is_so)
     return table
 
 

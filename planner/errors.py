@@ -18,6 +18,8 @@
 
 from dataclasses import dataclass
 
+from planner.message import Message
+
 
 class FoldingError(Exception):
     """The root of all errors that Pleat raises on purpose."""
@@ -30,19 +32,22 @@ class FieldError(FoldingError):
         field: where, as in ``outline[3]`` or ``folds[0].start``; relative to the value
             that was being built until an outer layer prefixes it (see `within`).
         message: what is wrong, with the numbers and their units.
+        says: the same as data, where it has numbers.
     """
 
-    def __init__(self, field: str, message: str) -> None:
-        super().__init__(f"{field}: {message}" if field else message)
+    def __init__(self, field: str, message: str | Message) -> None:
+        text = message.text if isinstance(message, Message) else message
+        super().__init__(f"{field}: {text}" if field else text)
         self.field = field
-        self.message = message
+        self.message = text
+        self.says = message if isinstance(message, Message) else None
 
     def within(self, prefix: str) -> "FieldError":
         """The same error, its field seen from further out."""
         if not prefix:
             return self
         joined = f"{prefix}.{self.field}" if self.field else prefix
-        return type(self)(joined.replace(".[", "["), self.message)
+        return type(self)(joined.replace(".[", "["), self.says or self.message)
 
 
 class GarmentError(FieldError):

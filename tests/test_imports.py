@@ -10,11 +10,12 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 # Modules of planner that stand outside the rooms and that every room but search may use.
-GROUND = frozenset({"planner.errors", "planner.strict_model"})
+GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model"})
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
-    "planner.errors": frozenset(),
+    "planner.message": frozenset(),
+    "planner.errors": frozenset({"planner.message"}),
     "planner.strict_model": frozenset({"planner.errors"}),
     "planner.search": frozenset(),
     "planner.geometry": GROUND,

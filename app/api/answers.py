@@ -149,6 +149,7 @@ class ReasonAnswer(BaseModel):
     fold: int | None
     code: str
     message: str
+    says: dict[str, Any]
     cause: str | None
     joint: str | None
     point: Point3 | None

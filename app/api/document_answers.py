@@ -1,6 +1,6 @@
 """The shapes of answers about documents, for the description of the interface at /docs."""
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel
 
@@ -44,6 +44,7 @@ class DrawingProblem(BaseModel):
     code: str
     field: str
     message: str
+    says: dict[str, Any] | None
     fold: int | None
     points: list[Point]
     lines: list[tuple[Point, Point]]
@@ -114,6 +115,7 @@ class MendAnswer(BaseModel):
     """A change that takes a problem of a drawing away: what is done, and the drawing afterwards."""
 
     label: str
+    says: dict[str, Any]
     drawing: DrawingModel
 
 

@@ -48,10 +48,11 @@ _REQUEST_PARTS = ("body", "query", "path", "header")
 
 
 class FieldProblem(BaseModel):
-    """One field of the input and what is wrong with it."""
+    """One field of the input and what is wrong with it; `says` has the numbers of the message, by name."""
 
     field: str
     message: str
+    says: dict[str, Any] | None = None
 
 
 class Problem(BaseModel):
@@ -72,7 +73,7 @@ class ProblemResponse(Response):
         self,
         status: int,
         detail: str,
-        errors: Sequence[dict[str, str]] = (),
+        errors: Sequence[Mapping[str, Any]] = (),
         headers: dict[str, str] | None = None,
         members: Mapping[str, Any] | None = None,
     ) -> None:
@@ -120,7 +121,9 @@ async def _validation_problem(_: Request, error: RequestValidationError) -> Resp
 
 
 async def _field_problem(_: Request, error: FieldError) -> Response:
-    field = {"field": error.field, "message": error.message}
+    field: dict[str, Any] = {"field": error.field, "message": error.message}
+    if error.says is not None:
+        field["says"] = error.says.to_dict()
     return ProblemResponse(422, _summary([field]), [field])
 
 
@@ -158,7 +161,7 @@ def _described(detail: Any) -> dict[str, str]:  # noqa: ANN401
     return {"field": field_path(inner), "message": plain_message(dict(detail))}
 
 
-def _summary(fields: Sequence[dict[str, str]]) -> str:
+def _summary(fields: Sequence[Mapping[str, Any]]) -> str:
     first = fields[0]
     text = f"{first['field']}: {first['message']}" if first["field"] else first["message"]
     return text if len(fields) == 1 else f"{text} (and {len(fields) - 1} more)"

@@ -37,6 +37,7 @@ class SuggestionEvent(BaseModel):
     kind: Literal["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"]
     is_assumption: bool
     message: str
+    says: dict[str, Any]
     change: dict[str, Any]
     size: float
     cost_s: float

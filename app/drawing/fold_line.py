@@ -126,7 +126,8 @@ def _tried(
         return line, fold_cloth(replay.cloths[-1], line, is_red=crease.is_red, crease=before)
     except (FoldError, GarmentError) as error:
         code = "fold_off_boundary" if off else "fold_illegal"
-        return Problem(code, error.within(f"folds[{index}]").field, error.message, index, off or ends, lines)
+        field = error.within(f"folds[{index}]").field
+        return Problem(code, field, error.message, index, off or ends, lines, error.says)
 
 
 def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: Replay, names: Names) -> Crease:

@@ -14,6 +14,7 @@ from planner.folds.fold_cloth import flap_silhouette
 from planner.geometry.chord import nearest_chord
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message
 
 
 def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
@@ -22,15 +23,16 @@ def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
     drawing, index = solution.drawing, problem.fold
     fold = drawing.folds[index]
     called = f"fold {index} '{fold.name}'"
-    colours = [Mend(f"Make {called} blue", _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
+    blue = Message("make_blue", f"Make {called} blue", {"fold": index})
+    colours = [Mend(blue, _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
     what = "flap" if fold.is_red else "cloth"
+    onto = Message(f"put_onto_{what}", f"Put {called} onto the {what}", {"fold": index})
     moved = [
-        Mend(f"Put {called} onto the {what}", _with(drawing, index, _along(fold, line)))
-        for line in _lines(solution, problem, is_red=fold.is_red)
+        Mend(onto, _with(drawing, index, _along(fold, line))) for line in _lines(solution, problem, is_red=fold.is_red)
     ]
     is_off = problem.code == "fold_off_boundary"
     yield from (*moved, *colours) if is_off else (*colours, *moved)
-    yield Mend(f"Delete {called}", _without(drawing, index))
+    yield Mend(Message("delete_fold", f"Delete {called}", {"fold": index}), _without(drawing, index))
 
 
 def _lines(solution: Solution, problem: Problem, *, is_red: bool) -> Iterator[Segment]:

@@ -5,6 +5,7 @@ from typing import Any
 
 from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_to_dict
+from planner.message import Message
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,13 +13,18 @@ class Mend:
     """A change to a drawing that cannot be planned.
 
     Attributes:
-        label: what is done, in words; the name of the step.
+        says: what is done.
         drawing: the drawing afterwards, as it would be committed.
     """
 
-    label: str
+    says: Message
     drawing: Drawing
+
+    @property
+    def label(self) -> str:
+        """What is done, in words."""
+        return self.says.text
 
     def to_dict(self) -> dict[str, Any]:
         """The mend as JSON."""
-        return {"label": self.label, "drawing": drawing_to_dict(self.drawing)}
+        return {"label": self.label, "says": self.says.to_dict(), "drawing": drawing_to_dict(self.drawing)}

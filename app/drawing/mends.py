@@ -14,6 +14,7 @@ from app.drawing.outline_mends import outline_mends
 from app.drawing.problem import Problem
 from app.drawing.solution import Solution
 from app.drawing.solve import solve
+from planner.message import Message
 
 MENDS_MAX = 3
 """More would not be read."""
@@ -56,13 +57,15 @@ def _proposed(solution: Solution) -> Iterator[Mend]:
 
 def _other_start(solution: Solution) -> Mend:
     station, _ = solution.drawing.scene.stations[0]
-    return Mend(f"Start at {station.replace('_', ' ')}", replace(solution.drawing, start_station=station))
+    says = Message("start_at", f"Start at {station.replace('_', ' ')}", {"station": station})
+    return Mend(says, replace(solution.drawing, start_station=station))
 
 
 def _last_step(draft: Draft) -> Iterator[Mend]:
     if draft.history.past:
         step = draft.history.past[-1]
-        yield Mend(f"Take back \N{LEFT DOUBLE QUOTATION MARK}{step.label}\N{RIGHT DOUBLE QUOTATION MARK}", step.drawing)
+        text = f"Take back \N{LEFT DOUBLE QUOTATION MARK}{step.label}\N{RIGHT DOUBLE QUOTATION MARK}"
+        yield Mend(Message("take_back", text, {"step": step.label}), step.drawing)
 
 
 def _is_gone(problem: Problem, before: Solution, after: Solution) -> bool:

@@ -12,6 +12,7 @@ from app.drawing.drawing import Corner, CornerTie, Drawing, EdgeTie, End, Tie
 from app.drawing.mend import Mend
 from app.drawing.problem import Problem
 from planner.cloth.outline import EDGE_MIN_M, crossings
+from planner.message import Message
 
 EXCHANGES_MAX = 30
 """An outline that is more entangled than this is not what anybody meant."""
@@ -37,8 +38,9 @@ def _merged(drawing: Drawing) -> Mend:
     while len(kept) > 1 and _is_near(kept[-1], kept[0]):
         merged = _tied_over(merged, kept.pop().id, kept[0].id)
     is_one = len(kept) == len(drawing.outline) - 1
-    label = "Merge the two corners" if is_one else f"Merge corners nearer than {EDGE_MIN_M * 1000:g} mm"
-    return Mend(label, replace(merged, outline=tuple(kept)))
+    near = Message("merge_near", f"Merge corners nearer than {EDGE_MIN_M * 1000:g} mm", {"nearer_m": EDGE_MIN_M})
+    says = Message("merge_two", "Merge the two corners") if is_one else near
+    return Mend(says, replace(merged, outline=tuple(kept)))
 
 
 def _is_near(one: Corner, other: Corner) -> bool:
@@ -79,8 +81,9 @@ def _uncrossed(drawing: Drawing) -> Iterator[Mend]:
         if is_order_kept:
             places = zip(drawing.outline, outline, strict=True)
             outline = tuple(replace(corner, point=there.point) for corner, there in places)
-        label = "Exchange the two corners" if turned == [2] else "Uncross the edges"
-        yield Mend(label, replace(drawing, outline=outline))
+        two, many = Message("exchange_two", "Exchange the two corners"), Message("uncross", "Uncross the edges")
+        says = two if turned == [2] else many
+        yield Mend(says, replace(drawing, outline=outline))
 
 
 def _first_crossing(outline: Sequence[Corner]) -> tuple[int, int] | None:
@@ -110,7 +113,7 @@ def _without_one(drawing: Drawing) -> Iterator[Mend]:
     at = {(edge + step) % len(outline) for i, j, _ in crossings(drawing.points) for edge in (i, j) for step in (0, 1)}
     left = [tuple(corner for corner in outline if corner is not outline[index]) for index in sorted(at)]
     for fewer in sorted(left, key=_length):
-        yield Mend("Delete one corner", replace(drawing, outline=fewer))
+        yield Mend(Message("delete_corner", "Delete one corner"), replace(drawing, outline=fewer))
 
 
 def _length(outline: Sequence[Corner]) -> float:

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from app.drawing.problem import Problem
-from planner.cloth.outline import EDGE_MIN_M, crossings, require_simple_outline
+from planner.cloth.outline import EDGE_MIN_M, crossings, edge_too_short, edges_cross, require_simple_outline
 from planner.errors import GarmentError
 from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
@@ -20,7 +20,8 @@ def outline_problems(outline: Sequence[Point2]) -> tuple[Problem, ...]:
         require_simple_outline(outline)
     except GarmentError as error:
         shown = tuple(islice(_problems(outline), TOLD_MAX))
-        return shown or (Problem("outline_too_small", error.field, error.message, points=tuple(outline)),)
+        other = Problem("outline_too_small", error.field, error.message, points=tuple(outline), says=error.says)
+        return shown or (other,)
     return ()
 
 
@@ -40,11 +41,12 @@ def _problems(outline: Sequence[Point2]) -> Iterator[Problem]:
 
 def _short_edge(outline: Sequence[Point2], edge: int, length_m: float) -> Problem:
     after = (edge + 1) % len(outline)
-    message = f"edge {edge} from point {edge} to point {after} is {length_m * 1000:.3f} mm long, less than 1 mm"
-    return Problem("edge_too_short", f"outline[{after}]", message, points=(outline[edge], outline[after]))
+    says = edge_too_short(edge, after, length_m)
+    ends = (outline[edge], outline[after])
+    return Problem("edge_too_short", f"outline[{after}]", says.text, points=ends, says=says)
 
 
 def _crossing(outline: Sequence[Point2], i: int, j: int, meeting: Point2) -> Problem:
     edges = tuple(Segment(outline[edge], outline[(edge + 1) % len(outline)]) for edge in (i, j))
-    message = f"edges {i} and {j} cross at ({meeting[0]:.3f}, {meeting[1]:.3f}) m"
-    return Problem("outline_crosses", f"outline[{j}]", message, points=(meeting,), lines=edges)
+    says = edges_cross(i, j, meeting)
+    return Problem("outline_crosses", f"outline[{j}]", says.text, points=(meeting,), lines=edges, says=says)

@@ -24,6 +24,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
 from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message
 
 
 @dataclass(frozen=True)
@@ -72,12 +73,15 @@ def grab_and_drop(
     silhouette = _seen(replay, is_red=is_red)
     apart = math.dist(grabbed, dropped)
     if apart < EDGE_MIN_M:
-        raise RequestError("grab.to", f"is {apart * 1000:.3f} mm from where the cloth is grabbed, less than 1 mm")
+        text = f"is {apart * 1000:.3f} mm from where the cloth is grabbed, less than {EDGE_MIN_M * 1000:g} mm"
+        raise RequestError("grab.to", Message("dropped_too_near", text, {"apart_m": apart, "least_m": EDGE_MIN_M}))
     if not _is_on(silhouette, grabbed):
         place = f"({grabbed[0]:.4f}, {grabbed[1]:.4f}) m"
         if _is_on(replay.cloths[-1].silhouette, grabbed):
-            raise RequestError("grab.from", f"{place} is on cloth that a red fold leaves where it is")
-        raise RequestError("grab.from", f"there is no cloth at {place}")
+            text = f"{place} is on cloth that a red fold leaves where it is"
+            raise RequestError("grab.from", Message("not_on_flap", text, {"at": list(grabbed)}))
+        text = f"there is no cloth at {place}"
+        raise RequestError("grab.from", Message("no_cloth_there", text, {"at": list(grabbed)}))
     line = _parting_chord(silhouette, grabbed, dropped)
     if line is None:
         raise RequestError("grab.to", "no straight fold through the cloth takes the point there")
@@ -95,7 +99,7 @@ def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red:
     if line is None:
         whole = nearest_chord(replay.cloths[-1].silhouette, guide)
         if whole is None or not is_flap_missed(replay.cloths[-1], whole):
-            raise RequestError("line", "does not cross the cloth")
+            raise RequestError("line", Message("line_misses_cloth", "does not cross the cloth"))
         raise RequestError("line", flap_missed(_last_name(solution, replay)))
     return _placed(solution, replay, line, "line", is_red=is_red)
 
@@ -106,7 +110,8 @@ def _replay(solution: Solution, after: int | None) -> Replay:
     count = len(solution.drawing.folds) if after is None else after
     legal = len(solution.replay.lines)
     if count > legal:
-        raise RequestError("after", f"is {count}, but only {legal} folds are drawn and legal")
+        text = f"is {count}, but only {legal} folds are drawn and legal"
+        raise RequestError("after", Message("fewer_folds", text, {"asked": count, "legal": legal}))
     return Replay(solution.replay.outline, solution.replay.cloths[: count + 1], solution.replay.lines[:count])
 
 
@@ -148,7 +153,7 @@ def _placed(solution: Solution, replay: Replay, line: Segment, field: str, *, is
     try:
         folded = fold_cloth(replay.cloths[-1], line, is_red=is_red, crease=crease)
     except FoldError as error:
-        raise RequestError(field, error.message) from None
+        raise RequestError(field, error.says or error.message) from None
     names = Names.of(solution.drawing)
     start, end = (End(point, _tie(point, replay, names, is_red=is_red)) for point in (line.start, line.end))
     return PlacedCrease(start, end, line, folded)

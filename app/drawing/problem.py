@@ -5,6 +5,7 @@ from typing import Any
 
 from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
+from planner.message import Message
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,6 +19,7 @@ class Problem:
         fold: the fold's index, or None.
         points: where, article frame (m).
         lines: what is to be marked there (an edge, a fold's line), article frame (m).
+        says: the message as data, where it has numbers.
     """
 
     code: str
@@ -26,6 +28,7 @@ class Problem:
     fold: int | None = None
     points: tuple[Point2, ...] = ()
     lines: tuple[Segment, ...] = ()
+    says: Message | None = None
 
     @property
     def text(self) -> str:
@@ -38,6 +41,7 @@ class Problem:
             "code": self.code,
             "field": self.field,
             "message": self.message,
+            "says": self.says and self.says.to_dict(),
             "fold": self.fold,
             "points": [list(point) for point in self.points],
             "lines": [[list(line.start), list(line.end)] for line in self.lines],

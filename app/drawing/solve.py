@@ -17,6 +17,7 @@ from planner.cloth.garment import DrawnFold, Garment
 from planner.folds.attachment import Replay
 from planner.folds.fold_cloth import Folded
 from planner.geometry.region import Region
+from planner.message import Message
 
 
 def solve(drawing: Drawing) -> Solution:
@@ -77,5 +78,6 @@ def _scene_problems(drawing: Drawing) -> list[Problem]:
     names = [name for name, _ in drawing.scene.stations]
     if drawing.start_station in names:
         return []
-    message = f"{drawing.start_station!r} is none of {', '.join(names)}"
-    return [Problem("unknown_station", "start_station", message)]
+    text = f"{drawing.start_station!r} is none of {', '.join(names)}"
+    says = Message("unknown_station", text, {"station": drawing.start_station, "stations": names})
+    return [Problem("unknown_station", "start_station", text, says=says)]

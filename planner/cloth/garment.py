@@ -12,6 +12,7 @@ from planner.cloth.outline import EDGE_MIN_M, require_simple_outline
 from planner.errors import GarmentError
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
+from planner.message import Message
 from planner.strict_model import LARGEST_M, Bounded, PlanePoint, Positive, StrictModel, first_error
 
 NAME_PATTERN = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
@@ -48,7 +49,9 @@ class DrawnFold:
             raise GarmentError("name", f"has {len(self.name)} characters, more than {TITLE_MAX}")
         length = math.dist(self.start, self.end)
         if length < EDGE_MIN_M:
-            raise GarmentError("end", f"the line is {length * 1000:.3f} mm long, less than 1 mm")
+            text = f"the line is {length * 1000:.3f} mm long, less than {EDGE_MIN_M * 1000:g} mm"
+            values = {"length_m": length, "least_m": EDGE_MIN_M}
+            raise GarmentError("end", Message("line_too_short", text, values))
         _require_positive("grip_radius_m", self.grip_radius_m)
 
     @property

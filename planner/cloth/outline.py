@@ -10,6 +10,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.message import Message
 
 POINTS_MAX = 400
 EDGE_MIN_M = 1e-3
@@ -25,12 +26,14 @@ def require_simple_outline(outline: Sequence[Point2]) -> None:
     """
     count = len(outline)
     if not 3 <= count <= POINTS_MAX:
-        raise GarmentError("outline", f"has {count} points, it needs 3 to {POINTS_MAX}")
+        text = f"has {count} points, it needs 3 to {POINTS_MAX}"
+        raise GarmentError("outline", Message("outline_points", text, {"points": count, "most": POINTS_MAX}))
     _require_long_edges(outline)
     _require_no_crossing(outline)
     area = Region.polygon(outline).area
     if area < AREA_MIN_M2:
-        raise GarmentError("outline", f"its area is {area:.6f} m^2, less than {AREA_MIN_M2} m^2")
+        text = f"its area is {area:.6f} m^2, less than {AREA_MIN_M2} m^2"
+        raise GarmentError("outline", Message("outline_area", text, {"area_m2": area, "least_m2": AREA_MIN_M2}))
 
 
 def _require_long_edges(outline: Sequence[Point2]) -> None:
@@ -38,16 +41,28 @@ def _require_long_edges(outline: Sequence[Point2]) -> None:
         following = (i + 1) % len(outline)
         length = math.dist(point, outline[following])
         if length < EDGE_MIN_M * (1.0 - ANGLE_RAD):
-            raise GarmentError(
-                f"outline[{following}]",
-                f"edge {i} from point {i} to point {following} is {length * 1000:.3f} mm long, "
-                f"less than {EDGE_MIN_M * 1000:g} mm",
-            )
+            raise GarmentError(f"outline[{following}]", edge_too_short(i, following, length))
 
 
 def _require_no_crossing(outline: Sequence[Point2]) -> None:
     for i, j, (x, y) in crossings(outline):
-        raise GarmentError(f"outline[{j}]", f"edges {i} and {j} cross at ({x:.3f}, {y:.3f}) m")
+        raise GarmentError(f"outline[{j}]", edges_cross(i, j, (x, y)))
+
+
+def edge_too_short(edge: int, following: int, length_m: float) -> Message:
+    """What there is to say of an edge that is shorter than an outline may have (m)."""
+    return Message(
+        "edge_too_short",
+        f"edge {edge} from point {edge} to point {following} is {length_m * 1000:.3f} mm long, "
+        f"less than {EDGE_MIN_M * 1000:g} mm",
+        {"edge": edge, "from": edge, "to": following, "length_m": length_m, "least_m": EDGE_MIN_M},
+    )
+
+
+def edges_cross(first: int, second: int, at: Point2) -> Message:
+    """What there is to say of two edges that cross at a point (m)."""
+    text = f"edges {first} and {second} cross at ({at[0]:.3f}, {at[1]:.3f}) m"
+    return Message("edges_cross", text, {"edges": [first, second], "at": list(at)})
 
 
 def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:

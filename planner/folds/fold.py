@@ -10,6 +10,7 @@ from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, SNAP_M
+from planner.message import Message
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +52,12 @@ def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
     for name, end, foot in zip(("start", "end"), ends, nearest, strict=True):
         gap = float(np.hypot(*(foot - end)))
         if gap > SNAP_M:
-            raise FoldError(
-                name,
+            text = (
                 f"({end[0]:.4f}, {end[1]:.4f}) m is {gap * 1000:.1f} mm from the silhouette's boundary, "
-                f"at most {SNAP_M * 1000:g} mm are snapped",
+                f"at most {SNAP_M * 1000:g} mm are snapped"
             )
+            values = {"at": [float(end[0]), float(end[1])], "off_m": gap, "most_m": SNAP_M}
+            raise FoldError(name, Message("end_off_boundary", text, values))
         if gap <= LENGTH_M:
             foot[:] = end
     start, end = (_point(p) for p in nearest)

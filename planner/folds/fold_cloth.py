@@ -12,6 +12,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
 from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message
 
 _FOLDED_KEPT = 256
 
@@ -90,8 +91,7 @@ def _require_no_tear(moving: Region, line: Segment, crease: Segment) -> None:
     for end_a, end_b in moving.overlaps_with(crease):
         off_line = np.abs(line.left_distances(np.array([end_a, end_b])))
         if off_line.max() > LENGTH_M:
-            raise FoldError(
-                "start",
-                f"the part that moves reaches {off_line.max() * 1000:.1f} mm along the crease of the fold before: "
-                "it would tear",
-            )
+            along_m = float(off_line.max())
+            mm = f"{along_m * 1000:.1f} mm"
+            text = f"the part that moves reaches {mm} along the crease of the fold before: it would tear"
+            raise FoldError("start", Message("would_tear", text, {"along_m": along_m}))

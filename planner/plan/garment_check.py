@@ -135,7 +135,7 @@ def _checks(work: Work) -> Iterator[FoldCheck]:
 def _not_held(work: Work, done: int, fold: int, left_held: list[tuple[Point2, ...]]) -> Obstacle:
     """That of what the fold before may leave held nothing suffices: the first of it is told of."""
     held = _as_held(left_held[0]) if left_held else ()
-    return Obstacle(fold, Code.RED_NEEDS_HOLD, "", 1.0, State(done, (0.0, 0.0), 0, 0, held))
+    return Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, State(done, (0.0, 0.0), 0, 0, held))
 
 
 def _as_held(grips: tuple[Point2, ...]) -> tuple[Held, ...]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner.geometry.pose import Approach, Point2, Point3
+from planner.message import Message
 from planner.primitives.obstacle import Code
 
 
@@ -14,7 +15,7 @@ class Reason:
     Attributes:
         fold: the fold's index, or None.
         code: which constraint.
-        message: a sentence with the numbers.
+        says: a sentence with the numbers, and these as data.
         cause: for what is out of reach: too far, too near, a joint's limit, comfort only, the robot's own body; for a
             collision what an arm cannot help touching: the table, its own body, the other arm.
         joint: the joint that limits, where one does.
@@ -39,7 +40,7 @@ class Reason:
 
     fold: int | None
     code: Code
-    message: str
+    says: Message
     cause: str | None = None
     joint: str | None = None
     point: Point3 | None = None
@@ -57,9 +58,15 @@ class Reason:
     needed_friction: float | None = None
     needed_grip_radius_m: float | None = None
 
+    @property
+    def message(self) -> str:
+        """The sentence."""
+        return self.says.text
+
     def to_dict(self) -> dict[str, Any]:
         """The reason as JSON."""
         found = {name: getattr(self, name) for name in self.__slots__}
+        found |= {"message": self.message, "says": self.says.to_dict()}
         for name in ("point", "towards", "offset_m", "shift_towards"):
             found[name] = None if found[name] is None else list(found[name])
         return {**found, "code": self.code.value, "approach": _turn(self.approach)}

@@ -6,13 +6,15 @@ with each fold that would be within reach right after it, and with none where it
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from planner.geometry.pose import Point2
+from planner.message import Message
 from planner.plan.reason import Reason
 from planner.plan.reason_reach import from_every_station
-from planner.plan.reason_words import carried
+from planner.plan.reason_words import carried, dragged, height_words
 from planner.primitives.fold_trial import fold_trials, geometric_obstacle
 from planner.primitives.fold_way import can_follow
 from planner.primitives.obstacle import Code, Obstacle, Snag
@@ -33,11 +35,11 @@ def collisions(work: Work, step: Step, snag: Snag | None) -> Iterator[Obstacle]:
     """
     depth_m, own = math.inf if snag is None else snag.depth_m, step.details.get("fold")
     if own is not None:
-        yield Obstacle(own, Code.COLLISION, "", depth_m, step.before, snag=snag)
+        yield Obstacle(own, Code.COLLISION, None, depth_m, step.before, snag=snag)
         return
     held = _held_by(work, step, snag)
     for fold in _next_folds(work, step.after) or (None,):
-        yield Obstacle(fold, Code.COLLISION, "", depth_m, step.before, held, snag, dragged_to=step.after.offset)
+        yield Obstacle(fold, Code.COLLISION, None, depth_m, step.before, held, snag, dragged_to=step.after.offset)
 
 
 def collision_reason(work: Work, obstacle: Obstacle, state: State) -> Reason:
@@ -45,21 +47,25 @@ def collision_reason(work: Work, obstacle: Obstacle, state: State) -> Reason:
     snag, station = obstacle.snag, work.scene.stations[state.station][0]
     label = "" if obstacle.fold is None else f"{work.sequence.folds[obstacle.fold].label}: "
     begin = f"{label}{_drag(obstacle, state)}from {station} "
+    values = {"station": station, "drag": _way(obstacle, state), **dragged(state)}
     if snag is None:
-        message = (
+        text = (
             f"{begin}the hands could be where they must, but the arms cannot get them there and along "
             f"their way without touching the table, the robot or each other{carried(state)}"
         )
-        return Reason(obstacle.fold, Code.COLLISION, message, station=station, offset_m=state.offset)
+        says = Message("arms_cannot_get_there", text, values)
+        return Reason(obstacle.fold, Code.COLLISION, says, station=station, offset_m=state.offset)
     x, y, z = snag.point
-    message = (
-        f"{begin}all is in reach, but with the {snag.arm} gripper at ({x:.2f}, {y:.2f}) m, {z:.2f} m "
-        f"over the table, {snag.contact} at least, however the arm is bent{carried(state)}"
+    first, second = snag.parts
+    text = (
+        f"{begin}all is in reach, but with the {snag.arm} gripper at ({x:.2f}, {y:.2f}) m, "
+        f"{height_words(z)}, the {first} would hit the {second} by {snag.depth_m:.3f} m at least, however the arm is "
+        f"bent{carried(state)}"
     )
     return Reason(
         obstacle.fold,
         Code.COLLISION,
-        message,
+        Message("collision", text, {**values, **_touching(snag)}),
         cause=snag.cause,
         point=snag.point,
         short_by_m=snag.depth_m,
@@ -70,11 +76,24 @@ def collision_reason(work: Work, obstacle: Obstacle, state: State) -> Reason:
     )
 
 
+def _touching(snag: Snag) -> dict[str, Any]:
+    """What touches what, as values of a message."""
+    return {"arm": snag.arm, "at": list(snag.point), "parts": list(snag.parts), "depth_m": snag.depth_m}
+
+
+def _way(obstacle: Obstacle, state: State) -> list[float] | None:
+    """The drag in which the arms collide (m); None where they collide in the fold."""
+    if obstacle.dragged_to is None:
+        return None
+    return [to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True)]
+
+
 def _drag(obstacle: Obstacle, state: State) -> str:
     """The drag in which the arms collide, in words."""
-    if obstacle.dragged_to is None:
+    way = _way(obstacle, state)
+    if way is None:
         return ""
-    dx, dy = (to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True))
+    dx, dy = way
     whom = "" if obstacle.fold is None else " for it"
     return f"to drag the cloth{whom} by ({dx:.2f}, {dy:.2f}) m, "
 

@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point2, Point3
-from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message, plain_points
 from planner.plan.reason import Reason
 from planner.plan.reason_collision import collision_reason
 from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
-from planner.plan.reason_words import carried
+from planner.plan.reason_words import carried, dragged
 from planner.primitives.fold_trial import lifted_points
 from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
 from planner.primitives.obstacle import Code, Obstacle
@@ -47,16 +47,17 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
     is_slip = obstacle.code is Code.SLIPS
     state = obstacle.state
     point: Point3 | None = None
-    message = obstacle.message
+    assert obstacle.says is not None
+    says = obstacle.says
     if state is not None:
-        message += carried(state)
+        says = Message(says.code, says.text + carried(state), {**says.values, **dragged(state)})
         if obstacle.point is not None:
             x, y = work.placed(state.offset).to_outer(np.array(obstacle.point))
             point = (float(x), float(y), 0.0)
     return Reason(
         obstacle.fold,
         obstacle.code,
-        message,
+        says,
         point=point,
         short_by_m=None if is_slip else obstacle.severity,
         offset_m=None if state is None else state.offset,
@@ -68,14 +69,17 @@ def _too_many_grips(work: Work, fold: int, done: int) -> Reason:
     drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
     vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
     needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, vertices, arms)
-    where = _along(drawn.line, vertices)
-    message = (
+    ordered = vertices[np.argsort(drawn.line.positions(vertices), kind="stable")]
+    where = _along(ordered)
+    text = (
         f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {arms} hands "
         f"can when each holds what is within {drawn.grip_radius_m:g} m of it; a grip radius of {_up(needed)} m would "
         "do, or a fold that moves less"
     )
     short = needed - drawn.grip_radius_m
-    return Reason(fold, Code.TOO_MANY_GRIPS, message, short_by_m=short, needed_grip_radius_m=needed)
+    values = {"points": plain_points(ordered), "hands": arms, **_radii(drawn.grip_radius_m, needed)}
+    says = Message("too_many_grips", text, values)
+    return Reason(fold, Code.TOO_MANY_GRIPS, says, short_by_m=short, needed_grip_radius_m=needed)
 
 
 def _grips_too_close(work: Work, fold: int, done: int) -> Reason:
@@ -84,12 +88,19 @@ def _grips_too_close(work: Work, fold: int, done: int) -> Reason:
     cover = np.array(max(found.covers, key=lambda c: nearest_pair_m(np.array(c))))
     apart = nearest_pair_m(cover)
     needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, np.array(found.vertices), 1)
-    message = (
+    text = (
         f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
         f"{GRIPS_APART_M:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, one hand would "
         "hold both"
     )
-    return Reason(fold, Code.GRIPS_TOO_CLOSE, message, short_by_m=GRIPS_APART_M - apart, needed_grip_radius_m=needed)
+    values = {
+        "points": plain_points(cover),
+        "apart_m": apart,
+        "needed_apart_m": GRIPS_APART_M,
+        **_radii(drawn.grip_radius_m, needed),
+    }
+    says = Message("grips_too_close", text, values)
+    return Reason(fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=GRIPS_APART_M - apart, needed_grip_radius_m=needed)
 
 
 def _red_needs_hold(work: Work, fold: int, done: int, held: tuple[Point2, ...]) -> Reason:
@@ -100,19 +111,25 @@ def _red_needs_hold(work: Work, fold: int, done: int, held: tuple[Point2, ...]) 
     before = work.sequence.folds[fold - 1].label
     must = f"{drawn.label}: ({x:.2f}, {y:.2f}) m of the garment must be held"
     if math.isinf(needed):
-        message = f"{must}, but no hand that still holds from {before} is on the part that moves; make it a blue fold"
-        return Reason(fold, Code.RED_NEEDS_HOLD, message)
-    message = (
+        text = f"{must}, but no hand that still holds from {before} is on the part that moves; make it a blue fold"
+        return Reason(fold, Code.RED_NEEDS_HOLD, Message("red_unheld", text, {"at": [x, y], "before": fold - 1}))
+    text = (
         f"{must}, but the nearest hand that still holds from {before} is {needed:.2f} m away and holds what is within "
         f"{drawn.grip_radius_m:g} m; a grip radius of {_up(needed)} m would do, or a blue fold"
     )
     short = needed - drawn.grip_radius_m
-    return Reason(fold, Code.RED_NEEDS_HOLD, message, short_by_m=short, needed_grip_radius_m=needed)
+    values = {"at": [x, y], "before": fold - 1, **_radii(drawn.grip_radius_m, needed)}
+    says = Message("red_held_too_far", text, values)
+    return Reason(fold, Code.RED_NEEDS_HOLD, says, short_by_m=short, needed_grip_radius_m=needed)
 
 
-def _along(line: Segment, points: FloatArray) -> str:
+def _radii(radius_m: float, needed_m: float) -> dict[str, float]:
+    """The grip radius that is assumed and the one that would do, as values of a message (m)."""
+    return {"grip_radius_m": radius_m, "needed_grip_radius_m": needed_m}
+
+
+def _along(ordered: FloatArray) -> str:
     """Points of the garment in the order in which they lie along a line: all of a few, else the outermost (m)."""
-    ordered = points[np.argsort(line.positions(points), kind="stable")]
     if len(ordered) <= _LISTED_MAX:
         return _list(ordered)
     (x0, y0), (x1, y1) = ordered[0], ordered[-1]

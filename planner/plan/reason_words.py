@@ -1,11 +1,14 @@
 """What was out of reach, as a sentence: where, by how much, why, and what would do."""
 
 import math
+from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.message import Message
 from planner.plan.reason import Reason
 from planner.plan.reason_attempt import Demand, Miss, explained
 from planner.plan.reason_remedy import FURTHEST_M, Remedy, remedy
@@ -29,15 +32,35 @@ def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
     arm = work.reach.arm_names[trial.arms[miss.grip]]
     point = _point(trial.tools[miss.grip, miss.waypoint])
     mending = None if found.is_at_least else remedy(work, miss)
-    message = (
-        f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {_moment(miss)}, {_lack(work, miss)}; "
+    text = (
+        f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {height_words(point[2])} "
+        f"{_AT[_moment(miss)]}, {_lack(work, miss)}; "
         f"closest: {station}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}; "
         f"{_what_to_do(found.is_at_least, mending)}"
     )
+    values = {
+        "arm": arm,
+        "at": list(point),
+        "moment": _moment(miss).value,
+        "demand": miss.demand.value,
+        "cause": found.cause,
+        "joint": found.joint,
+        "towards": list(found.towards),
+        "short_by_m": found.short_by_m,
+        "is_at_least": found.is_at_least,
+        "comfort_m": found.comfort_m,
+        "wanted_comfort_m": work.reach.comfort_m,
+        "station": station,
+        "back_off_m": miss.back_off / BACK_OFFS_PER_M,
+        **dragged(miss.state),
+        "shift_m": None if mending is None else mending.distance_m,
+        "shift_towards": None if mending is None else list(mending.towards),
+        "tried_m": FURTHEST_M,
+    }
     return Reason(
         fold,
         Code.OUT_OF_REACH,
-        message,
+        Message("out_of_reach", text, values),
         cause=found.cause,
         joint=found.joint,
         point=point,
@@ -55,18 +78,40 @@ def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
     )
 
 
-def _moment(miss: Miss) -> str:
-    """How high a tool is, and when."""
-    z = float(miss.trial.tools[miss.grip, miss.waypoint, 2])
-    height = f"{z:.2f} m over the table" if z >= 0.0 else f"{-z:.2f} m below the table's top"
+class _Moment(StrEnum):
+    """Where on its way a hand is."""
+
+    PICK = "pick"
+    PLACE = "place"
+    TOP = "top"
+    UP = "up"
+    DOWN = "down"
+
+
+_AT = {
+    _Moment.PICK: "where it is picked up",
+    _Moment.PLACE: "where it is laid down",
+    _Moment.TOP: "at the top of its way, as high as it is far from the fold line",
+    _Moment.UP: "on its way up",
+    _Moment.DOWN: "on its way down",
+}
+
+
+def _moment(miss: Miss) -> _Moment:
+    """Where on its way the hand is that lacks something."""
     last, sweep = len(miss.trial.sweeps) - 1, float(miss.trial.sweeps[miss.waypoint])
     if miss.waypoint == 0:
-        return f"{height} where it is picked up"
+        return _Moment.PICK
     if miss.waypoint == last:
-        return f"{height} where it is laid down"
+        return _Moment.PLACE
     if abs(sweep - 1.0) <= ANGLE_RAD:
-        return f"{height} at the top of its way, as high as it is far from the fold line"
-    return f"{height} on its way {'up' if sweep < 1.0 else 'down'}"
+        return _Moment.TOP
+    return _Moment.UP if sweep < 1.0 else _Moment.DOWN
+
+
+def height_words(z: float) -> str:
+    """How high over the table top a point is (m), or how far below it, as that of a hand where cloth hangs."""
+    return f"{z:.2f} m over the table" if z >= 0.0 else f"{-z:.2f} m below the table's top"
 
 
 def _lack(work: Work, miss: Miss) -> str:
@@ -125,6 +170,11 @@ def _where_to(towards: Point3) -> str:
         if abs(component) > _OBLIQUE:
             words.append(forwards if component > 0.0 else backwards)
     return " and ".join(words) or "nearer to its shoulder"
+
+
+def dragged(state: State) -> dict[str, Any]:
+    """Where drags had brought the cloth, as values of a message."""
+    return {"dragged": list(state.offset), "is_held": state.is_dragged}
 
 
 def carried(state: State) -> str:

@@ -8,6 +8,7 @@ most were done.
 from collections.abc import Collection, Iterator
 
 from planner.cloth.g_state import Unrest
+from planner.message import Message
 from planner.plan.reason import Reason
 from planner.plan.reason_causes import Causes
 from planner.plan.reason_collision import collisions
@@ -37,8 +38,9 @@ def reason_at_start(work: Work, unrest: Unrest) -> Reason:
     spread, top = work.sequence.cloth(0).silhouette, work.table_in_article(state.offset)
     is_too_large = all(spread.contains(edge.start) for edge in top.edges)
     remedy = "it is too large for the table" if is_too_large else "place it so that it stays"
-    message = f"as the garment lies at the start, {unrest.message}; {remedy}"
-    return of_obstacle(work, Obstacle(None, Code(unrest.code), message, unrest.severity, state, unrest.point))
+    text = f"as the garment lies at the start, {unrest.message}; {remedy}"
+    says = Message("at_start", text, {"what": unrest.says.to_dict(), "is_too_large": is_too_large})
+    return of_obstacle(work, Obstacle(None, Code(unrest.code), says, unrest.severity, state, unrest.point))
 
 
 def note_collision(work: Work, step: Step, snag: Snag | None) -> None:
@@ -93,7 +95,8 @@ class _Reasons:
     def _nothing_known(self, fold: int) -> Reason:
         """A fold of which only is known that it was not done."""
         label = self._work.sequence.folds[fold].label
-        return Reason(fold, Code.WAITS_FOR_FOLD, f"{label}: can be done, but not together with the others")
+        says = Message("not_with_the_others", f"{label}: can be done, but not together with the others")
+        return Reason(fold, Code.WAITS_FOR_FOLD, says)
 
     def _waiting(self, blocked: list[int]) -> Iterator[Reason]:
         folds = self._work.sequence.folds
@@ -101,8 +104,8 @@ class _Reasons:
             roots = [b for b in blocked if b in self._before(fold.index)]
             if roots and fold.index not in blocked:
                 names = " and ".join(folds[root].label for root in roots)
-                message = f"{fold.label}: waits for {names}, which cannot be done"
-                yield Reason(fold.index, Code.WAITS_FOR_FOLD, message)
+                text = f"{fold.label}: waits for {names}, which cannot be done"
+                yield Reason(fold.index, Code.WAITS_FOR_FOLD, Message("waits_for", text, {"folds": roots}))
 
     def _before(self, fold: int) -> set[int]:
         """All folds that must precede one; what a chain's fold waits for the whole chain waits for."""

@@ -82,7 +82,7 @@ class Snags:
             contact = min(met, key=lambda one: one.depth_m)
             point = self._in_table(base, moments.positions[arm, moment])
             name = self._machine.card.arms[arm].name
-            yield Snag(name, point, self._cause(contact), str(contact), contact.depth_m)
+            yield Snag(name, point, self._cause(contact), (contact.first, contact.second), contact.depth_m)
 
     def _in_table(self, base: Pose2, position: FloatArray) -> Point3:
         x, y = base.to_outer(position[:2])

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from planner.message import Message
 from planner.plan.plan import Plan
 
 ASSUMPTIONS = frozenset({"friction", "grip_radius", "comfort_radius"})
@@ -16,8 +17,7 @@ class Suggestion:
 
     Attributes:
         kind: "placement", "fold_line", "order", "station", "friction", "grip_radius" or "comfort_radius".
-        message: what to do and what the plan then costs, with the numbers; directions as the robot at the near
-            edge of the table sees them.
+        says: what to do, with the numbers; directions as the robot at the near edge of the table sees them.
         change: fields to put into the plan request in place of its own.
         size: how big the change is, for comparing within its kind: m, a count, or a coefficient.
         plan: the plan that proves it.
@@ -25,11 +25,16 @@ class Suggestion:
     """
 
     kind: str
-    message: str
+    says: Message
     change: Mapping[str, Any]
     size: float
     plan: Plan
     cost_s: float
+
+    @property
+    def message(self) -> str:
+        """What to do, and what the plan then costs."""
+        return f"{self.says.text}: {self.cost_s:.1f} s"
 
     @property
     def is_assumption(self) -> bool:
@@ -42,6 +47,7 @@ class Suggestion:
             "kind": self.kind,
             "is_assumption": self.is_assumption,
             "message": self.message,
+            "says": self.says.to_dict(),
             "change": dict(self.change),
             "size": self.size,
             "cost_s": self.cost_s,

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from planner.cloth.garment import DrawnFold
+from planner.message import Message
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import in_cm
 
@@ -48,18 +49,20 @@ def _least(trials: Sequence[Trial]) -> Search:
 
 
 def _comfort(asked: Asked, radius_m: float) -> Trial:
-    what = f"Assume that a comfort radius of {in_cm(radius_m)} is enough, not {in_cm(asked.comfort_radius_m)}"
+    text = f"Assume that a comfort radius of {in_cm(radius_m)} is enough, not {in_cm(asked.comfort_radius_m)}"
+    says = Message("assume_comfort", text, {"comfort_m": radius_m, "now_m": asked.comfort_radius_m})
     size = asked.comfort_radius_m - radius_m
     return Trial(
-        "comfort_radius", what, {"comfort_radius_m": radius_m}, size, replace(asked, comfort_radius_m=radius_m)
+        "comfort_radius", says, {"comfort_radius_m": radius_m}, size, replace(asked, comfort_radius_m=radius_m)
     )
 
 
 def _friction(asked: Asked, friction: float) -> Trial:
     scene = replace(asked.scene, friction=friction)
-    what = f"Assume a friction coefficient of {friction:g}, not {asked.scene.friction:g}"
+    text = f"Assume a friction coefficient of {friction:g}, not {asked.scene.friction:g}"
+    says = Message("assume_friction", text, {"friction": friction, "now": asked.scene.friction})
     size = friction - asked.scene.friction
-    return Trial("friction", what, {"scene": scene.to_dict()}, size, replace(asked, scene=scene))
+    return Trial("friction", says, {"scene": scene.to_dict()}, size, replace(asked, scene=scene))
 
 
 def _grip_radius(asked: Asked, folds: Sequence[int], radius_m: float) -> Trial:
@@ -69,6 +72,7 @@ def _grip_radius(asked: Asked, folds: Sequence[int], radius_m: float) -> Trial:
     drawn = asked.garment.folds
     garment = replace(asked.garment, folds=tuple(widened(i, fold) for i, fold in enumerate(drawn)))
     names = ", ".join(f"fold {i} '{drawn[i].name}'" for i in folds)
-    what = f"Assume that one grip holds the cloth within {in_cm(radius_m)} in {names}"
+    text = f"Assume that one grip holds the cloth within {in_cm(radius_m)} in {names}"
+    says = Message("assume_grip_radius", text, {"grip_radius_m": radius_m, "folds": list(folds)})
     size = radius_m - min(drawn[i].grip_radius_m for i in folds)
-    return Trial("grip_radius", what, {"garment": garment.to_dict()}, size, replace(asked, garment=garment))
+    return Trial("grip_radius", says, {"garment": garment.to_dict()}, size, replace(asked, garment=garment))

@@ -12,6 +12,7 @@ from planner.folds.fold_cloth import flap_silhouette
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
+from planner.message import Message
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial, narrowed
 from planner.plan.suggestion_words import direction_words, in_cm
 
@@ -58,9 +59,10 @@ class _Side:
         if garment is None:
             return None
         x, y = self.asked.placement.to_outer(np.array([nx, ny])) - self.asked.placement.to_outer(np.zeros(2))
-        what = f"Shift fold {self.fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
+        text = f"Shift fold {self.fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
+        says = Message("shift_fold", text, {"fold": self.fold, "by_m": by_m, "towards": [float(x), float(y)]})
         change = {"garment": garment.to_dict()}
-        return Trial("fold_line", what, change, by_m, replace(self.asked, garment=garment))
+        return Trial("fold_line", says, change, by_m, replace(self.asked, garment=garment))
 
 
 def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:

@@ -12,6 +12,7 @@ from planner.cloth.garment import Garment
 from planner.errors import FieldError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
+from planner.message import Message
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 
 SWAPS_MAX = 3
@@ -48,8 +49,8 @@ def orders(asked: Asked) -> Search:
     """Look for another order that gives a plan, the fewest swaps first; then for cheaper ones."""
     to_beat = None
     for order, garment in _other_orders(asked.garment):
-        what = _in_words(asked.garment, order)
-        trial = Trial("order", what, {"garment": garment.to_dict()}, order.swaps, replace(asked, garment=garment))
+        says = _in_words(asked.garment, order)
+        trial = Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(asked, garment=garment))
         plan = yield trial
         if plan is None:
             return
@@ -99,10 +100,12 @@ def _is_same(one: Region, other: Region) -> bool:
     return one.difference(other).is_sliver and other.difference(one).is_sliver
 
 
-def _in_words(garment: Garment, order: _Order) -> str:
+def _in_words(garment: Garment, order: _Order) -> Message:
     names = {i: f"fold {i} '{fold.name}'" for i, fold in enumerate(garment.folds)}
     turned = [(later, earlier) for later, earlier in combinations(order.folds, 2) if later > earlier]
     if len(turned) == 1:
         later, earlier = turned[0]
-        return f"Make {names[later]} before {names[earlier]}"
-    return "Fold in the order " + ", ".join(names[i].removeprefix("fold ") for i in order.folds)
+        text = f"Make {names[later]} before {names[earlier]}"
+        return Message("fold_before", text, {"fold": later, "before": earlier})
+    text = "Fold in the order " + ", ".join(names[i].removeprefix("fold ") for i in order.folds)
+    return Message("fold_in_order", text, {"folds": list(order.folds)})

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from planner.geometry.pose import Pose2
+from planner.message import Message
 from planner.plan.suggestion_grid import Room, turned_in_place
 from planner.plan.suggestion_trial import Asked, Narrowing, Proof, Search, Trial, narrowed
 from planner.plan.suggestion_words import moved_words
@@ -36,11 +37,12 @@ class _Place:
         return self.distance_m + (TURN_AS_M if self.quarters else 0.0)
 
     @property
-    def words(self) -> str:
+    def says(self) -> Message:
         way, turn = moved_words(self.dx_m, self.dy_m), _TURNS[self.quarters]
-        if not turn:
-            return f"Move the garment {way}"
-        return f"Turn the garment {turn}" + (f" and move it {way}" if way else "")
+        text = f"Move the garment {way}"
+        if turn:
+            text = f"Turn the garment {turn}" + (f" and move it {way}" if way else "")
+        return Message("place", text, {"quarters": self.quarters, "by": [self.dx_m, self.dy_m]})
 
 
 def placements(asked: Asked, known_cost_s: float | None) -> Search:
@@ -83,7 +85,7 @@ def _nearer(asked: Asked, place: _Place, proof: Proof) -> Narrowing:
 
 def _trial(asked: Asked, place: _Place) -> Trial:
     pose = _turned(asked, place.quarters).moved(place.dx_m, place.dy_m)
-    return Trial("placement", place.words, {"placement": pose.to_dict()}, place.size, replace(asked, placement=pose))
+    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, replace(asked, placement=pose))
 
 
 def _places(asked: Asked) -> list[_Place]:

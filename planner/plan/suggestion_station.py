@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from planner.geometry.pose import Pose2, wrapped_angle
+from planner.message import Message
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import moved_words
 from planner.primitives.scene import STATIONS_MAX, Scene
@@ -32,8 +33,9 @@ def stations(asked: Asked) -> Search:
 
 def _trial(asked: Asked, name: str, pose: Pose2) -> Trial:
     scene = replace(asked.scene, stations=(*asked.scene.stations, (name, pose)))
-    what = f"Let the robot also stand at {_in_words(name, pose)}"
-    return Trial("station", what, {"scene": scene.to_dict()}, 1.0, replace(asked, scene=scene))
+    text = f"Let the robot also stand at {_in_words(name, pose)}"
+    says = Message("stand_also_at", text, {"station": name, "at": [pose.x_m, pose.y_m]})
+    return Trial("station", says, {"scene": scene.to_dict()}, 1.0, replace(asked, scene=scene))
 
 
 def _in_words(name: str, pose: Pose2) -> str:

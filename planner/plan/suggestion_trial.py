@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
+from planner.message import Message
 from planner.plan.make_plan import make_plan
 from planner.plan.plan import Plan
 from planner.plan.suggestion import Suggestion
@@ -55,14 +56,14 @@ class Trial:
 
     Attributes:
         kind: the kind of suggestion that it would be.
-        what: what to do, a sentence without its full stop.
+        says: what to do.
         change: the fields of the request that change.
         size: how big the change is.
         asked: the request with the change.
     """
 
     kind: str
-    what: str
+    says: Message
     change: Mapping[str, Any]
     size: float
     asked: Asked
@@ -83,8 +84,7 @@ class Proof(NamedTuple):
     @property
     def suggestion(self) -> Suggestion:
         """The proven trial as a suggestion."""
-        message = f"{self.trial.what}: {self.cost_s:.1f} s"
-        return Suggestion(self.trial.kind, message, self.trial.change, self.trial.size, self.plan, self.cost_s)
+        return Suggestion(self.trial.kind, self.trial.says, self.trial.change, self.trial.size, self.plan, self.cost_s)
 
     def is_worth_more_than(self, cost_s: float) -> bool:
         """Whether it is so much cheaper that it should be told as well."""

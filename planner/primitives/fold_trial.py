@@ -14,6 +14,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message
 from planner.primitives.grasping import (
     GRIPS_APART_M,
     all_approaches,
@@ -102,20 +103,20 @@ def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacl
     is_on_table = work.is_on_table(line.start, state.offset) or work.is_on_table(line.end, state.offset)
     if not is_on_table and not top.region.overlaps_with(line):
         off = top.region.distance_to(line)
-        message = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
-        yield Obstacle(fold, Code.LINE_OFF_TABLE, message, off, state)
+        text = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
+        says = Message("line_off_table", text, {"off_m": float(off)})
+        yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
     behind = -work.kept(Depths).of(state.done, fold)[0]
     if behind > LENGTH_M:
-        message = (
+        text = (
             f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
             "carry it; turn or lengthen the line, or fold that part by itself first"
         )
-        yield Obstacle(fold, Code.NOT_A_G_STATE, message, behind, state)
+        yield Obstacle(fold, Code.NOT_A_G_STATE, Message("behind_line", text, {"behind_m": behind}), behind, state)
     unrest = work.unrest(state.done | 1 << fold, state.offset)
     if unrest is not None:
-        yield Obstacle(
-            fold, Code(unrest.code), f"{label}: afterwards {unrest.message}", unrest.severity, state, unrest.point
-        )
+        says = Message("afterwards", f"{label}: afterwards {unrest.message}", {"what": unrest.says.to_dict()})
+        yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
 
 
 def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
@@ -182,18 +183,12 @@ def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
 def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
     arms = len(work.reach.arm_names)
-    drawn = work.sequence.folds[fold]
     covers = work.sequence.covers(state.done, fold, work.scene.support_angle_rad, arms)
     if not covers.is_holdable:
-        message = (
-            f"{drawn.label}: {len(covers.vertices)} vertices must be held, and {arms} grips that hold "
-            f"{drawn.grip_radius_m:g} m round themselves do not suffice"
-        )
-        return Obstacle(fold, Code.TOO_MANY_GRIPS, message, float(len(covers.vertices)), state)
+        return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
     apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
     if apart < GRIPS_APART_M - LENGTH_M:
-        message = f"{drawn.label}: its two grips are {apart:.3f} m apart, two hands need {GRIPS_APART_M:g} m"
-        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, message, GRIPS_APART_M - apart, state)
+        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, GRIPS_APART_M - apart, state)
     return None
 
 
@@ -230,9 +225,7 @@ def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tu
     """The fewest of the grips held that hold all that must be held."""
     covers = held_covers(work, state.done, fold, state.held)
     if not covers and not state.is_dragged:
-        label = work.sequence.folds[fold].label
-        message = f"{label}: the grips still held from the fold before do not hold all that must be held"
-        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, message, 1.0, state))
+        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))
     for cover in covers:
         yield tuple(h.point for h in cover), tuple(h.arm for h in cover)
 

@@ -17,6 +17,7 @@ from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.tolerance import grid_key
+from planner.message import Message
 from planner.primitives.state import State
 
 Situation: TypeAlias = tuple[int, int, int, tuple[tuple[int, int, int], ...], bool, int]
@@ -52,14 +53,14 @@ class Snag:
         arm: the arm's name.
         point: where its tool is then, table frame (m).
         cause: what it touches: ``table``, ``own_body`` or ``arms``.
-        contact: the same in words, with how far they are into each other at least.
-        depth_m: so far (m).
+        parts: what people call the two that touch, the arm's own first: ``left forearm``, ``table top``.
+        depth_m: how far they are into each other at least (m).
     """
 
     arm: str
     point: Point3
     cause: str
-    contact: str
+    parts: tuple[str, str]
     depth_m: float
 
 
@@ -70,7 +71,7 @@ class Obstacle:
     Attributes:
         fold: the fold's index; None when it is about no fold.
         code: which constraint.
-        message: a sentence with the numbers; empty where it is worked out when asked for.
+        says: a sentence with the numbers; None where it is worked out when asked for.
         severity: how far from possible it was (m, or of the friction coefficient), 0 just missed; infinite where that
             is not known.
         state: the state in which it did, of a drag that in which it begins; None where that does not matter.
@@ -81,7 +82,7 @@ class Obstacle:
 
     fold: int | None
     code: Code
-    message: str
+    says: Message | None
     severity: float
     state: State | None = None
     point: Point2 | None = None

@@ -64,8 +64,9 @@ async def test_what_is_wrong_with_a_drawing_is_kept_and_told_of(client: httpx.As
     spoilt = (await put(client, state, moved(state, 0.5))).json()
     assert spoilt["drawing"]["outline"][0]["point"] == [0.5, 0.0]
     (problem,) = spoilt["problems"]
-    assert set(problem) == {"code", "field", "message", "fold", "points", "lines"}
+    assert set(problem) == {"code", "field", "message", "says", "fold", "points", "lines"}
     assert problem["code"] == "outline_crosses"
+    assert problem["says"] == {"code": "edges_cross", "edges": [1, 3], "at": problem["points"][0]}
     assert (await client.get(f"/api/documents/{state['id']}")).json() == spoilt
 
 
@@ -150,7 +151,7 @@ async def test_what_would_mend_a_drawing_can_be_committed_and_undone(client: htt
     answer = (await client.get(f"{path}/mends")).json()
     assert answer["version"] == spoilt["version"]
     first = answer["mends"][0]
-    assert set(first) == {"label", "drawing"}
+    assert set(first) == {"label", "says", "drawing"}
     mended = (await put(client, spoilt, first["drawing"], label=first["label"])).json()
     assert mended["problems"] == []
     assert mended["history"]["can_undo"] == "Make fold 0 'half' blue"

@@ -1,6 +1,5 @@
 """Lengths as people write them, and the plane geometry of the page, asked of the modules themselves."""
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -21,13 +20,6 @@ def page(chromium: Browser, designer: Served) -> Iterator[Page]:
 def asked(page: Page, module: str, question: str, room: str = "board") -> Any:
     """What an expression on a module's exports, called `m`, comes to."""
     return page.evaluate(f"import('/static/js/{room}/{module}.js').then((m) => {question})")
-
-
-@pytest.fixture
-def inches(page: Page) -> Iterator[None]:
-    asked(page, "units", "{ m.unit.name = 'in'; }")
-    yield
-    asked(page, "units", "{ m.unit.name = 'cm'; }")
 
 
 @pytest.mark.parametrize(
@@ -54,33 +46,6 @@ def test_lengths_are_read_as_centimetres_unless_they_say_otherwise(page: Page, t
 @pytest.mark.parametrize("text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft", "2in 3", "in/2"])
 def test_what_is_no_length_is_none(page: Page, text: str) -> None:
     assert asked(page, "units", f"m.parsed({text!r})") is None
-
-
-SENTENCES = [
-    ("move it by 0.29 m", "move it by 29 cm", "move it by 11.42 in"),
-    ("at (0.41, -1.20) m, 8 cm left", "at (41, -120) cm, 8 cm left", "at (16.14, -47.24) in, 3.15 in left"),
-    ("0.012 mm long, less than 1 mm", "0.012 mm long, less than 1 mm", "0.00047 in long, less than 0.04 in"),
-    ("an area of 0.2 m^2 at 3 m/s", "an area of 0.2 m^2 at 3 m/s", "an area of 0.2 m^2 at 3 m/s"),
-]
-
-
-@pytest.mark.parametrize(("said", "in_cm", "_in_inches"), SENTENCES)
-def test_lengths_in_sentences_are_told_in_centimetres(page: Page, said: str, in_cm: str, _in_inches: str) -> None:
-    assert asked(page, "units", f"m.worded({said!r})") == in_cm
-
-
-@pytest.mark.usefixtures("inches")
-@pytest.mark.parametrize(("said", "_in_cm", "in_inches"), SENTENCES)
-def test_or_in_inches(page: Page, said: str, _in_cm: str, in_inches: str) -> None:
-    assert asked(page, "units", f"m.worded({said!r})") == in_inches
-
-
-@pytest.mark.usefixtures("inches")
-def test_what_the_planner_says_counts_from_one_and_leaves_names_alone(page: Page) -> None:
-    folds = [{"name": ""}, {"name": "edge 3, 5 cm from mum's hem"}]
-    said = "fold 1 'edge 3, 5 cm from mum's hem' waits for fold 0 ''; edges 0 and 2, edge 4 from point 4 to point 0"
-    told = "\u201cedge 3, 5 cm from mum's hem\u201d waits for fold 1; edges 1 and 3, edge 5 from point 5 to point 1"
-    assert asked(page, "words", f"m.spoken({json.dumps(said)}, {json.dumps(folds)})", "dock") == told
 
 
 def test_what_lies_left_of_a_line_is_cut_off(page: Page) -> None:

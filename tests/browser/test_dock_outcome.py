@@ -210,7 +210,7 @@ def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> No
     told = page.evaluate(
         """async () => {
           const { details } = await import("/static/js/dock/reasons.js");
-          const plan = { reasons: [{ message: "" }, { message: "fold 0 'half': too far" }] };
+          const plan = { reasons: [{ fold: 0, message: "" }, { fold: 0, message: "too far" }] };
           return details({ status: "infeasible", plan }, { drawing: { folds: [{ name: "half" }] }, problems: [] });
         }"""
     )

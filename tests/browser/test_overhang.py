@@ -58,14 +58,14 @@ def test_what_hangs_loose_is_said_in_the_unit_of_the_page(page: Page, new_sheet:
     told = page.evaluate(
         """async () => {
           const { sentence } = await import("/static/js/dock/reasons.js");
-          const message = "as the garment lies at the start, layer 0 hangs over the far edge and nothing holds its "
-            + "corner at (0.61, 0.57) m of the garment, 0.18 m beyond the edge; place it so that it stays";
-          const reason = { fold: null, code: "not_a_g_state", short_by_m: 0.177, message };
-          const later = { ...reason, fold: 0, message: "fold 0 'half': it hangs; and more" };
+          const what = { code: "hangs_loose", layer: 0, edge: "far", at: [0.61, 0.57], beyond_m: 0.177 };
+          const reason = { fold: null, code: "not_a_g_state", says: { code: "at_start", what, is_too_large: false } };
+          const later = { ...reason, fold: 0, says: { code: "afterwards", what } };
           return [sentence(reason, []), sentence(later, [{ name: "half" }])];
         }"""
     )
     assert told == [
         "The cloth hangs 17.7 cm over the table\N{RIGHT SINGLE QUOTATION MARK}s far edge, and nothing holds it there.",
-        "\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: it hangs.",
+        "Half: afterwards layer 1 hangs over the far edge and nothing holds its corner at (61, 57) cm of the garment, "
+        "17.7 cm beyond the edge.",
     ]

@@ -98,8 +98,12 @@ def test_arms_that_collide_in_the_fold_itself_are_told_before_those_that_do_in_a
 
 def test_of_collisions_in_one_situation_the_mildest_is_kept_and_one_of_unknown_depth_is_none_of_them():
     def collision(depth_m: float) -> Obstacle:
-        snag = None if math.isinf(depth_m) else Snag("left", (0.0, 0.0, 0.0), "table", "it would hit", depth_m)
-        return Obstacle(0, Code.COLLISION, "", depth_m, NAPKIN_START, snag=snag)
+        snag = (
+            None
+            if math.isinf(depth_m)
+            else Snag("left", (0.0, 0.0, 0.0), "table", ("left forearm", "table top"), depth_m)
+        )
+        return Obstacle(0, Code.COLLISION, None, depth_m, NAPKIN_START, snag=snag)
 
     for depths in ([math.inf, math.inf, 0.02, 0.01], [0.01, math.inf, 0.02], [0.02, 0.01, math.inf]):
         met = Obstacles()

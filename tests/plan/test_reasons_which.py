@@ -6,6 +6,7 @@ import pytest
 from planner import Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.message import Message
 from planner.plan import plan_search as planning
 from planner.plan.reasons import reasons
 from planner.primitives.obstacle import Code, Obstacle, situation
@@ -107,7 +108,7 @@ def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch):
 
 def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach():
     answer = refused(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed())
-    answer.work.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, "", 1.0, START))
+    answer.work.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, None, 1.0, START))
     found = reasons(answer.work, {situation(START)}, ())
     assert [r.code for r in found] == [Code.OUT_OF_REACH]
 
@@ -118,8 +119,11 @@ def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
     work = make_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).work
     after = [State(done, (0.0, 0.0), 0, 0) for done in (0b01, 0b10)]
     for state, other in zip(after, (1, 0), strict=True):
-        work.obstacles.note(Obstacle(other, Code.SLIPS, f"fold {other} slips after {state.done}", 0.1, state))
-    work.obstacles.note(Obstacle(1, Code.NOT_A_G_STATE, "of no importance: nothing is done yet", 0.01, START))
+        work.obstacles.note(
+            Obstacle(other, Code.SLIPS, Message("slips", f"fold {other} slips after {state.done}"), 0.1, state)
+        )
+    of_no_importance = Message("afterwards", "nothing is done yet")
+    work.obstacles.note(Obstacle(1, Code.NOT_A_G_STATE, of_no_importance, 0.01, START))
     found = reasons(work, {situation(START), *map(situation, after)}, ())
     assert [(r.fold, r.code) for r in found] == [(0, Code.SLIPS), (1, Code.SLIPS)]
 

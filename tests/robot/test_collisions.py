@@ -1,7 +1,6 @@
 """What collides and what does not: postures whose answer geometry gives, laws, and the full meshes' hulls."""
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,7 +10,6 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 from planner.robot.arm import MIRROR
-from planner.robot.collision.contact import Contact
 from tests.replay import hulls
 from tests.robot.collision_samples import CARD, FAR, FRONT, HOME, ROBOT, TORSO_M, both, random_postures, with_left
 
@@ -217,9 +215,3 @@ def test_wider_open_fingers_collide_wherever_closed_ones_do():
     postures = random_postures(300, 18)
     closed, wide = (ROBOT.collisions(Table(), TORSO_M, opening_m).free(FRONT, postures) for opening_m in (0.0, 0.09))
     assert np.all(closed[wide])
-
-
-def test_a_contact_says_what_would_hit_what():
-    contact = Contact("left forearm", "table top", 0.0312)
-    assert str(contact) == "the left forearm would hit the table top by 0.031 m"
-    assert str(replace(contact, second="torso")) == "the left forearm would hit the torso by 0.031 m"

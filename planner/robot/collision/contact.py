@@ -16,6 +16,3 @@ class Contact:
     first: str
     second: str
     depth_m: float
-
-    def __str__(self) -> str:
-        return f"the {self.first} would hit the {self.second} by {self.depth_m:.3f} m"

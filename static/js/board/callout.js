@@ -1,6 +1,7 @@
 /** The first problem in words, beside the place where it is. */
 
 import { element } from "../dom.js";
+import { inWords } from "../messages/in_words.js";
 
 const AWAY_PX = 14;
 
@@ -19,7 +20,8 @@ export class Callout {
     this.root.hidden = !problem || !board.drawing.outline.length;
     if (this.root.hidden) return;
     const name = problem.fold === null ? "" : board.drawing.folds[problem.fold]?.name || `fold ${problem.fold + 1}`;
-    const text = name ? `${name}: ${problem.message}` : problem.message;
+    const words = inWords(problem, board.drawing.folds);
+    const text = name ? `${name}: ${words}` : words;
     this.root.textContent = text[0].toUpperCase() + text.slice(1);
     const [x, y] = board.view.toPx(problem.points[0]);
     const { width, height, top } = board.place;

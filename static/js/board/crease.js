@@ -1,6 +1,6 @@
 /** Asks the server where a fold would be; while the hand moves, again and again, of which only the newest counts. */
 
-import { worded } from "./units.js";
+import { inWords } from "../messages/in_words.js";
 
 const EVERY_MS = 80;
 
@@ -61,14 +61,13 @@ export class CreaseQuestion {
         body: JSON.stringify(body),
       });
       const told = await answer.json();
-      return { ok: answer.ok, told: answer.ok ? told : { detail: sentence(told) } };
+      return { ok: answer.ok, told: answer.ok ? told : { detail: sentence(told, this.board.drawing.folds) } };
     } catch {
       return { ok: false, told: { detail: "The server cannot be reached." } };
     }
   }
 }
 
-function sentence({ errors, detail }) {
-  const text = errors?.[0]?.message ?? detail;
-  return `No fold there: ${worded(text.replace(/^(is|does)/, "it $1"))}.`;
+function sentence({ errors, detail }, folds) {
+  return `No fold there: ${inWords(errors?.[0] ?? { message: detail }, folds)}.`;
 }

@@ -1,6 +1,7 @@
 /** The table from above with the places where the robot may stand; only while the garment is being placed. */
 
 import { toInner } from "./geometry.js";
+import { place } from "../messages/names.js";
 import { path } from "./sheet.js";
 
 /** How large the robot is drawn (m). */
@@ -57,7 +58,7 @@ function station(view, name, { x_m, y_m, yaw_rad }, isStart) {
       x,
       y: y + BASE_M * view.scale * 0.55,
       "text-anchor": "middle",
-      text: name.replaceAll("_", " ") + (isStart ? " (start)" : ""),
+      text: place(name) + (isStart ? " (start)" : ""),
     },
   ];
 }

@@ -4,8 +4,6 @@ const METRES = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, '"': 0.0254 };
 const KEY = "pleat-unit";
 const SUM = /^[-+*/().\d\s]+$/;
 const WITH_UNIT = /(\d+\.?\d*|\.\d+)\s*(mm|cm|in|m|")/g;
-const NUMBER = /-?\d+(?:\.\d+)?/g;
-const LENGTHS = /(-?\d+(?:\.\d+)?|\(-?[\d.]+(?:, -?[\d.]+)+\)) (mm|cm|m)(?![\w^/])/g;
 
 /** The unit that numbers are shown in, and mean when no unit is written. */
 export const unit = {
@@ -93,24 +91,6 @@ function single(read) {
     return read.words[read.at++] === ")" ? value : null;
   }
   return word === undefined || Number.isNaN(Number(word)) ? null : Number(word);
-}
-
-/**
- * A sentence with its lengths in the unit that numbers are shown in: `0.29 m`, `(0.4, -1.2) m`, `8 cm`.
- * Millimetres stay, as long as people think in centimetres.
- * @param {string} text
- */
-export const worded = (text) =>
-  text.replace(LENGTHS, (whole, numbers, suffix) =>
-    suffix === "mm" && unit.name === "cm"
-      ? whole
-      : `${numbers.replace(NUMBER, (value) => short(value * METRES[suffix]))} ${unit.name}`,
-  );
-
-/** No digits too many; what is little keeps two that say something. @param {number} metres */
-function short(metres) {
-  const rounded = Number(number(metres));
-  return String(rounded === 0 ? Number((metres / unit.metres).toPrecision(2)) : rounded);
 }
 
 /** A length as text with its unit. @param {number} metres */

@@ -3,7 +3,8 @@
 import { parsed, problemOf } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { iconButton, relabel } from "./buttons.js";
-import { COLOURS, length, MOVED } from "./words.js";
+import { length } from "../messages/lengths.js";
+import { COLOURS, MOVED } from "./words.js";
 
 /** Fingers that hold less hold nothing (m). */
 const LEAST_GRIP_M = 0.001;

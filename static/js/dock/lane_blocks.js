@@ -1,6 +1,8 @@
 /** What base and arms do in a plan, as blocks on three lanes. */
 
-import { foldName, hands, length, place, seconds, where, whole } from "./words.js";
+import { length } from "../messages/lengths.js";
+import { place } from "../messages/names.js";
+import { foldName, hands, seconds, where, whole } from "./words.js";
 
 /**
  * What an arm or the base does in a primitive: `name` and, where there is room, `rest`, or where there is little a

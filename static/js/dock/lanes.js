@@ -4,7 +4,8 @@ import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
 import { axisTicks } from "./time_axis.js";
-import { hands, place, seconds, whole } from "./words.js";
+import { place } from "../messages/names.js";
+import { hands, seconds, whole } from "./words.js";
 
 const LANES = /** @type {const} */ ([
   ["base", "", "Base"],

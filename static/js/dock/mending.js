@@ -29,7 +29,7 @@ export class Mending extends EventTarget {
     const answer = await fetch(`${this.store.path}/mends`).catch(() => null);
     const told = answer?.ok ? await answer.json() : null;
     if (this.version !== version || told?.version !== version) return;
-    this.take(told.mends.map(({ label, drawing }) => suggestion(label, { drawing, version })));
+    this.take(told.mends.map(({ label, says, drawing }) => suggestion(label, says, { drawing, version })));
   }
 
   /** @param {Suggestion[]} found */
@@ -41,6 +41,6 @@ export class Mending extends EventTarget {
 }
 
 /** A mend has no plan yet, and so no cost. @returns {Suggestion} */
-function suggestion(message, change) {
-  return { kind: "mend", is_assumption: false, message, change, size: 0, cost_s: null };
+function suggestion(message, says, change) {
+  return { kind: "mend", is_assumption: false, message, says, change, size: 0, cost_s: null };
 }

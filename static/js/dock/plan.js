@@ -4,7 +4,8 @@ import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
-import { briefly, hands, place, seconds, where, whole } from "./words.js";
+import { place } from "../messages/names.js";
+import { briefly, hands, seconds, where, whole } from "./words.js";
 
 export class PlanList {
   /**

@@ -1,6 +1,12 @@
-/** Why there is no plan, as one short sentence; the planner's own words have all the numbers. */
+/** Why there is no plan, as one short sentence; `details` has all the numbers. */
 
-import { capital, foldName, length, place, spoken } from "./words.js";
+import { inWords } from "../messages/in_words.js";
+import { enough, length } from "../messages/lengths.js";
+import { called, place } from "../messages/names.js";
+import { capital, foldName } from "./words.js";
+
+/** The fold that a reason is about, in front of what is said of it. */
+const of = ({ fold }, folds) => (fold === null ? "" : `${called(folds, fold)}: `);
 
 /** Statuses for which there is no plan and nothing is being worked out. */
 export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
@@ -30,8 +36,7 @@ const SAYS = {
  */
 export function sentence(reason, folds) {
   const says = SAYS[reason.code];
-  const told = says?.(reason) ?? "";
-  if (!told) return `${capital(firstClause(spoken(reason.message, folds)))}.`;
+  const told = says?.(reason) || inWords(reason, folds).split(". ")[0];
   return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
 }
 
@@ -67,7 +72,7 @@ const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => 
 const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
 
 /**
- * Everything that is known about why, in the planner's words.
+ * Everything that is known about why, with all the numbers.
  * @param {any} message of kind `plan`
  * @param {any} state of kind `document`
  */
@@ -75,8 +80,8 @@ export function details(message, state) {
   const { folds } = state.drawing;
   if (state.problems.some((problem) => problem.code === "outline_unfinished")) return [];
   if (message.status === "illegal") return state.problems.map((problem) => problemSentence(problem, state.drawing));
-  const all = (message.plan?.reasons ?? []).map((reason) => reason.message).filter(Boolean);
-  return all.map((text) => `${capital(spoken(text, folds))}.`);
+  const all = (message.plan?.reasons ?? []).filter((reason) => reason.message);
+  return all.map((reason) => `${of(reason, folds)}${inWords(reason, folds)}.`).map(capital);
 }
 
 function problemSentence(problem, drawing) {
@@ -85,8 +90,8 @@ function problemSentence(problem, drawing) {
     if (drawing.outline.length) return "The outline needs three points or more.";
     return "Nothing is drawn yet: draw an outline (P), or begin with a template.";
   }
-  const about = problem.fold === null ? subject(problem.field) : foldName(drawing.folds[problem.fold], problem.fold);
-  return `${capital(about)}: ${spoken(problem.message, drawing.folds)}.`;
+  const what = problem.fold === null ? subject(problem.field) : foldName(drawing.folds[problem.fold], problem.fold);
+  return `${capital(what)}: ${inWords(problem, drawing.folds)}.`;
 }
 
 function subject(field) {
@@ -94,18 +99,15 @@ function subject(field) {
 }
 
 /** How the cloth lies at the start, in the page's unit; nothing of what comes later. */
-function atRest({ fold, message, short_by_m: short }) {
-  if (fold !== null || !short) return "";
-  const [, edge] = message.match(/^as the garment lies at the start, .*hangs over the (\w+) edge and nothing/) ?? [];
-  if (edge) return `the cloth hangs ${length(short)} over the table\u2019s ${edge} edge, and nothing holds it there`;
-  const isBeside = message.includes("nothing of the cloth lies on the table");
-  if (isBeside) return `the cloth lies ${length(short)} beside the table`;
-  return message.includes("covers the table's corner") ? "the cloth hangs over two edges of the table at a corner" : "";
+function atRest({ says }) {
+  if (says.code !== "at_start") return "";
+  const { code, edge, beyond_m: beyond, off_m: off } = says.what;
+  if (code === "hangs_loose") {
+    return `the cloth hangs ${length(beyond)} over the table\u2019s ${edge} edge, and nothing holds it there`;
+  }
+  if (code === "beside_table") return `the cloth lies ${length(off)} beside the table`;
+  return code === "corner_covered" ? "the cloth hangs over two edges of the table at a corner" : "";
 }
-
-/** A radius that will do: rounded up. */
-const enough = (radius) => length(Math.ceil(1000 * radius) / 1000);
-const firstClause = (text) => text.split(";")[0];
 
 function outOfReach(reason) {
   const { arm, station, short_by_m: short, is_at_least: isAtLeast, comfort_m: comfort } = reason;

@@ -2,7 +2,8 @@
 
 import { button, element } from "../dom.js";
 import { applyChange } from "./suggestion_change.js";
-import { seconds, spoken } from "./words.js";
+import { inWords } from "../messages/in_words.js";
+import { capital, seconds } from "./words.js";
 
 /**
  * @param {import("../store.js").Store} store
@@ -11,8 +12,8 @@ import { seconds, spoken } from "./words.js";
  * @returns {HTMLButtonElement}
  */
 export function suggestionButton(store, suggestion, className) {
-  const { change, cost_s: cost, is_assumption: isAssumed, message } = suggestion;
-  const what = spoken(message.replace(/: [\d.]+ s$/, ""), store.state.drawing.folds);
+  const { change, cost_s: cost, is_assumption: isAssumed } = suggestion;
+  const what = capital(inWords(suggestion, store.state.drawing.folds));
   const apply = () => {
     store.setPreview(null);
     const isStillMeant = () => !change.drawing || change.version === store.state.version;

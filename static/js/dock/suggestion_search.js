@@ -7,6 +7,7 @@ import { eventStream } from "./event_stream.js";
  * @property {string} kind
  * @property {boolean} is_assumption
  * @property {string} message
+ * @property {import("../messages/in_words.js").Says} says
  * @property {any} change fields of a plan request
  * @property {number} size
  * @property {number|null} cost_s of the plan with the change; null if that is not known

@@ -1,22 +1,16 @@
 /** Plans and folds in words. Folds are counted from 1 for people; programs count them from 0. */
 
-import { number, unit, worded } from "../board/units.js";
+import { length } from "../messages/lengths.js";
+import { place } from "../messages/names.js";
 
 export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };
 export const COLOURS = { blue: "Blue", red: "Red" };
 export const MOVED = { blue: "all layers", red: "last flap" };
 
 const BACKED_OFF_M = 0.001;
-const COUNTED = /\b(?:edges?|points?) \d+(?: and \d+)?/g;
 
 /** @param {number} value seconds */
 export const seconds = (value) => `${value.toFixed(1)} s`;
-
-/** A length in the unit of the page, no digits too many. @param {number} metres */
-export const length = (metres) => `${Number(number(metres))} ${unit.name}`;
-
-/** @param {string} station as in `front_left` */
-export const place = (station) => station.replaceAll("_", " ");
 
 /** @param {string} text */
 export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -27,25 +21,6 @@ export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
  * @param {number} index
  */
 export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
-
-/** Stands for a fold's name while the rest of a sentence is put in other words. @param {number} index */
-const mark = (index) => String.fromCharCode(0xe000 + index);
-const called = (fold, index) => (fold.name ? `\u201C${fold.name}\u201D` : `fold ${index + 1}`);
-
-/**
- * A sentence of the planner as the page puts it: what folds are called, corners and edges counted from 1, lengths in its
- * unit.
- * @param {string} text as in `fold 0 'half': ...`
- * @param {{name?: string}[]} folds
- */
-export function spoken(text, folds) {
-  const marked = folds.reduce((told, fold, index) => {
-    const quoted = `${index} '${fold.name ?? ""}'`;
-    return told.replaceAll(`fold ${quoted}`, mark(index)).replaceAll(quoted, mark(index));
-  }, text);
-  const counted = marked.replace(COUNTED, (words) => words.replace(/\d+/g, (index) => String(Number(index) + 1)));
-  return folds.reduce((told, fold, index) => told.replaceAll(mark(index), called(fold, index)), worded(counted));
-}
 
 /**
  * What a primitive does.

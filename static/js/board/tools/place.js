@@ -3,6 +3,7 @@
 import { BASE_M } from "../draw_table.js";
 import { middleOf } from "../edits.js";
 import { boxOf, distance, isInside, minus, plus, times, toOuter, turned } from "../geometry.js";
+import { place } from "../../messages/names.js";
 import { Gesture } from "../gesture.js";
 import { Tool } from "./tool.js";
 
@@ -133,7 +134,7 @@ export class PlaceTool extends Tool {
     const { store, drawing } = this.board;
     const station = this.held && !this.held.grasp && !hasMoved ? this.station(pointer) : null;
     if (station && station !== drawing.start_station) {
-      store.edit(`Start at ${station.replaceAll("_", " ")}`, (changed) => void (changed.start_station = station));
+      store.edit(`Start at ${place(station)}`, (changed) => void (changed.start_station = station));
     }
     this.held = null;
     this.gesture = null;

@@ -1,0 +1,33 @@
+"""What is said to people, as data: a code and named numbers, with the sentence that programs and logs print.
+
+Whoever shows a message in another unit, numbering or language makes the words from the code and the numbers, and never
+reads a number back out of the sentence.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A sentence, and the data it is made of.
+
+    Attributes:
+        code: what is said; the names of the values follow from it.
+        text: the sentence in English: metres, indices from 0, without its full stop.
+        values: the named values, as JSON: SI units, folds and edges by index.
+    """
+
+    code: str
+    text: str
+    values: Mapping[str, Any] = field(default_factory=dict)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The code and the values as one JSON object, without the sentence."""
+        return {"code": self.code, **self.values}
+
+
+def plain_points(points: Iterable[Iterable[float]]) -> list[list[float]]:
+    """Points as JSON."""
+    return [[float(coordinate) for coordinate in point] for point in points]

@@ -1,0 +1,27 @@
+/** Ways and directions of the table frame in words, as the robot sees them from the near edge of the table. */
+
+import { length } from "./lengths.js";
+
+/** A shorter way need not be told (m). */
+const NOTICEABLE_M = 5e-4;
+/** Only what is more than 22 degrees off an axis is oblique. */
+const OBLIQUE = 0.4;
+
+/** As in `8 cm towards the robot and 5 cm to the left`; empty for none. @param {number[]} by (m) */
+export function moved([x, y]) {
+  const parts = [];
+  if (Math.abs(x) > NOTICEABLE_M) parts.push(`${length(Math.abs(x))} ${ahead(x)}`);
+  if (Math.abs(y) > NOTICEABLE_M) parts.push(`${length(Math.abs(y))} ${aside(y)}`);
+  return parts.join(" and ");
+}
+
+/** @param {number[]} towards */
+export function direction([x, y]) {
+  const parts = [];
+  if (Math.abs(x) > OBLIQUE * Math.abs(y)) parts.push(ahead(x));
+  if (Math.abs(y) > OBLIQUE * Math.abs(x)) parts.push(aside(y));
+  return parts.join(" and ");
+}
+
+const ahead = (x) => (x > 0 ? "away from the robot" : "towards the robot");
+const aside = (y) => (y > 0 ? "to the left" : "to the right");

@@ -1,0 +1,24 @@
+/**
+ * Messages of the server in words. A message comes as a code and named numbers in SI units, folds and edges counted from
+ * 0; here they become a sentence in the page's unit and numbering. No number is read out of a sentence.
+ */
+
+import { CHANGES } from "./changes.js";
+import { DRAWING } from "./drawing.js";
+import { REASONS } from "./reasons.js";
+
+/** @typedef {{code: string, [name: string]: any}} Says */
+/** @typedef {{[code: string]: (says: any, folds: {name?: string}[]) => string}} Catalogue */
+
+/** @type {Catalogue} */
+const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES };
+
+/**
+ * A message without a capital in front and a full stop behind. One that has no numbers comes as its sentence alone.
+ * @param {{says?: Says|null, message: string}} told
+ * @param {{name?: string}[]} folds
+ */
+export function inWords({ says, message }, folds) {
+  const words = says ? CATALOGUE[says.code] : undefined;
+  return words && says ? words(says, folds) : message;
+}

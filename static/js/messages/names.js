@@ -1,0 +1,14 @@
+/** What things are called in messages: folds by name or counted from 1, stations by their words. */
+
+/**
+ * @param {{name?: string}[]} folds
+ * @param {number} index
+ */
+export const called = (folds, index) =>
+  folds[index]?.name ? `\u201C${folds[index].name}\u201D` : `fold ${index + 1}`;
+
+/** @param {string} station as in `front_left` */
+export const place = (station) => station.replaceAll("_", " ");
+
+/** Corners, edges and layers are counted from 1 for people. @param {number} index */
+export const counted = (index) => index + 1;

@@ -1,0 +1,196 @@
+"""Messages in the page's own words: made from a code and numbers, in its unit, and never from a sentence."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from tests.app.conftest import Served
+from tests.browser.board_desk import window
+
+ROOT = Path(__file__).parent.parent.parent
+FOLDS = [{"name": ""}, {"name": "edge 3, 5 cm from mum's hem"}]
+HEM = "\u201cedge 3, 5 cm from mum's hem\u201d"
+REACH: dict[str, Any] = {
+    "code": "out_of_reach",
+    "arm": "left",
+    "at": [-0.5, 0.25, -0.05],
+    "moment": "top",
+    "demand": "driving",
+    "cause": "too_far",
+    "joint": "shoulder pan",
+    "towards": [0.0, 0.0, -1.0],
+    "short_by_m": 0.04,
+    "is_at_least": False,
+    "comfort_m": None,
+    "wanted_comfort_m": 0.03,
+    "station": "front_right",
+    "back_off_m": 0.2,
+    "dragged": [-0.1, 0.0],
+    "is_held": True,
+    "shift_m": 0.05,
+    "shift_towards": [-1.0, 0.0, 0.0],
+    "tried_m": 0.2,
+}
+LOOSE = {"code": "hangs_loose", "layer": 0, "edge": "near", "at": [0.1, -0.2], "beyond_m": 0.05}
+RADII = {"grip_radius_m": 0.127, "needed_grip_radius_m": 0.1502}
+COLLISION = {"station": "front_left", "drag": [-0.1, 0.05], "dragged": [0.0, 0.0], "is_held": False}
+TOLD: list[dict[str, Any]] = [
+    {"code": "outline_points", "points": 401, "most": 400},
+    {"code": "outline_area", "area_m2": 0.00005, "least_m2": 0.0001},
+    {"code": "edge_too_short", "edge": 3, "from": 3, "to": 0, "length_m": 0.000012, "least_m": 0.001},
+    {"code": "edges_cross", "edges": [0, 2], "at": [0.25, 0.25]},
+    {"code": "line_too_short", "length_m": 0.0005, "least_m": 0.001},
+    {"code": "end_off_boundary", "at": [0.42, 0.75], "off_m": 0.1047, "most_m": 0.005},
+    {"code": "would_tear", "along_m": 0.0123},
+    {"code": "unknown_station", "station": "far_left", "stations": ["front", "front_left"]},
+    {"code": "dropped_too_near", "apart_m": 0.0005, "least_m": 0.001},
+    {"code": "not_on_flap", "at": [0.1, 0.2]},
+    {"code": "no_cloth_there", "at": [0.1, 0.2]},
+    {"code": "line_misses_cloth"},
+    {"code": "fewer_folds", "asked": 3, "legal": 1},
+    REACH,
+    {**REACH, "cause": "comfort_only", "comfort_m": 0.0151, "joint": None, "shift_m": None, "shift_towards": None},
+    {**REACH, "is_at_least": True, "moment": "pick", "dragged": [0.0, 0.0], "is_held": False},
+    {"code": "too_many_grips", "points": [[0.42, 0.75], [0.6, 0.4], [0.6, 0.0]], "hands": 2, **RADII},
+    {"code": "grips_too_close", "points": [[0.0, 0.1], [0.0, 0.18]], "apart_m": 0.08, "needed_apart_m": 0.1, **RADII},
+    {"code": "red_unheld", "at": [0.2, 0.2], "before": 0},
+    {"code": "red_held_too_far", "at": [0.2, 0.2], "before": 1, **RADII},
+    {"code": "arms_cannot_get_there", **COLLISION},
+    {
+        "code": "collision",
+        **COLLISION,
+        "arm": "left",
+        "at": [-0.45, 0.15, -0.05],
+        "parts": ["left forearm", "table top"],
+        "depth_m": 0.031,
+    },
+    {"code": "line_off_table", "off_m": 0.1, "dragged": [0.0, 0.0], "is_held": False},
+    {"code": "behind_line", "behind_m": 0.1, "dragged": [0.0, 0.0], "is_held": False},
+    {"code": "at_start", "what": LOOSE, "is_too_large": False, "dragged": [0.0, 0.0], "is_held": False},
+    {"code": "afterwards", "what": LOOSE, "dragged": [-0.1, 0.2], "is_held": False},
+    {"code": "beside_table", "off_m": 0.2},
+    {"code": "corner_covered", "corner": [-0.8, 0.49], "depth_m": 0.05},
+    {"code": "hangs_from_several", "area_m2": 0.0123, "edges": ["right", "near"]},
+    LOOSE,
+    {"code": "slips", "hanging_m2": {"near": 0.08}, "lying_m2": 0.04, "friction": 1.0, "needed_friction": 2.0},
+    {"code": "waits_for", "folds": [0, 1]},
+    {"code": "not_with_the_others"},
+    {"code": "place", "quarters": 1, "by": [-0.08, 0.05]},
+    {"code": "shift_fold", "fold": 1, "by_m": 0.0125, "towards": [0.0, 1.0]},
+    {"code": "fold_before", "fold": 1, "before": 0},
+    {"code": "fold_in_order", "folds": [1, 0]},
+    {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},
+    {"code": "assume_comfort", "comfort_m": 0.01, "now_m": 0.03},
+    {"code": "assume_friction", "friction": 1.5, "now": 1.0},
+    {"code": "assume_grip_radius", "grip_radius_m": 0.15, "folds": [0, 1]},
+    {"code": "make_blue", "fold": 1},
+    {"code": "put_onto_cloth", "fold": 0},
+    {"code": "put_onto_flap", "fold": 0},
+    {"code": "delete_fold", "fold": 0},
+    {"code": "merge_two"},
+    {"code": "merge_near", "nearer_m": 0.001},
+    {"code": "exchange_two"},
+    {"code": "uncross"},
+    {"code": "delete_corner"},
+    {"code": "start_at", "station": "front_left"},
+    {"code": "take_back", "step": "Move vertex"},
+]
+NAMED = [f"{number}-{says['code']}" for number, says in enumerate(TOLD)]
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser, designer: Served) -> Iterator[Page]:
+    with window(chromium) as page:
+        page.goto(f"{designer.url}/static/icon.svg")  # of the same origin, and nothing runs in it
+        yield page
+
+
+def told(page: Page, says: dict[str, Any], unit: str) -> str:
+    """What the page makes of a message; its sentence is of no use."""
+    words: str = page.evaluate(
+        """async ([told, folds, name]) => {
+          const { unit } = await import("/static/js/board/units.js");
+          const { inWords } = await import("/static/js/messages/in_words.js");
+          unit.name = name;
+          return inWords(told, folds);
+        }""",
+        [{"says": says, "message": "RUBBISH"}, FOLDS, unit],
+    )
+    return words
+
+
+def codes_in_python() -> set[str]:
+    """The code of every `Message` that is made somewhere; where it is put together, how it begins."""
+    found: set[str] = set()
+    for path in (*(ROOT / "planner").rglob("*.py"), *(ROOT / "app").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Message":
+                code = node.args[0]
+                if isinstance(code, ast.JoinedStr):
+                    code = code.values[0]
+                if isinstance(code, ast.Constant):
+                    found.add(str(code.value))
+    return found
+
+
+def test_the_page_has_words_for_every_message_that_is_made(page: Page) -> None:
+    codes = codes_in_python()
+    known = {says["code"] for says in TOLD}
+    assert {code for code in codes if not any(name.startswith(code) for name in known)} == set()
+    assert {name for name in known if not any(name.startswith(code) for code in codes)} == set()
+
+
+@pytest.mark.parametrize("says", TOLD, ids=NAMED)
+def test_a_message_is_told_in_the_pages_unit_from_its_numbers_alone(page: Page, says: dict[str, Any]) -> None:
+    in_cm, in_inches = (told(page, says, unit).replace(HEM, "").replace("mum", "") for unit in ("cm", "in"))
+    for words in (in_cm, in_inches):
+        assert not re.search(r"RUBBISH|undefined|NaN|null|object|_|\de\+|fold 0|edge 0|point 0|layer 0", words)
+        assert not re.search(r"\d\)? m\b|\d mm\b|\dm\b", words)
+        assert "-5 cm over" not in words
+    assert not re.search(r"\d\)? in\b", in_cm)
+    assert not re.search(r"\bcm\b", in_inches)
+
+
+TOLD_EXACTLY = [
+    ({"code": "edges_cross", "edges": [0, 2], "at": [0.25, 0.25]}, "edges 1 and 3 cross at (25, 25) cm of the garment"),
+    (
+        {"code": "end_off_boundary", "at": [0.42, 0.75], "off_m": 0.1047, "most_m": 0.005},
+        "its end at (42, 75) cm of the garment is 10.5 cm from the cloth\u2019s edge; ends within 0.5 cm snap to it",
+    ),
+    (
+        {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},
+        "let the robot also stand at a station \u201cmiddle left\u201d, 40000 cm to the left as seen from the "
+        "table\u2019s middle",
+    ),
+    (
+        {"code": "too_many_grips", "points": [[0.42, 0.75], [0.6, 0.4], [0.6, 0.0]], "hands": 2, **RADII},
+        "3 points of its edge must be held, at (42, 75) cm, (60, 40) cm and (60, 0) cm of the garment: more than 2 "
+        "hands can when each holds what is within 12.7 cm of it. A grip radius of 15.1 cm would do, or a fold that "
+        "moves less",
+    ),
+    (
+        REACH,
+        "the left grip at (-50, 25) cm from the table\u2019s middle, 5 cm below the table\u2019s top at the top of its "
+        "way, as high as it is far from the fold line, is 4 cm out of reach from where the base is by then (too far "
+        "up, shoulder pan limit). Closest: front right, backed off 20 cm (the cloth dragged 10 cm towards the robot "
+        "from where it starts and held on to). All of its way is in reach 5 cm nearer to the robot: move the cloth or "
+        "the station",
+    ),
+    ({"code": "waits_for", "folds": [0, 1]}, f"waits for fold 1 and {HEM}, which cannot be done"),
+]
+
+
+@pytest.mark.parametrize(("says", "words"), TOLD_EXACTLY, ids=[str(says["code"]) for says, _ in TOLD_EXACTLY])
+def test_a_message_says_where_how_much_and_what_to_do(page: Page, says: dict[str, Any], words: str) -> None:
+    assert told(page, says, "cm") == words
+
+
+def test_a_message_without_numbers_is_its_sentence(page: Page) -> None:
+    assert page.evaluate(
+        "import('/static/js/messages/in_words.js').then((m) => m.inWords({ says: null, message: 'so it is' }, []))"
+    ) == ("so it is")
