@@ -103,8 +103,8 @@ class FoldPath:
     def _baseline_step(self, grips: FloatArray) -> float:
         """How far the baseline may go between waypoints (m).
 
-        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far, and where
-        it clears the edge outwards as well.
+        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far, and
+        where it clears the edge outwards as well.
         """
         start, apex, end = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
         if self.top.covers(np.array([start, apex, end])):
