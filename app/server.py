@@ -10,6 +10,7 @@ import uvicorn
 from app.api.create_app import create_app
 from app.log import logging_to, standard_error
 from app.settings import Settings
+from app.timed_protocol import TimedProtocol
 from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
@@ -49,6 +50,7 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
         config = uvicorn.Config(
             create_app(bound),
             log_config=None,
+            http=TimedProtocol,
             ws_max_size=_LARGEST_MESSAGE,
             ws_per_message_deflate=False,
             timeout_graceful_shutdown=_GRACE_S,
