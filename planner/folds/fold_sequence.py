@@ -7,8 +7,10 @@ it is asked for.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
+import numpy as np
 from networkx import has_path
 
 from planner.cloth.cloth_state import ClothState
@@ -22,6 +24,7 @@ from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 
@@ -43,7 +46,7 @@ class FoldSequence:
     final: ClothState
     _folded: dict[tuple[int, int], Folded]
     _cloths: dict[int, ClothState]
-    _covers: dict[tuple[int, int, float, int], GripCovers]
+    _covers: dict[tuple[int, float, int], GripCovers]
 
     @staticmethod
     def of(garment: Garment) -> "FoldSequence":
@@ -91,11 +94,28 @@ class FoldSequence:
             self._folded[key] = fold_cloth(self.cloth(done), fold.line, is_red=fold.is_red, crease=crease)
         return self._folded[key]
 
-    def covers(self, done: int, index: int, support_angle_rad: float, arms: int) -> GripCovers:
+    def moving(self, index: int) -> Region:
+        """Return the silhouette of the part that a fold moves, where it was.
+
+        By the DAG's law it is the same after every set of folds that the fold may follow. So it is that of the replay
+        in the user's order, which is known: to fold the cloth anew for every set takes a search most of its time.
+        """
+        return self.folded((1 << index) - 1, index).moving
+
+    @cached_property
+    def covered(self) -> FloatArray:
+        """Points whose extent holds the cloth after any set of folds, shape (n, 2), m: where parts lay and land."""
+        parts = (self.moving(fold.index) for fold in self.folds)
+        landed = (
+            Isometry.reflection(fold.line).apply(part.coordinates) for fold, part in zip(self.folds, parts, strict=True)
+        )
+        return np.concatenate([self.garment.pattern.coordinates, *landed])
+
+    def covers(self, index: int, support_angle_rad: float, arms: int) -> GripCovers:
         """What must be held during a fold, and the best grips for it."""
-        key = (done, index, support_angle_rad, arms)
+        key = (index, support_angle_rad, arms)
         if key not in self._covers:
-            fold, moving = self.folds[index], self.folded(done, index).moving
+            fold, moving = self.folds[index], self.moving(index)
             vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
             self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms, (fold.line,))
         return self._covers[key]

@@ -58,7 +58,7 @@ class Cases:
                     key = (station, *(Held(0, point).key for point in cover))
                     if key not in seen:
                         seen.add(key)
-                        yield from (Case(done, held, station) for held in self._serving(done, fold, cover))
+                        yield from (Case(done, held, station) for held in self._serving(fold, cover))
 
     def _offsets_that_matter(self, done: int, fold: int) -> Iterator[Point2]:
         """The offsets from which a drag may leave held what serves a fold and no other offset does.
@@ -71,7 +71,7 @@ class Cases:
         is_whole_seen = False
         for offset in ((float(x), float(y)) for x, y in self._offsets):
             is_whole = work.table_in_article(offset).contains(silhouette)
-            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(done, fold, offset)):
+            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(fold, offset)):
                 continue
             is_whole_seen |= is_whole
             yield offset
@@ -84,19 +84,19 @@ class Cases:
             return ()
         return tuple(cover for cover in drag_covers(work, done, offset, towards).covers if cover)
 
-    def _serving(self, done: int, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
+    def _serving(self, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
         """What arms may hold with some grips, if they hold what a fold needs."""
         work = self._work
         held = tuple(Held(arm, point) for arm, point in enumerate(cover))
-        if held_covers(work, done, fold, held):
+        if held_covers(work, fold, held):
             for arms in permutations(range(len(work.reach.arm_names)), len(cover)):
                 yield tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
 
-    def _is_near(self, done: int, fold: int, offset: Point2) -> bool:
+    def _is_near(self, fold: int, offset: Point2) -> bool:
         """Whether all that must be held in a fold lies within a grip's radius of the table."""
         work = self._work
         arms = len(work.reach.arm_names)
-        vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+        vertices = np.array(work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices)
         radius = work.sequence.folds[fold].grip_radius_m + LENGTH_M
         edges = work.table_in_article(offset).edges
         return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)

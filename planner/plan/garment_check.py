@@ -112,9 +112,9 @@ def _checks(work: Work) -> Iterator[FoldCheck]:
     left_held: list[tuple[Point2, ...]] = []
     for fold in work.sequence.folds:
         done = (1 << fold.index) - 1
-        found = work.sequence.covers(done, fold.index, angle, arms)
+        found = work.sequence.covers(fold.index, angle, arms)
         if fold.is_red:
-            held_sets = [c for held in left_held for c in held_covers(work, done, fold.index, _as_held(held))]
+            held_sets = [c for held in left_held for c in held_covers(work, fold.index, _as_held(held))]
             covers = [tuple(h.point for h in cover) for cover in held_sets]
             obstacle = None if covers else _not_held(work, done, fold.index, left_held)
         else:
@@ -125,7 +125,7 @@ def _checks(work: Work) -> Iterator[FoldCheck]:
         yield FoldCheck(
             fold.name,
             fold.is_red,
-            vertex_checks(work.sequence.folded(done, fold.index).moving, fold.line, angle),
+            vertex_checks(work.sequence.moving(fold.index), fold.line, angle),
             covers[0] if covers else (),
             len(covers[0]) if covers else found.count,
             None if obstacle is None else of_obstacle(work, obstacle).message,

@@ -26,12 +26,12 @@ def of_obstacle(work: Work, obstacle: Obstacle) -> Reason:
         return collision_reason(work, obstacle, obstacle.state)
     if obstacle.fold is not None and obstacle.state is not None:
         if obstacle.code is Code.TOO_MANY_GRIPS:
-            return _too_many_grips(work, obstacle.fold, obstacle.state.done)
+            return _too_many_grips(work, obstacle.fold)
         if obstacle.code is Code.GRIPS_TOO_CLOSE:
-            return _grips_too_close(work, obstacle.fold, obstacle.state.done)
+            return _grips_too_close(work, obstacle.fold)
         if obstacle.code is Code.RED_NEEDS_HOLD:
-            held = lifted_points(work, obstacle.state.done, obstacle.fold, obstacle.state.held)
-            return _red_needs_hold(work, obstacle.fold, obstacle.state.done, tuple(held))
+            held = lifted_points(work, obstacle.fold, obstacle.state.held)
+            return _red_needs_hold(work, obstacle.fold, tuple(held))
     return _at_rest(work, obstacle)
 
 
@@ -65,10 +65,10 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
     )
 
 
-def _too_many_grips(work: Work, fold: int, done: int) -> Reason:
+def _too_many_grips(work: Work, fold: int) -> Reason:
     drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
-    vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
-    needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, vertices, arms)
+    vertices = np.array(work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices)
+    needed = needed_radius(work.sequence.moving(fold), drawn.line, vertices, arms)
     ordered = vertices[np.argsort(drawn.line.positions(vertices), kind="stable")]
     where = _along(ordered)
     text = (
@@ -82,12 +82,12 @@ def _too_many_grips(work: Work, fold: int, done: int) -> Reason:
     return Reason(fold, Code.TOO_MANY_GRIPS, says, short_by_m=short, needed_grip_radius_m=needed)
 
 
-def _grips_too_close(work: Work, fold: int, done: int) -> Reason:
+def _grips_too_close(work: Work, fold: int) -> Reason:
     drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
-    found = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms)
+    found = work.sequence.covers(fold, work.scene.support_angle_rad, arms)
     cover = np.array(max(found.covers, key=lambda c: nearest_pair_m(np.array(c))))
     apart = nearest_pair_m(cover)
-    needed = needed_radius(work.sequence.folded(done, fold).moving, drawn.line, np.array(found.vertices), 1)
+    needed = needed_radius(work.sequence.moving(fold), drawn.line, np.array(found.vertices), 1)
     text = (
         f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
         f"{GRIPS_APART_M:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, one hand would "
@@ -103,9 +103,9 @@ def _grips_too_close(work: Work, fold: int, done: int) -> Reason:
     return Reason(fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=GRIPS_APART_M - apart, needed_grip_radius_m=needed)
 
 
-def _red_needs_hold(work: Work, fold: int, done: int, held: tuple[Point2, ...]) -> Reason:
+def _red_needs_hold(work: Work, fold: int, held: tuple[Point2, ...]) -> Reason:
     drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
-    vertices = np.array(work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices)
+    vertices = np.array(work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices)
     x, y = farthest_from(held, vertices)
     needed = held_radius(held, vertices)
     before = work.sequence.folds[fold - 1].label

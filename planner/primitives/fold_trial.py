@@ -80,15 +80,15 @@ class Depths:
 
     def __init__(self, work: Work) -> None:
         self._work = work
-        self._known: dict[tuple[int, int], tuple[float, float]] = {}
+        self._known: dict[int, tuple[float, float]] = {}
 
-    def of(self, done: int, fold: int) -> tuple[float, float]:
+    def of(self, fold: int) -> tuple[float, float]:
         """The smallest and the largest distance from the line, to the left (m)."""
-        if (done, fold) not in self._known:
-            moving = self._work.sequence.folded(done, fold).moving
+        if fold not in self._known:
+            moving = self._work.sequence.moving(fold)
             distances = self._work.sequence.folds[fold].line.left_distances(moving.coordinates)
-            self._known[done, fold] = (float(distances.min()), float(distances.max()))
-        return self._known[done, fold]
+            self._known[fold] = (float(distances.min()), float(distances.max()))
+        return self._known[fold]
 
 
 def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
@@ -106,7 +106,7 @@ def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacl
         text = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
         says = Message("line_off_table", text, {"off_m": float(off)})
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
-    behind = -work.kept(Depths).of(state.done, fold)[0]
+    behind = -work.kept(Depths).of(fold)[0]
     if behind > LENGTH_M:
         text = (
             f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
@@ -132,12 +132,12 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
         yield FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
 
 
-def held_covers(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
+def held_covers(work: Work, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
     """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
 
     Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
-    return work.kept(_HeldCovers).of(done, fold, held)
+    return work.kept(_HeldCovers).of(fold, held)
 
 
 class _HeldCovers:
@@ -151,26 +151,26 @@ class _HeldCovers:
         self._work = work
         self._known: dict[tuple[object, ...], tuple[tuple[int, ...], ...]] = {}
 
-    def of(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
-        key = (done, fold, *(h.key for h in held))
+    def of(self, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
+        key = (fold, *(h.key for h in held))
         if key not in self._known:
             number = {h.point: i for i, h in enumerate(held)}
-            covers = self._search(done, fold, held)
+            covers = self._search(fold, held)
             self._known[key] = tuple(tuple(number[point] for point in cover) for cover in covers)
         return tuple(tuple(held[i] for i in numbers) for numbers in self._known[key])
 
-    def _search(self, done: int, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
+    def _search(self, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
         work = self._work
         arms = len(work.reach.arm_names)
-        vertices = work.sequence.covers(done, fold, work.scene.support_angle_rad, arms).vertices
-        points = lifted_points(work, done, fold, held)
+        vertices = work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices
+        points = lifted_points(work, fold, held)
         radius = work.sequence.folds[fold].grip_radius_m
         return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
 
 
-def lifted_points(work: Work, done: int, fold: int, held: tuple[Held, ...]) -> list[Point2]:
+def lifted_points(work: Work, fold: int, held: tuple[Held, ...]) -> list[Point2]:
     """Those of the grips held that are on the part that a fold moves, article frame (m)."""
-    line, moving = work.sequence.folds[fold].line, work.sequence.folded(done, fold).moving
+    line, moving = work.sequence.folds[fold].line, work.sequence.moving(fold)
     return [h.point for h in held if _is_lifted(h.point, moving, line)]
 
 
@@ -183,7 +183,7 @@ def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
 def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
     arms = len(work.reach.arm_names)
-    covers = work.sequence.covers(state.done, fold, work.scene.support_angle_rad, arms)
+    covers = work.sequence.covers(fold, work.scene.support_angle_rad, arms)
     if not covers.is_holdable:
         return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
     apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
@@ -194,7 +194,7 @@ def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
 
 def _path(work: Work, state: State, fold: int) -> FoldPath:
     line = work.sequence.folds[fold].line
-    _, depth = work.kept(Depths).of(state.done, fold)
+    _, depth = work.kept(Depths).of(fold)
     ends = work.placed(state.offset).to_outer(np.array([line.start, line.end]))
     in_table = Segment(_plain(ends[0]), _plain(ends[1]))
     top = TableTop.of(work.scene.table)
@@ -213,7 +213,7 @@ def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[i
     if obstacle is not None:
         work.obstacles.note(obstacle)
         return
-    covers = work.sequence.covers(state.done, fold, work.scene.support_angle_rad, len(work.reach.arm_names))
+    covers = work.sequence.covers(fold, work.scene.support_angle_rad, len(work.reach.arm_names))
     for cover in covers.covers:
         points = work.placed(state.offset).to_outer(np.array(cover))
         if nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
@@ -223,7 +223,7 @@ def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[i
 
 def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
     """The fewest of the grips held that hold all that must be held."""
-    covers = held_covers(work, state.done, fold, state.held)
+    covers = held_covers(work, fold, state.held)
     if not covers and not state.is_dragged:
         work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))
     for cover in covers:

@@ -81,10 +81,10 @@ class HoldingDrags:
         """The folds that can be done with the grips."""
         if not drag.afters:
             return []
-        done, held = drag.before.done, drag.afters[0].held
+        held = drag.afters[0].held
         sequence = self._work.sequence
-        blue = (fold for fold in sequence.dag.available(done) if not sequence.folds[fold].is_red)
-        return [fold for fold in blue if held_covers(self._work, done, fold, held)]
+        blue = (fold for fold in sequence.dag.available(drag.before.done) if not sequence.folds[fold].is_red)
+        return [fold for fold in blue if held_covers(self._work, fold, held)]
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Later[DragStep]]:
         """The drags that serve a fold best, drag and fold together taking so many steps of driving or more."""

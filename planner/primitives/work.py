@@ -108,10 +108,20 @@ class Work:
 
     def is_all_on_table(self, done: int, offset: Point2) -> bool:
         """Whether the cloth after some folds lies on the table altogether after drags by `offset`."""
+        if all(self._is_over_top(corner, offset) for corner in self._extent_of_all):
+            return True
         if done not in self._extents:
-            points = self.placement.to_outer(self.sequence.cloth(done).silhouette.coordinates)
-            self._extents[done] = (points.min(axis=0), points.max(axis=0))
+            self._extents[done] = self._extent(self.sequence.cloth(done).silhouette.coordinates)
         return all(self._is_over_top(corner, offset) for corner in self._extents[done])
+
+    @cached_property
+    def _extent_of_all(self) -> tuple[FloatArray, FloatArray]:
+        """The smallest and largest coordinates of all places to which folds carry cloth; to fold it takes longer."""
+        return self._extent(self.sequence.covered)
+
+    def _extent(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        placed = self.placement.to_outer(points)
+        return placed.min(axis=0), placed.max(axis=0)
 
     def _is_over_top(self, point: FloatArray, offset: Point2) -> bool:
         """Whether a point, table frame as long as nothing has been dragged, is over the top after drags."""

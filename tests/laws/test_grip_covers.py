@@ -109,7 +109,7 @@ def test_the_folds_of_a_shipped_garment_are_held_as_trying_everything_holds_them
     sequence, arms, support_rad = FoldSequence.of(load_garment(name)), 2, math.radians(5.0)
     for one in sequence.folds:
         done = (1 << one.index) - 1
-        found = sequence.covers(done, one.index, support_rad, arms)
+        found = sequence.covers(one.index, support_rad, arms)
         ring = tuple((x, y) for x, y in sequence.folded(done, one.index).moving.ring.tolist())
         tried = exhaustive(ring, list(found.vertices), one.grip_radius_m, arms, one.line)
         assert found.covers and are_same(list(found.covers), tried)
