@@ -45,13 +45,16 @@ def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
 
     None for a point off the ring.
     """
-    for last, corner, following in zip(before(ring), ring, after(ring), strict=True):
-        side = Segment(_point(corner), _point(following))
-        if np.hypot(*(corner - point)) <= LENGTH_M:
-            return _halving(Segment(_point(last), _point(corner)), side)
-        if np.hypot(*(following - point)) > LENGTH_M and side.distances(np.array([point]))[0] <= LENGTH_M:
-            return side.left
-    return None
+    at, ends = np.array(point), after(ring)
+    is_corner = np.hypot(*(ring - at).T) <= LENGTH_M
+    gaps = np.hypot(*(feet(at[None], ring, ends)[0] - at).T)
+    is_on_side = (gaps <= LENGTH_M) & ~np.roll(is_corner, -1)
+    found = np.flatnonzero(is_corner | is_on_side)
+    if not len(found):
+        return None
+    number = int(found[0])
+    side = Segment(_point(ring[number]), _point(ends[number]))
+    return _halving(Segment(_point(ring[number - 1]), side.start), side) if is_corner[number] else side.left
 
 
 def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:

@@ -13,7 +13,8 @@ from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.errors import FieldError
 from planner.folds.fold_sequence import FoldSequence
-from tests.builders import fold, garment, is_same_stack, rectangle_points
+from planner.geometry.tolerance import LENGTH_M
+from tests.builders import fold, garment, is_same_region, is_same_stack, rectangle_points
 from tests.laws.drawings import folded
 from tests.laws.fold_orders import orders, replayed
 from tests.laws.law import law
@@ -102,6 +103,21 @@ def test_folds_given_in_another_order_wait_for_the_same_ones(cloth: Garment, rng
         nx.transitive_closure(nx.DiGraph(sequence.dag.edges)).edges
     )
     assert is_same_stack(other.final, sequence.final)
+
+
+@example(SHARP)
+@given(GARMENTS)
+@law("geometry", short=20, long=1000)
+def test_a_fold_moves_the_same_part_and_stays_within_the_same_extent_whatever_was_done_before(cloth: Garment):
+    sequence = FoldSequence.of(cloth)
+    low, high = sequence.covered.min(axis=0), sequence.covered.max(axis=0)
+    for order in islice(orders(sequence.dag), MOST_ORDERS):
+        done = 0
+        for index in order:
+            assert is_same_region(sequence.folded(done, index).moving, sequence.moving(index)), (order, index)
+            done |= 1 << index
+            covered = sequence.cloth(done).silhouette.coordinates
+            assert (covered >= low - LENGTH_M).all() and (covered <= high + LENGTH_M).all(), (order, index)
 
 
 def test_a_fold_whose_line_ends_on_an_earlier_crease_waits_for_it():
