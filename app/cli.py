@@ -81,8 +81,8 @@ def serve(
     ] = None,
 ) -> None:
     """Serve the designer until Ctrl-C."""
-    from app.server import ExposedError  # takes a second: only when it is needed
-    from app.server import serve as serve_settings
+    from app.server.serve import ExposedError  # takes a second: only when it is needed
+    from app.server.serve import serve as serve_settings
 
     proxy = {"root_path": root_path, "origin": origin}
     given: dict[str, Any] = {"host": host, "port": port, "data": data, "insecure": insecure, **proxy}

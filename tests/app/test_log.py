@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from app.log import LINES_MAX, logging_to
+from app.server.log import LINES_MAX, logging_to
 
 
 def test_a_line_has_time_level_and_source() -> None:

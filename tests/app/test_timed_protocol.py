@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 import uvicorn
 
-from app import timed_protocol
-from app.timed_protocol import TimedProtocol
+from app.server import timed_protocol
+from app.server.timed_protocol import TimedProtocol
 
 LIMIT_S = 0.3
 PATIENCE_S = 30.0
