@@ -1,7 +1,7 @@
 /** `Import`: a garment file, an SVG or a DXF, chosen or dropped on the page. */
 
 import { boxOf } from "../board/geometry.js";
-import { length, parsed, problemOf, unit, worded } from "../board/units.js";
+import { length, parsed, problemOf, unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
@@ -100,7 +100,7 @@ function askSize(store, body, file, how, sizes, why) {
     if (!said.textContent) readAs(scaledTo(parsed(input.value) ?? 0, sizes, how.scale ?? 1));
   });
   body.replaceChildren(
-    element("p", "dialog-text", `${file.name}: ${worded(why)}.`),
+    element("p", "dialog-text", `${file.name}: ${why}.`),
     element("p", "dialog-text", "How large is the garment?"),
     element("div", "unit-choices", ...choices),
     form,
@@ -131,7 +131,7 @@ function found(store, body, file, how, { garment, notes, creases, sizes }) {
         "",
         element("h3", "", garment.title),
         element("p", "dialog-text", counted(garment)),
-        element("ul", "notes", ...notes.map((note) => element("li", "", worded(note)))),
+        element("ul", "notes", ...notes.map((note) => element("li", "", note))),
       ),
     ),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
