@@ -31,7 +31,11 @@ def whole_schema(model: type[BaseModel]) -> dict[str, Any]:
 
 
 def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
-    """A schema in which the model's own definitions stand where they are referred to."""
+    """A schema in which the model's own definitions stand where they are referred to.
+
+    Discriminators are left out: their mappings would still point at the definitions, and the variants tell themselves
+    apart by their constants.
+    """
     if isinstance(schema, list):
         return [_inlined(part, definitions) for part in schema]
     if not isinstance(schema, dict):
@@ -39,7 +43,7 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
     name = str(schema.get("$ref", "")).rpartition("/")[2]
     if name in definitions:
         return _inlined(definitions[name], definitions)
-    return {key: _inlined(value, definitions) for key, value in schema.items()}
+    return {key: _inlined(value, definitions) for key, value in schema.items() if key != "discriminator"}
 
 
 def describe_problem(app: FastAPI) -> None:
