@@ -11,6 +11,7 @@ from app.ui.dashes import dash_dot, solid, split_at
 from app.ui.lighting import ink
 from app.ui.relief import Relief
 from planner.cloth.garment import DrawnFold, Garment
+from planner.geometry.drape import bent_at, draped
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table_top import TableTop
 from planner.plan.frame import ClothSurface
@@ -97,10 +98,10 @@ def _steps(fold: DrawnFold, placement: Pose2, top: TableTop) -> FloatArray:
     cut = dash_dot if fold.is_red else solid
     drawn = cut(np.array(fold.start), np.array(fold.end)).reshape(-1, 2)
     steps = placement.to_outer(drawn).reshape(-1, 2, 2)
-    for corner in (top.low, top.high):
+    for side, corner in ((-1.0, top.low), (1.0, top.high)):
         for axis, place in enumerate(corner):
-            if np.isfinite(place):
-                steps = split_at(steps, axis, place)
+            for beyond in bent_at(_ABOVE_CLOTH_M) if np.isfinite(place) else ():
+                steps = split_at(steps, axis, place + side * beyond)
     return steps
 
 
@@ -109,9 +110,9 @@ def _in_space(lines: Sequence[FloatArray], cloth: ClothSurface, top: TableTop) -
     steps = np.concatenate([_NOTHING[..., :2], *lines])
     owners = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
     asked = np.stack([steps[:, 0], steps.mean(axis=1), steps[:, 1]], axis=1)
-    heights = Relief.of(cloth, top).heights_at(asked.reshape(-1, 2)).reshape(-1, 3)
+    heights = Relief.of(cloth).heights_at(asked.reshape(-1, 2)).reshape(-1, 3)
     is_on_cloth = np.isfinite(heights[:, 1])
     steps, owners, gaps = steps[is_on_cloth], owners[is_on_cloth], heights[is_on_cloth].max(axis=1) + _ABOVE_CLOTH_M
     unrolled = np.concatenate([steps, np.zeros((len(steps), 2, 1))], axis=2)
-    points = top.over_edge(unrolled, gaps[:, None])
+    points = draped(top, unrolled, gaps[:, None])
     return [points[owners == number] for number in range(len(lines))]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from planner.cloth.garment import Garment
+from planner.geometry.drape import bends, draped
 from planner.geometry.region import Region
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
@@ -16,7 +17,8 @@ def lying_cloth(garment: Garment, table: Table) -> ClothSurface:
     """The garment at its placement, hanging where it goes beyond the table."""
     placed = Region.polygon(garment.placement.to_outer(np.array(garment.outline)).tolist())
     top = TableTop.of(table)
-    flat = creased(placed.triangles, top.edges)[0].reshape(-1, 2)
-    vertices = top.over_edge(np.column_stack([flat, np.zeros(len(flat))]), _HEIGHT_M)
+    flat = creased(placed.triangles, bends(top, placed.triangles, _HEIGHT_M))[0].reshape(-1, 2)
+    unrolled = np.column_stack([flat, np.full(len(flat), _HEIGHT_M)])
+    vertices = draped(top, np.column_stack([flat, np.zeros(len(flat))]), _HEIGHT_M)
     triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
-    return ClothSurface(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+    return ClothSurface(vertices, triangles, np.zeros(len(triangles), dtype=np.int64), unrolled)

@@ -1,7 +1,7 @@
 """How high the cloth lies under a point: what is drawn on the cloth follows its steps from layer to layer.
 
 Asked of one moment's surface and of nothing else, so that it does not matter how that moment was reached. Cloth
-that hangs is rolled back into the plane first; cloth that stands or is in the air does not lie.
+that hangs lies where it is in the unrolled plane; cloth that stands or is in the air does not lie.
 """
 
 from dataclasses import dataclass
@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.plan.frame import ClothSurface
 
@@ -29,16 +28,15 @@ class Relief:
     heights: FloatArray
 
     @staticmethod
-    def of(cloth: ClothSurface, top: TableTop) -> "Relief":
-        """The relief of a surface that hangs beside a top."""
-        unrolled = _unrolled(cloth.vertices, top)[cloth.triangles]
-        heights = unrolled[..., 2]
-        is_lying = heights.max(axis=1) - heights.min(axis=1) <= LENGTH_M
-        flat = unrolled[is_lying, :, :2]
+    def of(cloth: ClothSurface) -> "Relief":
+        """The relief of a surface."""
+        unrolled = cloth.unrolled[cloth.triangles]
+        lying = unrolled[~np.isnan(unrolled).any(axis=(1, 2))]
+        flat = lying[..., :2].copy()
         sides = flat[:, 1:] - flat[:, :1]
         is_turned = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0] < 0.0
         flat[is_turned] = flat[is_turned, ::-1]
-        return Relief(flat, heights[is_lying].max(axis=1, initial=0.0))
+        return Relief(flat, lying[..., 2].max(axis=1, initial=0.0))
 
     def heights_at(self, points: FloatArray) -> FloatArray:
         """The height (m) of the topmost cloth under points of the unrolled plane, shape (n, 2) -> (n,).
@@ -55,14 +53,3 @@ class Relief:
         for side in range(3):
             is_over &= points @ inwards[:, side].T >= offsets[:, side] - _ROUND_M
         return np.asarray(np.where(is_over, self.heights, -np.inf).max(axis=1))
-
-
-def _unrolled(points: FloatArray, top: TableTop) -> FloatArray:
-    """Points in space, shape (n, 3), rolled back from beside the top: place in the plane and distance off it."""
-    nearest = np.clip(points[:, :2], top.low, top.high)
-    out = points[:, :2] - nearest
-    gaps = np.hypot(out[:, 0], out[:, 1])
-    is_beside = gaps > 0.0
-    outwards = out / np.where(is_beside, gaps, 1.0)[:, None]
-    plane = nearest - outwards * np.where(is_beside, points[:, 2], 0.0)[:, None]
-    return np.column_stack([plane, np.where(is_beside, gaps, points[:, 2])])

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point2
-from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 
@@ -48,19 +47,6 @@ class TableTop:
             ),
         )
 
-    @property
-    def edges(self) -> tuple[Segment, ...]:
-        """The sides at finite places, the top to the left of each; ends cut off far away."""
-        far = 100.0
-        (x0, y0), (x1, y1) = self.low, self.high
-        sides = (
-            (y0, Segment((-far, y0), (far, y0))),
-            (x1, Segment((x1, -far), (x1, far))),
-            (y1, Segment((far, y1), (-far, y1))),
-            (x0, Segment((x0, far), (x0, -far))),
-        )
-        return tuple(edge for place, edge in sides if math.isfinite(place))
-
     def covers(self, points: FloatArray) -> bool:
         """Whether points, shape (..., 2 or 3), all lie on the top in the unrolled plane, to the tolerance."""
         places = points[..., :2].reshape(-1, 2)
@@ -76,26 +62,19 @@ class TableTop:
         out = points[..., :2] - np.minimum(np.maximum(points[..., :2], self.low), self.high)
         return np.asarray(np.hypot(out[..., 0], out[..., 1]))
 
-    def over_edge(self, points: FloatArray, gap_m: float | FloatArray = 0.0, droop: float = 1.0) -> FloatArray:
+    def over_edge(self, points: FloatArray) -> FloatArray:
         """Points of the unrolled plane with their heights, shape (..., 3), taken over the edge.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it (m).
-            gap_m: set off by so much, all or each (then of a shape that fits theirs): upwards on the top, outwards
-                beside it.
-            droop: how far what is beyond the edge has turned down: 0 level, 1 hanging.
 
         Returns:
             The same points in space, table frame (m).
         """
-        if isinstance(gap_m, float) and gap_m == 0.0 and self.covers(points):
+        if self.covers(points):
             return points.copy()
-        nearest, outwards, beyond = self._edge_beside(points)
-        turn = droop * math.pi / 2
-        level, down = (math.cos(turn), math.sin(turn)) if droop < 1.0 else (0.0, 1.0)
-        z = points[..., 2] - down * beyond + np.where(beyond > 0.0, level, 1.0) * gap_m
-        out_by = down * gap_m + level * beyond
-        return np.concatenate([nearest + outwards * out_by[..., None], z[..., None]], axis=-1)
+        nearest, _, beyond = self.edge_beside(points)
+        return np.concatenate([nearest, (points[..., 2] - beyond)[..., None]], axis=-1)
 
     def clear_of_edge(self, points: FloatArray, clear_m: float, whole_m: float) -> FloatArray:
         """Points of the unrolled plane taken over the edge as by `over_edge`, but kept clear of the edge's plane.
@@ -110,11 +89,11 @@ class TableTop:
         """
         found = self.over_edge(points)
         if clear_m > 0.0 and not self.covers(points):
-            _, outwards, beyond = self._edge_beside(points)
+            _, outwards, beyond = self.edge_beside(points)
             found[..., :2] += outwards * (clear_m * np.minimum(beyond / whole_m, 1.0))[..., None]
         return found
 
-    def _edge_beside(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def edge_beside(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The nearest points on the top, the directions away from them, and how far beyond they lie (m)."""
         nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
         out = points[..., :2] - nearest

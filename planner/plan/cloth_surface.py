@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer
 from planner.folds.fold_path import FoldPath
+from planner.geometry.drape import bends, draped
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
@@ -86,32 +87,39 @@ class _Mesh:
     top: TableTop
     droop: float
     corners: list[FloatArray] = field(default_factory=list)
+    unrolled: list[FloatArray] = field(default_factory=list)
     layers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def lay(self, pieces: _Pieces) -> None:
         """Add cloth that lies."""
         flat = self.placement.to_outer(pieces.triangles)
         if not self.top.covers(flat):
-            flat, sources = creased(flat, self.top.edges)
+            flat, sources = creased(flat, bends(self.top, flat, float(pieces.gaps.max(initial=0.0))))
             pieces = pieces.parts(flat, sources)
         unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
-        self._add(pieces, self.top.over_edge(unrolled, pieces.gaps, self.droop))
+        rolled = np.concatenate([flat, np.broadcast_to(pieces.gaps[..., None], (*flat.shape[:2], 1))], axis=2)
+        if self.droop < 1.0:
+            rolled[self.top.beyond(flat) > 0.0] = np.nan
+        self._add(pieces, draped(self.top, unrolled, pieces.gaps, self.droop), rolled)
 
     def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
         """Add cloth that a fold has lifted."""
         swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
         lean = pieces.gaps[..., None] * np.array([*path.line.left, 0.0])
-        self._add(pieces, self.top.over_edge(swept).reshape(-1, 3, 3) - lean)
+        standing = draped(self.top, swept).reshape(-1, 3, 3) - lean
+        self._add(pieces, standing, np.full(standing.shape, np.nan))
 
-    def _add(self, pieces: _Pieces, corners: FloatArray) -> None:
-        """Add triangles, shape (n, 3, 3); those that show their backs are turned over."""
-        self.corners.append(np.where(pieces.is_back[:, None, None], corners[:, ::-1], corners))
+    def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
+        """Add triangles, shape (n, 3, 3), and where they are unrolled; those that show their backs are turned over."""
+        for kept, points in ((self.corners, corners), (self.unrolled, unrolled)):
+            kept.append(np.where(pieces.is_back[:, None, None], points[:, ::-1], points))
         self.layers.append(pieces.numbers)
 
     def surface(self) -> ClothSurface:
         vertices = np.concatenate(self.corners).reshape(-1, 3)
         triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
-        return ClothSurface(vertices, triangles, np.concatenate(self.layers))
+        unrolled = np.concatenate(self.unrolled).reshape(-1, 3)
+        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled)
 
 
 class ClothSurfaces:
@@ -122,7 +130,7 @@ class ClothSurfaces:
         self._last: tuple[_Seen, ClothSurface] | None = None
 
     def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
-        """The cloth a fraction of the way through a phase's motion; `droop` as in `TableTop.over_edge`.
+        """The cloth a fraction of the way through a phase's motion; `droop` as in `draped`.
 
         As long as nothing of it moves it is the same object.
         """

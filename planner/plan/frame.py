@@ -19,11 +19,14 @@ class ClothSurface:
         triangles: shape (m, 3), indices into `vertices`; seen from the front face of the cloth they
             run counter-clockwise.
         layers: shape (m,), each triangle's layer, 0 at the bottom.
+        unrolled: of cloth that lies on the table or hangs beside it, where each vertex is in the unrolled plane, and
+            how far its layer is drawn off it, shape (n, 3), m; of any other cloth not numbers.
     """
 
     vertices: FloatArray
     triangles: NDArray[np.int64]
     layers: NDArray[np.int64]
+    unrolled: FloatArray
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,6 @@ from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
 from planner import Scene, load_garment
-from planner.geometry.table_top import TableTop
 from planner.plan.frame import ClothSurface
 from tests.app.pose_matrix import matrix
 
@@ -38,14 +37,11 @@ def sheet(*layers: tuple[float, float, float]) -> ClothSurface:
         a, b, c, d = (low, 0.0, z), (high, 0.0, z), (high, 1.0, z), (low, 1.0, z)
         corners.extend([a, b, c, a, c, d])
     triangles = np.arange(len(corners)).reshape(-1, 3)
-    return ClothSurface(np.array(corners), triangles, np.repeat(np.arange(len(layers)), 2))
-
-
-TOP = TableTop((-1.0, -1.0), (1.0, 1.0))
+    return ClothSurface(np.array(corners), triangles, np.repeat(np.arange(len(layers)), 2), np.array(corners))
 
 
 def test_cloth_is_as_high_as_its_topmost_layer_there() -> None:
-    relief = Relief.of(sheet((0.0, 0.8, 0.0015), (0.5, 0.9, 0.003)), TOP)
+    relief = Relief.of(sheet((0.0, 0.8, 0.0015), (0.5, 0.9, 0.003)))
     points = np.array([[0.2, 0.5], [0.6, 0.5], [0.85, 0.5], [0.95, 0.5]])
     np.testing.assert_array_equal(relief.heights_at(points), [0.0015, 0.003, 0.003, -np.inf])
 
@@ -55,14 +51,14 @@ def test_cloth_in_the_air_does_not_lie() -> None:
         np.array([[0.0, 0.0, 0.0015], [0.0, 1.0, 0.0015], [0.0, 0.0, 0.5]]),
         np.array([[0, 1, 2]]),
         np.zeros(1, dtype=np.int64),
+        np.full((3, 3), np.nan),
     )
-    assert Relief.of(standing, TOP).heights_at(np.array([[0.0, 0.5]]))[0] == -np.inf
+    assert Relief.of(standing).heights_at(np.array([[0.0, 0.5]]))[0] == -np.inf
 
 
 def test_hanging_cloth_is_rolled_back_into_the_plane() -> None:
     garment = load_garment("big-towel")
-    top = TableTop.of(Scene().table)
-    relief = Relief.of(lying_cloth(garment, Scene().table), top)
+    relief = Relief.of(lying_cloth(garment, Scene().table))
     a, b, c = (relief.triangles[:, i] for i in range(3))
     sides = b - a, c - a
     area = float((sides[0][:, 0] * sides[1][:, 1] - sides[0][:, 1] * sides[1][:, 0]).sum() / 2)
@@ -91,7 +87,7 @@ def test_a_quaternion_from_a_matrix_is_the_same_rotation() -> None:
 
 def test_a_squares_outline_leaves_out_the_diagonal() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
-    square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64))
+    square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners)
     segments = outlines(square)
     assert len(segments) == 4
     np.testing.assert_allclose(np.linalg.norm(segments[:, 0] - segments[:, 1], axis=1), 1.0)

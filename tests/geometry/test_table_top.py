@@ -15,8 +15,8 @@ TOP = TableTop.of(Table(1.6, 0.98, 0.79))
 places = st.floats(-1.5, 1.5)
 
 
-def over(x: float, y: float, z: float = 0.0, gap_m: float = 0.0) -> tuple[float, ...]:
-    return tuple(TOP.over_edge(np.array([x, y, z]), gap_m).tolist())
+def over(x: float, y: float, z: float = 0.0) -> tuple[float, ...]:
+    return tuple(TOP.over_edge(np.array([x, y, z])).tolist())
 
 
 def test_the_corners_of_the_table_run_counter_clockwise_from_near_right():
@@ -50,19 +50,7 @@ def test_a_way_straight_over_the_edge_keeps_its_length():
     assert sum(math.dist(a, b) for a, b in itertools.pairwise(ways)) == pytest.approx(0.2)
 
 
-def test_a_gap_sets_off_upwards_on_the_top_and_outwards_beside_it():
-    assert over(0.0, 0.0, 0.0, 0.01) == pytest.approx((0.0, 0.0, 0.01))
-    assert over(-1.0, 0.0, 0.0, 0.01) == pytest.approx((-0.81, 0.0, -0.2))
-
-
 def test_a_top_opened_towards_points_beyond_one_edge_goes_on_there_only():
     opened = TOP.open_towards(np.array([[-0.9, 0.1], [0.0, 0.0]]))
     assert opened == TableTop((-math.inf, -0.49), (0.8, 0.49))
     assert tuple(opened.over_edge(np.array([-1.0, 0.1, 0.02]))) == (-1.0, 0.1, 0.02)
-    assert len(opened.edges) == 3
-
-
-def test_the_top_lies_to_the_left_of_each_edge():
-    for edge in TOP.edges:
-        assert edge.left_distances(np.array([[0.0, 0.0]]))[0] > 0.0
-    assert len(TOP.edges) == 4

@@ -17,7 +17,8 @@ def pile_surface(pile: Pile, bottom_m: float) -> ClothSurface:
         corners.append(np.column_stack([placed, np.full(len(placed), bottom_m + number * _GAP_M)]))
         layers.append(np.full(len(flat), number, dtype=np.int64))
     vertices = np.concatenate(corners)
-    return ClothSurface(vertices, np.arange(len(vertices), dtype=np.int64).reshape(-1, 3), np.concatenate(layers))
+    triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
+    return ClothSurface(vertices, triangles, np.concatenate(layers), vertices)
 
 
 def height(pile: Pile | None) -> float:
