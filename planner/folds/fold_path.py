@@ -23,6 +23,10 @@ SPACING_M = 0.05
 """Waypoints of a path are at most this far apart (m)."""
 
 
+_WAY_IN_MAX_M = 0.04
+"""The way in from outside an edge for which waypoints are close enough (m): a longer one would ask for too many."""
+
+
 @dataclass(frozen=True, slots=True)
 class FoldPath:
     """The motion of one fold at one placement.
@@ -88,7 +92,7 @@ class FoldPath:
     def over_edge(self, unrolled: FloatArray, top: TableTop) -> FloatArray:
         """Where tools of the unrolled plane, shape (..., 3), are in space, table frame (m).
 
-        In the edge's plane fingers would be in the table. So a tool that is below the top keeps clear of the plane by
+        In the edge's plane fingers would be in the table. So over hanging cloth a tool keeps clear of the plane by
         `edge_clear_m`; on its way over the edge it comes to it gradually.
         """
         return top.clear_of_edge(unrolled, self.edge_clear_m, REST_HEIGHT_M)
@@ -103,11 +107,13 @@ class FoldPath:
     def _baseline_step(self, grips: FloatArray) -> float:
         """How far the baseline may go between waypoints (m).
 
-        A tool goes sqrt(2) times as far as the baseline over the table. At an edge it goes up to twice as far, and
-        where it clears the edge outwards as well.
+        A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge. Where it
+        comes in from outside the edge, it may do so within one step s: its way squared is (way in + s)^2 + s^2.
         """
         start, apex, end = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
         if self.top.covers(np.array([start, apex, end])):
             return SPACING_M / math.sqrt(2.0)
-        is_level = self.rising_top.covers(np.array([start, apex])) and self.top.covers(np.array([apex, end]))
-        return SPACING_M / (2.0 if is_level else math.hypot(2.0, self.edge_clear_m / REST_HEIGHT_M))
+        if self.rising_top.covers(np.array([start, apex])) and self.top.covers(np.array([apex, end])):
+            return SPACING_M / 2.0
+        way_in_m = min(self.edge_clear_m, _WAY_IN_MAX_M)
+        return min(SPACING_M / 2.0, (math.sqrt(2.0 * SPACING_M**2 - way_in_m**2) - way_in_m) / 2.0)

@@ -76,13 +76,16 @@ class TableTop:
         nearest, _, beyond = self.edge_beside(points)
         return np.concatenate([nearest, (points[..., 2] - beyond)[..., None]], axis=-1)
 
-    def clear_of_edge(self, points: FloatArray, clear_m: float, whole_m: float) -> FloatArray:
+    def clear_of_edge(self, points: FloatArray, clear_m: float, rest_m: float) -> FloatArray:
         """Points of the unrolled plane taken over the edge as by `over_edge`, but kept clear of the edge's plane.
+
+        A point at rest keeps clear however little it is beyond the edge. One that rises towards the edge comes to the
+        plane gradually, as it gets above the top by as much as it is high at rest.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it, shape (..., 3), m.
             clear_m: how far outside the plane (m).
-            whole_m: so far beyond the edge, and further, points keep clear by all of that; nearer by less (m).
+            rest_m: the height above the plane at which points rest (m).
 
         Returns:
             The same points in space, table frame (m).
@@ -90,7 +93,8 @@ class TableTop:
         found = self.over_edge(points)
         if clear_m > 0.0 and not self.covers(points):
             _, outwards, beyond = self.edge_beside(points)
-            found[..., :2] += outwards * (clear_m * np.minimum(beyond / whole_m, 1.0))[..., None]
+            whole = np.clip(beyond + points[..., 2] - rest_m, LENGTH_M, rest_m)
+            found[..., :2] += outwards * (clear_m * np.minimum(beyond / whole, 1.0))[..., None]
         return found
 
     def edge_beside(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -136,7 +136,7 @@ def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
         torso_m: how far the torso is raised (m).
         home: the right arm's joints (rad), shape (7,).
     """
-    parts = compiled_parts(robot, 0, np.empty((0, 3)))
+    parts = compiled_parts(robot, 0)
     poses = np.zeros((len(parts.bounds), 5, 3))
     poses[2 * EACH :, : PLACE + 1] = robot.body_poses
     poses[2 * EACH + 1 :, PLACE, 2] += torso_m

@@ -27,11 +27,11 @@ def aside(hanging_m: float, x_m: float, side: float) -> Garment:
     return garment(rectangle_points(0.3, 0.6), over, placement=placement)
 
 
-def required(cloth: Garment) -> Plan:
+def required(cloth: Garment, scene: Scene | None = None) -> Plan:
     """The plan there must be, which replays, and in which nothing touches anything."""
-    plan = make_plan(cloth, time_limit_s=60.0)
+    plan = make_plan(cloth, scene, time_limit_s=60.0)
     assert plan.is_solved, plan.reasons
-    check(cloth.to_dict(), Scene().to_dict(), plan.to_dict())
+    check(cloth.to_dict(), plan.scene.to_dict(), plan.to_dict())
     require_speeds(plan.timeline())
     require_clear(plan.timeline(), plan.scene.table, every_s=0.37)
     return plan
@@ -50,7 +50,7 @@ def test_it_does_so_however_deep_the_cloth_hangs(hanging_m: float, length_m: flo
     assert [primitive.kind for primitive in plan.primitives] == ["fold"]
 
 
-@pytest.mark.parametrize("x_m", [0.45, -0.1])
+@pytest.mark.parametrize("x_m", [0.6, -0.1])
 def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m: float):
     left, right = (required(aside(0.1, x_m, side)) for side in (1.0, -1.0))
     assert left.cost_s == pytest.approx(right.cost_s)
@@ -62,9 +62,10 @@ def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m
 
 
 def test_cloth_may_be_laid_down_over_the_edge():
-    # The far 0.14 m come over the line 0.1 m from the edge: their end hangs 0.04 m.
+    # The far 0.16 m come over the line 0.1 m from the edge: their end hangs 0.06 m. Hands that must come from outside
+    # the cloth, from the side, would have a finger in the top.
     over = fold((0.0, 0.08), (0.3, 0.08))
-    cloth = garment(rectangle_points(0.3, 0.22), over, placement=Pose2(-0.78, 0.15, -math.pi / 2))
-    (primitive,) = required(cloth).primitives
+    cloth = garment(rectangle_points(0.3, 0.24), over, placement=Pose2(-0.78, 0.15, -math.pi / 2))
+    (primitive,) = required(cloth, Scene(approach_cone_rad=math.pi)).primitives
     assert [grip.place[0] for grip in primitive.grips] == pytest.approx([-0.8 - CLEAR_M] * 2)
-    assert [grip.place[2] for grip in primitive.grips] == pytest.approx([-0.02] * 2)
+    assert [grip.place[2] for grip in primitive.grips] == pytest.approx([-0.04] * 2)

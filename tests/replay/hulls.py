@@ -3,7 +3,7 @@
 Nothing of `planner.robot` is used. Every link is the hull of all that the URDF has for it, shown or for collisions.
 Links are compared unless nothing moves between them; one carries the other over no more than three joints (such
 neighbours are hollow round each other, and their hulls overlap where they do not); or both are of one gripper.
-Fingertips may touch the table's top. Lengths in m.
+All are compared with all of the table. Lengths in m.
 """
 
 from dataclasses import dataclass
@@ -137,8 +137,7 @@ def contacts(joints: dict[str, float], base: tuple[float, float, float], table: 
         pose = to_base @ trimesh.transformations.translation_matrix(part.center)
         outside = np.abs((middles - pose[:3, 3]) @ pose[:3, :3]) - np.array(part.size) / 2
         for i in np.flatnonzero((outside <= radii[:, None]).all(axis=1)):
-            if part.name != "table top" or not links[i].name.endswith("finger_tip_link"):
-                found.append((links[i].name, part.name, _depth(links[i].shape, poses[i], coal.Box(*part.size), pose)))
+            found.append((links[i].name, part.name, _depth(links[i].shape, poses[i], coal.Box(*part.size), pose)))
     return sorted((one for one in found if one[2] > 0.0), key=lambda one: -one[2])
 
 

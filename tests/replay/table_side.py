@@ -12,7 +12,7 @@ from tests.replay.flat import NEAR_M, SLIVER_M2, Line, Place, must_hold, polygon
 
 Space = tuple[float, float, float]
 REST_M = 0.02
-"""How high over the table a tool holds cloth (m); so far beyond the edge it is level with the top."""
+"""How high over the table a tool holds cloth (m)."""
 
 
 class TableSide:
@@ -38,7 +38,8 @@ class TableSide:
         beyond = math.dist(place, (x, y))
         if beyond == 0.0:
             return x, y, height_m
-        clear = self.clear_m * min(beyond / REST_M, 1.0) / beyond
+        deep = beyond + height_m - REST_M  # how deep it hangs at rest
+        clear = self.clear_m * min(beyond / min(deep, REST_M), 1.0) / beyond if beyond > NEAR_M / 10 else 0.0
         return x + clear * (place[0] - x), y + clear * (place[1] - y), height_m - beyond
 
     def unrolled(self, tool: Space) -> Place:
@@ -48,9 +49,9 @@ class TableSide:
         if depth <= NEAR_M:
             return tool[:2]
         normal, line = min(self.edges, key=lambda edge: LineString(edge[1]).distance(Point(tool[:2])))
-        wanted, gap = self.clear_m * min(depth / REST_M, 1.0), LineString(line).distance(Point(tool[:2]))
-        assert abs(gap - wanted) <= NEAR_M, f"a tool {depth:.3f} m below its rest is {gap:.4f} m from the table's edge"
-        further = depth - wanted
+        gap = LineString(line).distance(Point(tool[:2]))
+        assert abs(gap - self.clear_m) <= NEAR_M, f"a tool {depth:.3f} m below its rest is {gap:.4f} m from the edge"
+        further = depth - self.clear_m
         return tool[0] + further * normal[0], tool[1] + further * normal[1]
 
     def hangs_towards(self, silhouette: BaseGeometry, direction: Place) -> bool:

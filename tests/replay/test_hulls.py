@@ -21,13 +21,14 @@ def test_arms_at_home_touch_nothing():
 
 def test_a_hand_through_the_table_is_seen_and_how_deep():
     # Straight down, fingers end 15 mm above the tool frame, and the palm 55 mm. With the tool 50 mm below the upper
-    # side, fingers are 35 mm deep in the top, which is 30 mm thick, and the palm is not.
+    # side, fingers are 35 mm deep in the top, which is 30 mm thick, tips are nearly through it, the palm is not in it.
     elbow_out, down = np.array([0.8, -0.2, 1.0, -1.8, 0.0, -1.4, 0.0]), [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
     joints = ROBOT.joints_near(0, np.array([0.5, 0.2, 0.74]), np.array(down, dtype=float), 0.29, elbow_out)
     found = {(a, b): depth for a, b, depth in seen(joints, HOME[1], base=FRONT)}
-    fingers = {("l_gripper_l_finger_link", "table top"), ("l_gripper_r_finger_link", "table top")}
-    assert found.keys() == fingers
-    assert all(abs(depth - 0.035) < 0.002 for depth in found.values())
+    fingers = [(f"l_gripper_{side}_finger_link", "table top") for side in "lr"]
+    tips = [(f"l_gripper_{side}_finger_tip_link", "table top") for side in "lr"]
+    assert found.keys() == {*fingers, *tips}
+    assert all(abs(found[finger] - 0.035) < 0.002 for finger in fingers)
     assert seen(joints, HOME[1]) == []
 
 

@@ -24,8 +24,9 @@ from planner.robot.description import urdf_path
 OPENINGS_M = (0.0, 0.03, 0.06, 0.09)
 """There are shapes of the fingers for these openings."""
 
-ROUNDING_MAX_M = 0.003
-"""A shape stands out from the hull of its meshes by no more than this, beside what makes it symmetric (m)."""
+ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M = 0.003, 0.0003
+"""A shape stands out from the hull of its meshes by no more than this, beside what makes it symmetric (m); fingertips,
+which pass the table's top by half a millimetre, by less."""
 
 _FORMAT = 1
 """To be raised whenever shapes are made or kept in another way."""
@@ -69,12 +70,17 @@ def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
         fingers = finger_points(model, points, gripper, opening_m)
         arm |= zip((finger_key(part, opening_m) for part in (FINGERS, FINGERTIPS)), fingers, strict=True)
     shapes = {name: rounded_hull(cloud, ROUNDING_MAX_M, is_symmetric=True) for name, cloud in body.items()}
-    return shapes | {name: rounded_hull(cloud, ROUNDING_MAX_M) for name, cloud in arm.items()}
+    tips = ARM_PARTS[FINGERTIPS].name
+    most = {name: TIPS_ROUNDING_MAX_M if name.startswith(tips) else ROUNDING_MAX_M for name in arm}
+    return shapes | {name: rounded_hull(cloud, most[name]) for name, cloud in arm.items()}
 
 
 def _digest() -> str:
     """A name for all that the shapes depend on."""
-    digest = blake2b(f"{_FORMAT} {version('example-robot-data')} {ROUNDING_MAX_M} {OPENINGS_M}".encode(), digest_size=8)
+    digest = blake2b(
+        f"{_FORMAT} {version('example-robot-data')} {ROUNDING_MAX_M} {TIPS_ROUNDING_MAX_M} {OPENINGS_M}".encode(),
+        digest_size=8,
+    )
     meshes = sorted(urdf_path().parent.parent.rglob("*.stl"))
     for path in (urdf_path(), *meshes):
         digest.update(path.read_bytes())

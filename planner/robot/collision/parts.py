@@ -40,7 +40,7 @@ ARM_PARTS = (
 )
 """An arm from the shoulder outwards: each carries the next over one joint."""
 
-PALM, FINGERS, FINGERTIPS = 6, 7, 8
+ELBOW, PALM, FINGERS, FINGERTIPS = 3, 6, 7, 8
 """Numbers of parts of an arm: from the palm on they are one rigid body when the fingers do not move."""
 
 BODY_PARTS = (

@@ -1,7 +1,8 @@
 """All that is known of the PR2's parts before it is asked where they are."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
+from functools import lru_cache
 from pathlib import Path
 
 import coal
@@ -64,18 +65,29 @@ def _fingers(opening_m: float) -> tuple[str, ...]:
     return tuple(finger_key(part, opening_m) for part in range(FINGERS, len(ARM_PARTS)))
 
 
-def compiled_parts(robot: RobotParts, level: int, boxes: FloatArray) -> Parts:
-    """The robot's parts, and boxes, as the compiled pass wants them.
+def compiled_parts(robot: RobotParts, level: int, clouds: Sequence[FloatArray] = ()) -> Parts:
+    """The robot's parts, and the hulls of some clouds of points, as the compiled pass wants them.
 
     Args:
         robot: its parts.
         level: which of `OPENINGS_M` the fingers are open to.
-        boxes: the sizes of the boxes, which come last (m), shape (t, 3).
+        clouds: the points of each hull, which come last, shape (n, 3), m.
     """
+    parts = _compiled_robot(robot, level)
+    if not clouds:
+        return parts
+    others = _compiled(clouds, np.zeros(len(clouds)))
+    spans = others.spans + len(parts.corners)
+    return Parts(*(np.vstack(both) for both in zip(parts, others._replace(spans=spans), strict=True)))
+
+
+@lru_cache(maxsize=len(OPENINGS_M))
+def _compiled_robot(robot: RobotParts, level: int) -> Parts:
     hulls = robot.hulls[level]
-    corner_signs = np.array([*product((-0.5, 0.5), repeat=3)])
-    clouds = [hull.corners for hull in hulls] + [corner_signs * size for size in boxes]
-    rounding = np.array([hull.radius_m for hull in hulls] + [0.0] * len(boxes))
+    return _compiled([hull.corners for hull in hulls], np.array([hull.radius_m for hull in hulls]))
+
+
+def _compiled(clouds: Sequence[FloatArray], rounding: FloatArray) -> Parts:
     low, high = (np.array([limit(cloud, axis=0) for cloud in clouds]) for limit in (np.min, np.max))
     middle, half = (low + high) / 2, (high - low) / 2 + rounding[:, None]
     radius = [np.linalg.norm(cloud - at, axis=1).max() for cloud, at in zip(clouds, middle, strict=True)] + rounding

@@ -63,6 +63,18 @@ class RoundedHull:
         return RoundedHull(self.corners * _MIRROR, self.faces[:, ::-1].copy(), self.radius_m)
 
 
+def prism(base: FloatArray, height_m: float) -> RoundedHull:
+    """What stands over a convex polygon, shape (n, 2), counter-clockwise, from z = 0 to a height (m)."""
+    count = len(base)
+    corners = np.vstack([np.column_stack([base, np.full(count, z)]) for z in (0.0, height_m)])
+    fans = [face for k in range(1, count - 1) for face in ((0, k + 1, k), (count, count + k, count + k + 1))]
+    sides = []
+    for k in range(count):
+        after = (k + 1) % count
+        sides += [(k, after, count + after), (k, count + after, count + k)]
+    return RoundedHull(corners, np.array([*fans, *sides], dtype=np.int32), 0.0)
+
+
 def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = False) -> RoundedHull:
     """A body round points, shape (n, 3), that do not all lie in one plane (m).
 

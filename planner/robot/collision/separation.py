@@ -120,7 +120,7 @@ def first_close(
     bases: FloatArray,
     tables: FloatArray,
     start: Index,
-    margin: float,
+    margins: FloatArray,
 ) -> tuple[Index, FloatArray]:
     """For every posture the first pair that is not certainly apart, from a given one on.
 
@@ -135,7 +135,7 @@ def first_close(
         bases: where the base stands: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
         tables: the places of the table's parts, which come last, in the table frame but from the floor (m), (t, 3).
         start: the pair with which to start, shape (n,).
-        margin: how far apart they should be (m).
+        margins: how far apart each pair should be (m), shape (q,).
 
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
@@ -158,7 +158,7 @@ def first_close(
             a, b = pairs[pair]
             if gone[a] + gone[b] < apart_until[pair]:
                 continue
-            room = _room_between(corners, spans, bounds, poses, a, b, margin)
+            room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
             if room < 0.0:
                 found[i] = pair
                 break

@@ -1,0 +1,139 @@
+"""Convex bodies that move with the arms or stand still, and which of them touch.
+
+A compiled pass over all postures leaves, for most of them, no pair that could touch (`separation`); what it leaves is
+answered exactly, by coal, pair by pair until one touches.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import coal
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.robot.arm import ArmShape
+from planner.robot.collision.part_poses import EACH, PLACE, Index
+from planner.robot.collision.separation import ROUNDING, Parts, first_close
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+class Pairs(NamedTuple):
+    """Bodies that are compared.
+
+    Attributes:
+        numbers: their numbers, shape (q, 2).
+        margins: how far apart they must be (m), shape (q,).
+    """
+
+    numbers: Index
+    margins: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The parts of both arms, left before right, then what stands on the robot, then what stands at the table.
+
+    Attributes:
+        arm: the left arm.
+        torso_m: how far the torso is raised (m).
+        parts: all bodies.
+        shapes: the same for coal, without their roundings.
+        poses: where those are that stand on the robot, shape (p, 5, 3).
+        places: the places of those at the table, which come last, in the table frame but from the floor (m), (t, 3).
+    """
+
+    arm: ArmShape
+    torso_m: float
+    parts: Parts
+    shapes: Sequence[coal.CollisionGeometry]
+    poses: FloatArray
+    places: FloatArray
+
+    def are_free(
+        self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False
+    ) -> BoolArray:
+        """In which postures no pair touches, shape (n,).
+
+        Args:
+            pairs: what is compared.
+            bases: where the base stands, see `rows`.
+            joints: of each posture, the joints of each arm that is looked at (rad), shape (n, k, 7).
+            arms: those arms, 0 for the left and 1 for the right, shape (k,).
+            is_certain: whether only postures count that are certainly free, which is quicker to tell.
+        """
+        if is_certain:
+            close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+            return close < 0
+        is_free = np.ones(len(joints), dtype=np.bool_)
+        is_free[[*self.touching(pairs, bases, joints, arms)]] = False
+        return is_free
+
+    def touching(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> Iterator[int]:
+        """The postures in which some pair touches: rounds of the compiled pass, each going on where coal found none."""
+        stands = rows(bases)
+        asked, start = np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
+        while len(asked):
+            at = stands if len(stands) == 1 else stands[asked]
+            close, places = self.first_close(pairs, at, joints[asked], arms, start)
+            is_open = close >= 0
+            for k in np.flatnonzero(is_open):
+                if self._touch(pairs, int(close[k]), places[k]):
+                    is_open[k] = False
+                    yield int(asked[k])
+            asked, start = asked[is_open], close[is_open] + 1
+
+    def first_close(
+        self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
+    ) -> tuple[Index, FloatArray]:
+        """For every posture the first pair, from one on, that is not certainly apart; see `separation.first_close`."""
+        return first_close(
+            self.arm,
+            self.torso_m,
+            self.parts,
+            self.poses.copy(),
+            pairs.numbers,
+            np.ascontiguousarray(joints, dtype=np.float64),
+            arms,
+            bases,
+            self.places,
+            start,
+            pairs.margins,
+        )
+
+    def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:
+        """How far one of a pair must move until they are as far apart as they must be (m); negative if they are."""
+        distance_m = coal.distance(*self._posed(pairs, pair, poses), coal.DistanceRequest(), coal.DistanceResult())
+        return self._gap(pairs, pair) - float(distance_m)
+
+    def _touch(self, pairs: Pairs, pair: int, poses: FloatArray) -> bool:
+        """Whether a pair is nearer than it must be, at poses of shape (2, 5, 3)."""
+        request = coal.CollisionRequest()
+        request.security_margin = self._gap(pairs, pair)
+        return bool(coal.collide(*self._posed(pairs, pair, poses), request, coal.CollisionResult()))
+
+    def _gap(self, pairs: Pairs, pair: int) -> float:
+        """How far apart the hulls of a pair must be (m)."""
+        a, b = pairs.numbers[pair]
+        rounding = self.parts.bounds[:, ROUNDING]
+        return float(pairs.margins[pair] + rounding[a] + rounding[b])
+
+    def _posed(
+        self, pairs: Pairs, pair: int, poses: FloatArray
+    ) -> tuple[coal.CollisionGeometry, coal.Transform3s, coal.CollisionGeometry, coal.Transform3s]:
+        a, b = pairs.numbers[pair].tolist()
+        return self.shapes[a], _transform(a, poses[0]), self.shapes[b], _transform(b, poses[1])
+
+
+def rows(bases: Pose2 | FloatArray) -> FloatArray:
+    """Bases as x (m), y (m) and yaw (rad), shape (n, 3) or, one for all, (1, 3)."""
+    if isinstance(bases, Pose2):
+        return np.array([[bases.x_m, bases.y_m, bases.yaw_rad]])
+    return np.ascontiguousarray(bases, dtype=np.float64)
+
+
+def _transform(part: int, pose: FloatArray) -> coal.Transform3s:
+    """A body's pose for coal: the frames of the right arm are made right-handed."""
+    rotation = pose[:PLACE] * _MIRROR if EACH <= part < 2 * EACH else pose[:PLACE]
+    return coal.Transform3s(rotation, pose[PLACE])
