@@ -9,8 +9,8 @@ import uvicorn
 
 from app.api.create_app import create_app
 from app.server.log import logging_to, standard_error
-from app.settings import Settings
 from app.server.timed_protocol import TimedProtocol
+from app.settings import Settings
 from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
