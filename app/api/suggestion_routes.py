@@ -24,7 +24,7 @@ from planner.errors import FoldError, GarmentError, SceneError
 from planner.geometry.pose import Pose2
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_map import placement_map
-from planner.plan.suggestions import suggestions
+from planner.plan.suggestions import Suggestions, suggestions
 
 router = APIRouter(prefix="/api", tags=["suggestions"])
 
@@ -32,7 +32,7 @@ Tell = Callable[[ServerSentEvent | None], None]
 
 
 class SuggestionEvent(BaseModel):
-    """The data of an event `suggestion`; the last event, `done`, has `count` and `elapsed_s`."""
+    """The data of an event `suggestion`; the last, `done`, has `count`, `elapsed_s` and `complete`."""
 
     kind: Literal["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"]
     is_assumption: bool
@@ -76,7 +76,8 @@ class SuggestionSearch:
         self._wanted = wanted
         self._started = time.perf_counter()
         self._is_unwanted: ShouldStop = bool
-        self._found: Iterator[Suggestion] = iter(())
+        self._found: Suggestions | None = None
+        self._is_complete = False
 
     def begin(self, should_stop: ShouldStop) -> None:
         """Plan the request itself; raises what is wrong with it."""
@@ -125,15 +126,22 @@ class SuggestionSearch:
     def _search(self, tell: Tell, should_stop: ShouldStop) -> int:
         self._is_unwanted = should_stop
         count = 0
-        for suggestion in self._found:
+        for suggestion in self._all():
             count += 1
             plan_id = self._workspace.plans.add(suggestion.plan)
             tell(ServerSentEvent(event="suggestion", data={**suggestion.to_dict(), "plan_id": plan_id}))
         return count
 
+    def _all(self) -> Iterator[Suggestion]:
+        """What is found; then it is known whether all changes were tried."""
+        if self._found is not None:
+            self._is_complete = yield from self._found
+
     def _done(self, count: int) -> ServerSentEvent:
         elapsed_s = time.perf_counter() - self._started
-        return ServerSentEvent(event="done", data={"count": count, "elapsed_s": elapsed_s})
+        return ServerSentEvent(
+            event="done", data={"count": count, "elapsed_s": elapsed_s, "complete": self._is_complete}
+        )
 
 
 async def _begun(request: Request) -> SuggestionSearch:
@@ -154,8 +162,8 @@ async def post_suggestions(
 ) -> AsyncIterator[ServerSentEvent]:
     """The smallest changes that give a plan, each with the plan that proves it, as server-sent events.
 
-    An event `suggestion` for each as it is found, then `done`. A change replaces fields of the request. Where there is
-    a plan already, a better placement is all that is suggested.
+    An event `suggestion` for each as it is found, then `done`, which says whether all changes were tried in the time. A
+    change replaces fields of the request. Where there is a plan already, a better placement is all that is suggested.
     """
     async for event in search.events():
         yield event

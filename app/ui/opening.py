@@ -27,22 +27,26 @@ _ARMS_M = (((-0.1, 0.39), (-0.64, 0.64), (0.8, 1.4)),)
 """The arms while it waits; backed off it has them before it, over the table."""
 
 
-def opening(scene: Scene, aspect: float, base: Pose2 | None = None) -> Viewpoint:
+def opening(scene: Scene, aspect: float, base: Pose2 | None = None, *, is_from_right: bool = False) -> Viewpoint:
     """Sees the table and the robot whole, also while the robot is backed off.
 
     Args:
         scene: table and stations.
         aspect: the picture's width divided by its height; a picture narrower than a fifth of it is not filled.
         base: where the robot stands, table frame; without it, at the first station.
+        is_from_right: the same from the other side, as a robot that stands between table and camera hides the cloth.
     """
     look_at, aspect = np.array(_LOOK_AT), max(aspect, _NARROWEST)
     share = min(max((aspect - _TALL) / (_WIDE - _TALL), 0.0), 1.0)
     yaw_rad = _ALONG_RAD + share * (_ACROSS_RAD - _ALONG_RAD)
     level = math.cos(_RISE_RAD)
     back = np.array([level * math.cos(yaw_rad), level * math.sin(yaw_rad), math.sin(_RISE_RAD)])
-    away_m = _distance(whole(scene, base or scene.stations[0][1]) - look_at, back, aspect)
+    stands = base or scene.stations[0][1]
+    seen = Pose2(stands.x_m, -stands.y_m, -stands.yaw_rad) if is_from_right else stands
+    away_m = _distance(whole(scene, seen) - look_at, back, aspect)
     x, y, z = (look_at + max(_NEAREST_M, _MARGIN * away_m) * back).tolist()
-    return Viewpoint((x, y, z), _LOOK_AT)
+    u, v, w = _LOOK_AT
+    return Viewpoint((x, -y, z), (u, -v, w)) if is_from_right else Viewpoint((x, y, z), _LOOK_AT)
 
 
 def whole(scene: Scene, base: Pose2) -> FloatArray:

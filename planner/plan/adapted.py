@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice, zip_longest
 
 from planner.plan.act import Act
+from planner.plan.effort import Effort
 from planner.plan.plan import Plan
 from planner.plan.problem import Problem
 from planner.primitives.primitive import Step
@@ -24,12 +25,15 @@ _PATIENCE = 2
 """So many times as many as elsewhere are tried: one that does saves a search."""
 
 
-def adapted(plan: Plan, problem: Problem) -> tuple[Act, ...]:
-    """What a solved plan does, done in another problem as far as that can be; it may be all of it."""
+def adapted(plan: Plan, problem: Problem, effort: Effort) -> tuple[Act, ...]:
+    """What a solved plan does, done in another problem as far as that can be; it may be all of it.
+
+    What is looked at is added to an effort.
+    """
     state = problem.start
     acts: list[Act] = []
     for act in plan.acts:
-        found = None if problem.is_goal(state) else _act(act, problem, state)
+        found = None if problem.is_goal(state) else _act(act, problem, state, effort)
         if found is None:
             break
         acts.append(found)
@@ -37,17 +41,18 @@ def adapted(plan: Plan, problem: Problem) -> tuple[Act, ...]:
     return tuple(acts)
 
 
-def _act(act: Act, problem: Problem, state: State) -> Act | None:
-    ways = islice(_again(act.steps, problem, state), _LOOKS_MAX)
+def _act(act: Act, problem: Problem, state: State, effort: Effort) -> Act | None:
+    ways = islice(_again(act.steps, problem, state, effort), _LOOKS_MAX)
     likest = next(ways, None)
     if likest is None or act.run is None:
         return None if likest is None else Act(act.first, likest, None)
     maker = problem.maker
-    run = maker.made_like(maker.candidate(likest), act.run) or maker.first_real(ways, _PATIENCE)
+    with effort.on_joints():
+        run = maker.made_like(maker.candidate(likest), act.run) or maker.first_real(ways, _PATIENCE)
     return None if run is None else Act(act.first, run.steps, run)
 
 
-def _again(steps: Sequence[Step], problem: Problem, state: State) -> Iterator[tuple[Step, ...]]:
+def _again(steps: Sequence[Step], problem: Problem, state: State, effort: Effort) -> Iterator[tuple[Step, ...]]:
     """The same steps one after the other from a state, the likest first; hands hold on where they did.
 
     There is time to try only a few, so they are taken in turns from a few that begin in the likest ways: mostly it is
@@ -56,10 +61,13 @@ def _again(steps: Sequence[Step], problem: Problem, state: State) -> Iterator[tu
     if not steps:
         yield ()
         return
-    begins = (step for step in steps[0].again(problem.work, state) if _may_begin(step, steps, problem))
+    effort.expanded += 1
     begun: list[Iterator[tuple[Step, ...]]] = []
-    for step in begins:
-        ways = _begun_with(step, steps[1:], problem)
+    for step in steps[0].again(problem.work, state):
+        effort.explored += 1
+        if not _may_begin(step, steps, problem):
+            continue
+        ways = _begun_with(step, steps[1:], problem, effort)
         yield from islice(ways, 1)
         begun.append(ways)
         if len(begun) == _BEGUN:
@@ -78,6 +86,6 @@ def _may_begin(step: Step, steps: Sequence[Step], problem: Problem) -> bool:
     return is_alike and (len(steps) == 1 or problem.maker.can_begin_and_end((step,)))
 
 
-def _begun_with(step: Step, others: Sequence[Step], problem: Problem) -> Iterator[tuple[Step, ...]]:
-    for rest in _again(others, problem, step.after):
+def _begun_with(step: Step, others: Sequence[Step], problem: Problem, effort: Effort) -> Iterator[tuple[Step, ...]]:
+    for rest in _again(others, problem, step.after, effort):
         yield (step, *rest)

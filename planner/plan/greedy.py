@@ -10,6 +10,7 @@ from itertools import count
 
 from planner.plan.act import Act, runs_of
 from planner.plan.edges import Edges
+from planner.plan.effort import Effort
 from planner.plan.heuristic import arm_time
 from planner.plan.problem import Problem
 from planner.plan.real_run import RealRun
@@ -31,24 +32,26 @@ _WAYS_ALONE, _WAYS_TOGETHER = 4, 1
 """So many ways to do the same are looked at with one hand and with both, which mostly fail for good, and slowly."""
 
 
-def greedy(problem: Problem, start: State, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
+def greedy(problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
     """What is left to be done from a state on.
 
     Args:
         problem: what is to be planned.
         start: the state.
+        effort: what is done is added to it.
         is_over: asked again and again; true means that there is no time.
 
     Returns:
         What is done, act by act, the first beginning with primitive 0; None where no way was found soon that the arms
         can follow.
     """
-    return _Greedy(problem, is_over).acts(start)
+    return _Greedy(problem, effort, is_over).acts(start)
 
 
 class _Greedy:
-    def __init__(self, problem: Problem, is_over: Callable[[], bool]) -> None:
+    def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool]) -> None:
         self._problem = problem
+        self._effort = effort
         self._is_over = is_over
         self._remaining = arm_time(problem.work)
         self._edges = Edges(problem.work, self._possible, lambda held: held.grasp in self._doubted)
@@ -69,9 +72,12 @@ class _Greedy:
                 expanded_max,
                 lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
             )
+            self._effort.expanded += result.expanded
+            self._effort.explored += result.explored
             if not result.path:
                 return None
-            found = self._real([edge.action for edge in result.path])
+            with self._effort.on_joints():
+                found = self._real([edge.action for edge in result.path])
             if found is not None:
                 return found
         return None

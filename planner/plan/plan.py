@@ -88,6 +88,18 @@ class Statistics:
     joint_time_s: float
     bound_s: float | None
 
+    def after(self, before: "Statistics") -> "Statistics":
+        """Those of a search that went on from another's plan: both together, with this one's bound."""
+        return Statistics(
+            before.expanded + self.expanded,
+            before.explored + self.explored,
+            before.ik_queries + self.ik_queries,
+            before.ik_time_s + self.ik_time_s,
+            before.search_time_s + self.search_time_s,
+            before.joint_time_s + self.joint_time_s,
+            self.bound_s,
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """The statistics as JSON."""
         return {name: getattr(self, name) for name in self.__slots__}

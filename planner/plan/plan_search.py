@@ -158,7 +158,10 @@ class PlanSearch:
     def _fall_back(self) -> None:
         """Look for some plan; from then on that is known."""
         self._known = quickly_planned(self._problem.anew(), self._like, self._is_out_of_budget)
-        if self._known is not None and self._on_found is not None:
+        if self._known is None:
+            return
+        self._started += self._known.statistics.search_time_s + self._known.statistics.joint_time_s
+        if self._on_found is not None:
             self._on_found(self._known)
 
     def _is_out_of_budget(self) -> bool:
@@ -181,5 +184,7 @@ class PlanSearch:
             self._joint_time_s,
             None if outcome is Outcome.INFEASIBLE else bound_s,
         )
+        if self._known is not None:
+            statistics = statistics.after(self._known.statistics)
         self._work.forget()
         return Plan.of(self._problem, outcome.value, acts, why, statistics)

@@ -1,14 +1,14 @@
 """A plan found soon: one for a garment that differs a little, adapted as far as it goes, and the rest at one go."""
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from planner.plan.act import Act
 from planner.plan.adapted import adapted
+from planner.plan.effort import Effort
 from planner.plan.greedy import greedy
 from planner.plan.heuristic import arm_time
-from planner.plan.plan import Plan, Statistics
+from planner.plan.plan import Plan
 from planner.plan.problem import Problem
 from planner.primitives.state import State
 
@@ -21,24 +21,22 @@ def quickly_planned(problem: Problem, like: Sequence[Plan], is_over: Callable[[]
         like: plans for problems like it.
         is_over: asked again and again; true means that there is no time.
     """
-    started = time.perf_counter()
-    acts = _acts(problem, like, is_over) if problem.work.unrest(0, problem.start.offset) is None else ()
-    work = problem.work
-    took_s, bound_s = time.perf_counter() - started, arm_time(work)(problem.start)
-    statistics = Statistics(0, 0, work.reach.queries, work.reach.query_time_s, took_s, 0.0, bound_s)
+    work, effort = problem.work, Effort()
+    acts = _acts(problem, like, effort, is_over) if work.unrest(0, problem.start.offset) is None else ()
+    statistics = effort.statistics(work.reach, arm_time(work)(problem.start))
     work.forget()
     return Plan.of(problem, "solved", acts, (), statistics) if acts else None
 
 
-def _acts(problem: Problem, like: Sequence[Plan], is_over: Callable[[], bool]) -> tuple[Act, ...]:
+def _acts(problem: Problem, like: Sequence[Plan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:
     """All that is to be done; nothing where that was not found."""
     begun: tuple[Act, ...] = ()
     for plan in like:
-        found = () if is_over() else adapted(plan, problem)
+        found = () if is_over() else adapted(plan, problem, effort)
         if problem.is_goal(_after(problem, found)):
             return found
         begun = max(begun, found, key=lambda acts: _after(problem, acts).done.bit_count())
-    rest = greedy(problem, _after(problem, begun), is_over)
+    rest = greedy(problem, _after(problem, begun), effort, is_over)
     shift = sum(len(act.steps) for act in begun)
     return (*begun, *(replace(act, first=shift + act.first) for act in rest)) if rest else ()
 

@@ -6,7 +6,8 @@ assumptions about the world after it. A request that has a plan is only told of 
 """
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from typing import TypeAlias
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
@@ -27,6 +28,9 @@ from planner.primitives.scene import Scene
 TOLD_MAX = 3
 """So many suggestions of one kind at most."""
 
+Suggestions: TypeAlias = Generator[Suggestion, None, bool]
+"""Suggestions as they are found, and whether all changes were tried before the time was up."""
+
 _FIRST_PLAN_SHARE = 0.5
 _CHANGES_SHARE = 0.6
 _FOLDS_MAX = 3
@@ -45,7 +49,7 @@ def suggestions(
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     plan: Plan | None = None,
-) -> Iterator[Suggestion]:
+) -> Suggestions:
     """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
 
     The request is planned before this returns, so that bad input raises here and not while iterating.
@@ -64,7 +68,8 @@ def suggestions(
         plan: the answer to the request, where it is known.
 
     Returns:
-        The suggestions as they are found, at most `TOLD_MAX` of a kind.
+        The suggestions as they are found, at most `TOLD_MAX` of a kind; in the end whether every change that could
+        have been tried was, before the time was up.
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
@@ -89,7 +94,7 @@ def suggestions(
     return _searched(asked, known, budget)
 
 
-def _searched(asked: Asked, known: Plan, budget: Budget) -> Iterator[Suggestion]:
+def _searched(asked: Asked, known: Plan, budget: Budget) -> Suggestions:
     """Let every kind of change have its turns, and in the end its last word."""
     if known.is_solved:
         changes, assumptions = [_Lane(placements(asked, known.cost_s))], []
@@ -100,8 +105,11 @@ def _searched(asked: Asked, known: Plan, budget: Budget) -> Iterator[Suggestion]
     yield from _by_turns(changes, budget, _CHANGES_SHARE if assumptions else 1.0)
     yield from _by_turns(assumptions, budget, 1.0)
     yield from _by_turns(changes, budget, 1.0)
-    for lane in () if budget.is_stopped() else (*changes, *assumptions):
+    lanes = (*changes, *assumptions)
+    is_complete = all(lane.is_done for lane in lanes)
+    for lane in () if budget.is_stopped() else lanes:
         yield from lane.last_words()
+    return is_complete
 
 
 def _blocking(plan: Plan) -> tuple[int, ...]:

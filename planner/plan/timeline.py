@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from planner.errors import RequestError
+from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.plan.cloth_surface import ClothSurfaces
 from planner.plan.film import Film
@@ -47,7 +48,7 @@ class Timeline:
     def at(self, t_s: float) -> Frame:
         """The frame at a time (s); times before the start or after the end give the first or last frame."""
         t = min(max(t_s, 0.0), self.duration_s)
-        number = max(0, bisect_right(self._film.starts_s, t) - 1)
+        number = self._cue_at(t)
         cue, since = self._film.cues[number], t - self._film.starts_s[number]
         arms = self._card.arms
         openings = [self._film.track.opening_at(arm, t) for arm in range(len(arms))]
@@ -62,6 +63,15 @@ class Timeline:
             self._surfaces.at(phase.cloth, cue.fraction_at(since), self._droop(number, t)),
             phase.cloth.top,
         )
+
+    def base_at(self, t_s: float) -> Pose2:
+        """Where the base is at a time, table frame; the same as in the frame of that time, and soon known."""
+        t = min(max(t_s, 0.0), self.duration_s)
+        number = self._cue_at(t)
+        return self._film.cues[number].base_at(t - self._film.starts_s[number])
+
+    def _cue_at(self, t_s: float) -> int:
+        return max(0, bisect_right(self._film.starts_s, t_s) - 1)
 
     def _droop(self, number: int, t_s: float) -> float:
         """How far cloth that was held out in the phase before has sunk: 1 when it hangs."""

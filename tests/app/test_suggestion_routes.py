@@ -39,6 +39,7 @@ async def test_suggestions_come_as_events_and_done_comes_last(client: httpx.Asyn
     assert last == "done"
     assert done["count"] == len(found)
     assert 0.0 < done["elapsed_s"] < 10.0
+    assert isinstance(done["complete"], bool)
     assert set(found[0][1]) == {"kind", "is_assumption", "message", "says", "change", "size", "cost_s", "plan_id"}
 
 

@@ -1,5 +1,6 @@
 """What planning came to: the plan and its numbers, or why there is none and what would help."""
 
+import json
 import re
 from collections.abc import Callable
 from typing import Any
@@ -73,14 +74,17 @@ def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
     limits: list[float] = []
 
     def nothing(route: Route) -> None:
-        limits.append(route.request.post_data_json["time_limit_s"])
-        route.fulfill(content_type="text/event-stream", body='event: done\ndata: {"count": 0, "elapsed_s": 1}\n\n')
+        limit_s = route.request.post_data_json["time_limit_s"]
+        limits.append(limit_s)
+        done = {"count": 0, "elapsed_s": limit_s, "complete": limit_s == 60}
+        route.fulfill(content_type="text/event-stream", body=f"event: done\ndata: {json.dumps(done)}\n\n")
 
     page.route("**/api/suggestions", nothing)
     sheet = new_sheet(towel(placement=FAR))
     sheet.edit(keep_front_alone)
     page.goto(sheet.page_url)
-    expect(page.get_by_text("No single small change")).to_be_visible()
+    expect(page.get_by_text("the time for looking ran out")).to_be_visible()
+    expect(page.get_by_text("No single small change")).to_have_count(0)
     page.get_by_role("button", name="Look longer").click()
     expect(page.get_by_role("button", name="Look longer")).to_be_hidden()
     expect(page.get_by_text("No single small change")).to_be_visible()

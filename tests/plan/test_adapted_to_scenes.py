@@ -42,3 +42,20 @@ def test_where_the_base_may_not_back_off_so_far_a_plan_does_without():
     assert enough is not None and enough.cost_s == pytest.approx(plan.cost_s)
     still = quick_plan(SHIRT, replace(Scene(), back_off_max_m=0.0), like=[plan])
     assert still is None or all(p.base.back_off_m == 0.0 for p in still.primitives)
+
+
+def test_the_statistics_of_an_adapted_plan_are_those_of_what_was_looked_at():
+    plan = make_plan(SHIRT)
+    nearer = replace(Scene(), back_off_max_m=0.75)
+    found = quick_plan(SHIRT, nearer, like=[plan])
+    assert found is not None
+    told = found.statistics
+    # To do again what n primitives did, n states are looked at or more, and at least one step from each.
+    assert told.expanded >= len(plan.primitives)
+    assert told.explored >= told.expanded
+    assert told.ik_queries > 0
+    assert told.joint_time_s > 0.0
+    proven = make_plan(SHIRT, nearer, known=found).statistics
+    assert proven.expanded >= told.expanded
+    assert proven.ik_queries >= told.ik_queries
+    assert proven.search_time_s > told.search_time_s

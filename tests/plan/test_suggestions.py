@@ -19,7 +19,7 @@ from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_station import stations
 from planner.plan.suggestion_trial import Asked, Trial
 from planner.plan.suggestion_words import direction_words, moved_words
-from planner.plan.suggestions import suggestions
+from planner.plan.suggestions import Suggestions, suggestions
 from tests.builders import fold, garment, rectangle_points
 
 FRONT_ONLY = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
@@ -217,3 +217,21 @@ def test_a_map_cut_short_says_so():
     found = placement_map(towel(), step_m=0.02, time_limit_s=0.2)
     assert not found.is_complete
     assert found.to_dict()["complete"] is False
+
+
+def is_complete(found: Suggestions) -> bool:
+    """What a search says in the end."""
+    while True:
+        try:
+            next(found)
+        except StopIteration as end:
+            return bool(end.value)
+
+
+def test_a_search_says_whether_it_has_tried_everything():
+    # A single fold, done from where it lies: only better placements are looked for, on a map soon gone through.
+    cloth = towel(Pose2(-0.6, 0.15, -math.pi / 2))
+    assert make_plan(cloth).is_solved
+    assert is_complete(suggestions(cloth, time_limit_s=60.0))
+    assert not is_complete(suggestions(cloth, time_limit_s=60.0, should_stop=lambda: True))
+    assert not is_complete(suggestions(towel(FAR), FRONT_ONLY, time_limit_s=0.01))

@@ -1,4 +1,8 @@
-"""The panel with places to look from; it moves nobody's camera but that of the visitor who pressed."""
+"""The panel with places to look from; it moves nobody's camera but that of the visitor who pressed.
+
+The robot's eye goes along with the robot until the visitor takes the camera elsewhere. What a browser tells of its
+camera is a little old: it is taken elsewhere when it is at none of the places where it has been put lately.
+"""
 
 from collections import deque
 from collections.abc import Callable
@@ -12,6 +16,9 @@ LABEL = "Camera"
 
 _REMEMBERED = 8
 """How many openings: what a browser tells of its camera may be some of them old."""
+
+_RIDDEN = 90
+"""The same of a camera that goes along with the robot: three seconds of them."""
 
 OnPreset = Callable[[Preset], None]
 
@@ -34,6 +41,7 @@ class CameraPanel:
         self._openings = deque([opening], _REMEMBERED)
         self._has_begun = self._is_left = False
         self._preset: Viewpoint | None = None
+        self._ridden: deque[Viewpoint] = deque(maxlen=_RIDDEN)
         self._folder = client.gui.add_folder(LABEL)
         with self._folder:
             self._buttons = client.gui.add_button_group("Look from", tuple(preset.value for preset in Preset))
@@ -65,13 +73,31 @@ class CameraPanel:
     def go_to(self, viewpoint: Viewpoint) -> None:
         """Go to a place, and remember the one where somebody has gone by hand."""
         self._is_left = True
-        if self._preset is None or self._has_moved(self._preset):
+        if self._preset is None or (self._has_moved(self._preset) and not self.is_riding):
             self._free = self._here
+        self._ridden.clear()
         self._preset = viewpoint
         self._move(viewpoint)
 
+    def ride(self, viewpoint: Viewpoint) -> None:
+        """Go to a place that moves, and along with it from now on."""
+        if not self.is_riding:
+            before = self._here
+            self.go_to(viewpoint)
+            self._ridden.extend((before, viewpoint))
+        elif viewpoint != self._ridden[-1]:
+            self._ridden.append(viewpoint)
+            self._preset = viewpoint
+            self._move(viewpoint)
+
+    @property
+    def is_riding(self) -> bool:
+        """Whether the camera goes along with something: nobody has moved it since."""
+        return any(not self._has_moved(place) for place in self._ridden)
+
     def go_back(self) -> None:
         """Go to where the camera was before the places that were chosen here."""
+        self._ridden.clear()
         self._preset = None
         self._move(self._free)
 

@@ -54,6 +54,7 @@ class Seat:
         self._editor = Editor(document, f"stage.{client.client_id}")
         self._zoom = 0
         self._is_dark = document.state.is_dark
+        self._is_from_right = False
         with client.atomic():
             client.gui.set_panel_label(PANEL_LABEL)
             client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
@@ -78,6 +79,7 @@ class Seat:
                 self._marks.visible = not self._editor.is_drawing
             self._aids.show(self._editor.aids, _ZOOM_STEP**self._zoom)
             self._edit_panel.show(self._editor)
+            self._follow(state)
         self._client.flush()
 
     def leave(self) -> None:
@@ -93,7 +95,18 @@ class Seat:
         """Have table and robot whole in the picture, whatever its shape, until somebody moves the camera."""
         state = self._document.state
         scene, panel = state.drawing.scene, self._camera_panel
-        panel.open_on(opening_of(scene, panel.lens.aspect, self._starting_base(state)))
+        base = self._starting_base(state)
+        panel.open_on(opening_of(scene, panel.lens.aspect, base, is_from_right=self._is_from_right))
+
+    def _follow(self, state: DocumentState) -> None:
+        """Have the camera go along with the robot's head, or look from the side on which the robot does not stand."""
+        if self._camera_panel.is_riding:
+            self._camera_panel.ride(self._robots_eye(state))
+            return
+        aside_m, beside_m = self._base(state).y_m, state.drawing.scene.table.width_m / 2
+        if abs(aside_m) > beside_m and self._is_from_right != (aside_m > 0.0):
+            self._is_from_right = aside_m > 0.0
+            self._open()
 
     def _look(self, preset: Preset) -> None:
         panel, state = self._camera_panel, self._document.state
@@ -106,14 +119,18 @@ class Seat:
             case Preset.SIDE:
                 panel.go_to(side(panel.lens, scene.table))
             case Preset.ROBOT:
-                points = on_table(state.drawing, state.drawing.points) or scene.table.corners
-                base, floor_z_m = self._base(state), -scene.table.height_m
-                panel.go_to(robots_eye(self._card, base, points, panel.lens.aspect, scene.torso_m, floor_z_m))
+                panel.ride(self._robots_eye(state))
+
+    def _robots_eye(self, state: DocumentState) -> Viewpoint:
+        """What the robot sees from where it stands now."""
+        scene, aspect = state.drawing.scene, self._camera_panel.lens.aspect
+        points = on_table(state.drawing, state.drawing.points) or scene.table.corners
+        return robots_eye(self._card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
 
     def _base(self, state: DocumentState) -> Pose2:
         """Where the robot stands now."""
         if state.film is not None:
-            return state.film.timeline.at(self._document.t_s).base
+            return state.film.timeline.base_at(self._document.t_s)
         return self._starting_base(state)
 
     @staticmethod

@@ -99,7 +99,9 @@ export class NoPlan {
   }
 
   nothing(fault) {
-    return fault ? `Nothing could be looked for: ${fault}.` : "No single small change that was tried gives a plan.";
+    if (fault) return `Nothing could be looked for: ${fault}.`;
+    if (!this.search.isComplete) return "Nothing has been found yet: the time for looking ran out.";
+    return "No single small change gives a plan.";
   }
 
   /** @param {boolean} isOpen */

@@ -22,6 +22,8 @@ export class SuggestionSearch extends EventTarget {
     /** @type {Suggestion[]} in the order of arrival */
     this.found = [];
     this.isRunning = false;
+    /** Whether every change that could be tried was, before the time was up. */
+    this.isComplete = false;
     this.fault = "";
   }
 
@@ -31,7 +33,7 @@ export class SuggestionSearch extends EventTarget {
    * @param {{delay_ms?: number, limit_s?: number}} how how long to wait first, and what the search may take
    */
   async start(state, { delay_ms = 0, limit_s = LIMIT_S } = {}) {
-    this.stop();
+    this.forget();
     const abort = new AbortController();
     this.abort = abort;
     this.isRunning = true;
@@ -40,25 +42,31 @@ export class SuggestionSearch extends EventTarget {
       await rest(delay_ms, abort.signal);
       const asked = { ...request(state), time_limit_s: limit_s };
       for await (const { event, data } of eventStream(ADDRESS, asked, abort.signal)) {
+        if (event === "done") this.isComplete = data.complete === true;
         if (event !== "suggestion") continue;
         this.found.push(data);
         this.tell();
       }
     } catch (error) {
-      this.fault = String(error.message);
+      if (!abort.signal.aborted) this.fault = String(error.message);
     }
-    if (abort.signal.aborted) return;
+    if (abort.signal.aborted) return; // another search may be running by now
     this.isRunning = false;
     this.tell();
   }
 
   /** Search no more, and forget what was found. */
   stop() {
+    this.forget();
+    this.tell();
+  }
+
+  forget() {
     this.abort?.abort();
     this.found = [];
     this.isRunning = false;
+    this.isComplete = false;
     this.fault = "";
-    this.tell();
   }
 
   tell() {

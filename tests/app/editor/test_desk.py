@@ -1,5 +1,7 @@
 """Editing over the wire: what viser's page says, through the stage's own thread, to the document and back."""
 
+import math
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -7,6 +9,7 @@ import pytest
 from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
+from app.drawing.garment_drawing import drawing_of
 from app.player import Player
 from app.ui.editor.desk import Desk
 from app.ui.editor.glass import NODE
@@ -17,6 +20,7 @@ from planner import Scene
 from planner.robot.pr2 import load_robot
 from tests.app.drawing.drawings import towel_drawing
 from tests.app.editor.visitor import EYE, Visitor
+from tests.replay.planned import planned
 
 CARD = load_robot("pr2").card
 FAR_CORNER = (-0.4, -0.2)
@@ -230,3 +234,78 @@ def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest
         assert "could not be done" in caplog.text
     finally:
         server.stop()
+
+
+@pytest.fixture(scope="module")
+def driven() -> Iterator[tuple[Document, Stage]]:
+    """A document with a plan that drives to the table's left, and its stage."""
+    plan = planned("jeans").answer
+    document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
+    question = document.state.question
+    assert question is not None
+    document.settle(document.state.version, question, plan, "id")
+    document.show_film(plan, plan.timeline())
+    player = Player(document, stage, Desk(document, stage.server, CARD, stage.opening))
+    yield document, stage
+    player.close()
+    stage.close()
+
+
+def time_at_side(document: Document) -> float:
+    """A time at which the robot stands beside the table (s)."""
+    film = document.state.film
+    assert film is not None
+    times = (move.start_s + move.duration_s for move in film.plan.primitives if move.kind == "move")
+    return next(t for t in times if abs(film.timeline.base_at(t).y_m) > 0.6)
+
+
+def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    film = document.state.film
+    assert film is not None
+    with Visitor(stage) as visitor:
+        visitor.until(lambda: "Look from" in visitor.controls)
+        visitor.choose("Look from", "Robot's eye")
+        visitor.until(lambda: len(visitor.camera) == 2)
+        before = film.timeline.base_at(0.0)
+        assert math.dist(visitor.camera[-1][:2], (before.x_m, before.y_m)) < 0.4
+        document.seek(at := time_at_side(document))
+        beside = film.timeline.base_at(at)
+        visitor.until(lambda: math.dist(visitor.camera[-1][:2], (beside.x_m, beside.y_m)) < 0.4)
+        visitor.look(EYE, (800, 500))
+        time.sleep(0.2)
+        moves = len(visitor.camera)
+        document.seek(0.0)
+        time.sleep(0.3)
+        assert len(visitor.camera) == moves
+
+
+def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does_not_stand(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    with Visitor(stage, stage.opening.position) as visitor:
+        visitor.until(lambda: "Mode" in visitor.controls)
+        visitor.look(visitor.camera[-1], (800, 500))
+        document.seek(at := time_at_side(document))
+        film = document.state.film
+        assert film is not None
+        beside = film.timeline.base_at(at)
+        visitor.until(lambda: visitor.camera[-1][1] * beside.y_m < 0.0)
+
+
+def test_a_camera_that_somebody_has_moved_stays_though_the_robot_stands_before_it(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    with Visitor(stage) as visitor:
+        visitor.until(lambda: "Mode" in visitor.controls)
+        moves = len(visitor.camera)
+        document.seek(time_at_side(document))
+        time.sleep(0.3)
+        assert len(visitor.camera) == moves

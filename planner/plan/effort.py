@@ -1,0 +1,40 @@
+"""The work that goes into a plan, counted as it is done."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from planner.plan.plan import Statistics
+from planner.primitives.reach import Reach
+
+
+class Effort:
+    """Counters of one attempt at a plan.
+
+    Attributes:
+        expanded: states whose steps were looked at.
+        explored: steps looked at.
+    """
+
+    def __init__(self) -> None:
+        """Start the clock."""
+        self.expanded = 0
+        self.explored = 0
+        self._started = time.perf_counter()
+        self._joint_time_s = 0.0
+
+    @contextmanager
+    def on_joints(self) -> Iterator[None]:
+        """Count the time meanwhile as spent on joint paths."""
+        begun = time.perf_counter()
+        try:
+            yield
+        finally:
+            self._joint_time_s += time.perf_counter() - begun
+
+    def statistics(self, reach: Reach, bound_s: float) -> Statistics:
+        """What has been done so far, for a plan that takes at least so long (s)."""
+        search_s = time.perf_counter() - self._started - self._joint_time_s
+        return Statistics(
+            self.expanded, self.explored, reach.queries, reach.query_time_s, search_s, self._joint_time_s, bound_s
+        )
