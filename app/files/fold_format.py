@@ -15,7 +15,7 @@ from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
-from planner.geometry.tolerance import EDGE_RAD
+from planner.geometry.tolerance import DECIMALS, EDGE_RAD
 
 SPEC = 1.2
 _ANGLE_DEG = {"B": 0, "F": 0, "M": -180, "V": 180}
@@ -49,7 +49,7 @@ def fold_format(
         "frame_classes": ["creasePattern"],
         "frame_attributes": _attributes(mesh, is_touching=False),
         "frame_unit": "m",
-        "vertices_coords": mesh.places[0].tolist(),
+        "vertices_coords": mesh.places[0].round(DECIMALS).tolist(),
         "edges_vertices": [list(edge) for edge in edges],
         **_creases(mesh, edges, last),
         "faces_vertices": [list(face) for face in mesh.faces],
@@ -65,7 +65,7 @@ def _folded(garment: Garment, mesh: FoldMesh, edges: _Edges, step: int) -> dict[
         "frame_unit": "m",
         "frame_parent": 0,
         "frame_inherit": True,
-        "vertices_coords": mesh.places[step].tolist(),
+        "vertices_coords": mesh.places[step].round(DECIMALS).tolist(),
         **_creases(mesh, edges, step),
         "faceOrders": list(_orders(mesh, step)),
     }

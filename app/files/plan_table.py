@@ -3,6 +3,9 @@
 While a fold is under way the base may drive, so its place is given for each of the three moments: when the cloth is
 taken, at the top of the path, and where it is let go. Each point of the base frame is seen from the base's place at
 its own moment. Heights in the base frame are above the floor, in the table frame above the table's top.
+
+Points are turned and shifted on the way here, which leaves noise in their last digits. Numbers are rounded to what the
+planner tells apart, far above that noise.
 """
 
 import csv
@@ -13,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from planner.geometry.pose import Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, DECIMALS
 from planner.plan.plan import Plan, PlannedPrimitive
 from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
@@ -29,8 +32,12 @@ def plan_table(plan: Plan) -> str:
     writer = csv.DictWriter(text, list(_names(arms)))
     writer.writeheader()
     for number, primitive in enumerate(plan.primitives):
-        writer.writerow(_row(plan, number, primitive))
+        writer.writerow({name: _cell(value) for name, value in _row(plan, number, primitive).items()})
     return text.getvalue()
+
+
+def _cell(value: object) -> object:
+    return round(value, DECIMALS) + 0.0 if isinstance(value, float) else value
 
 
 def _names(arms: list[str]) -> Iterator[str]:

@@ -22,6 +22,9 @@ AREA_M2: Final = 1e-5
 TIME_S: Final = 1e-9
 """Two durations nearer than this are the same (s)."""
 
+DECIMALS: Final = 9
+"""Those of the finest of these (m, s, rad): what is written to be read by people has no more of them."""
+
 ANGLE_RAD: Final = 1e-9
 """Two angles nearer than this are the same (rad), where no length gives a better measure."""
 

@@ -29,6 +29,7 @@ def test_every_shipped_garment_is_written_as_the_specification_has_it(name: str)
     require_valid(file)
     assert len(file["file_frames"]) == len(cloth.folds)
     for frame in frames_of(file):
+        assert all(len(str(number)) <= 14 for place in frame["vertices_coords"] for number in place), "noise is written"
         assert sum(abs(signed_area(ring)) for ring in rings(frame)) == pytest.approx(cloth.pattern.area, abs=1e-5)
 
 

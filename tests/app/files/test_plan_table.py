@@ -100,3 +100,13 @@ def test_a_fold_whose_name_looks_like_a_formula_is_no_formula(hand_towel: Plan):
     cloth = load_garment("hand-towel")
     named = replace(cloth, folds=(replace(cloth.folds[0], name='=HYPERLINK("there")'), *cloth.folds[1:]))
     assert rows_of(make_plan(named))[0]["what"] == '\'=HYPERLINK("there")'
+
+
+@pytest.mark.parametrize("name", ["t-shirt", "jeans", "vest"])
+def test_no_number_ends_in_the_noise_of_the_computation(name: str):
+    plan = make_plan(load_garment(name))
+    for row, primitive in zip(rows_of(plan), plan.primitives, strict=True):
+        numbers = {name: text for name, text in row.items() if name.endswith(("_m", "_s", "_rad")) and text}
+        assert all(len(text.partition(".")[2]) <= 9 and "e" not in text and text != "-0.0" for text in numbers.values())
+        for grip in primitive.grips:
+            assert point(row, grip.arm, "pick", "table") == pytest.approx(grip.pick, abs=1e-9)
