@@ -14,11 +14,13 @@ export function mountHistory(store, verbs) {
   redo.append(icon("redo"));
   undo.addEventListener("click", verbs.undo);
   redo.addEventListener("click", verbs.redo);
-  store.addEventListener("document", () => {
-    const { can_undo: back, can_redo: again } = store.state.history;
-    undo.disabled = back === null;
+  const show = () => {
+    const { can_undo: step, can_redo: again } = store.state.history;
+    const back = store.begun || step;
+    undo.disabled = !back;
     redo.disabled = again === null;
-    undo.title = back === null ? "Nothing to undo" : `Undo: ${back} (Ctrl+Z)`;
+    undo.title = back ? `Undo: ${back} (Ctrl+Z)` : "Nothing to undo";
     redo.title = again === null ? "Nothing to redo" : `Redo: ${again} (Ctrl+Shift+Z)`;
-  });
+  };
+  for (const name of ["document", "begun"]) store.addEventListener(name, show);
 }

@@ -3,7 +3,7 @@
  * Parts listen to its events and call its verbs; none of them talks to another.
  *
  * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "pending", "hover-time",
- * "preview", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
+ * "preview", "begun", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
  */
 
 import { EditQueue } from "./edit_queue.js";
@@ -63,6 +63,8 @@ export class Store extends EventTarget {
     this.pending = [];
     /** @type {number|null} seconds */
     this.hoverTime = null;
+    /** What Undo would take back of what is being drawn, before any step; empty for nothing. */
+    this.begun = "";
     /** @type {any} a suggestion's change that is pointed at */
     this.preview = null;
     this.queue = new EditQueue(this);
@@ -159,6 +161,13 @@ export class Store extends EventTarget {
     if (t_s === this.hoverTime) return;
     this.hoverTime = t_s;
     this.tell("hover-time");
+  }
+
+  /** @param {string} part */
+  setBegun(part) {
+    if (part === this.begun) return;
+    this.begun = part;
+    this.tell("begun");
   }
 
   /** @param {any} change */

@@ -40,7 +40,7 @@ export class Blank {
   }
 
   draw() {
-    const { drawing, tool } = this.board;
-    this.root.hidden = drawing.outline.length > 0 || DRAWING.has(tool.name);
+    const { drawing, tool, tools } = this.board;
+    this.root.hidden = drawing.outline.length > 0 || DRAWING.has(tool.name) || tools.outline.isBusy;
   }
 }

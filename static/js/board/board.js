@@ -172,7 +172,7 @@ export class Board extends Shown {
   choose(name) {
     if (!this.state) return;
     const before = this.tool;
-    before.cancel();
+    before.interrupt();
     this.closeTyped();
     this.tool = this.tools[name];
     if (name === "place" || before.name === "place") this.framing.turn(before.name === "place");
@@ -183,8 +183,8 @@ export class Board extends Shown {
   }
 
   escape() {
-    if (this.tool.cancel()) return true;
-    if (this.tool.name !== "select") this.choose("select");
+    if (this.tool.cancel()) this.render();
+    else if (this.tool.name !== "select") this.choose("select");
     else if (this.store.selection) this.store.select(null);
     else return false;
     return true;

@@ -28,10 +28,13 @@ export const LAYERS = [
   "cursor",
 ];
 
+const UNCLOSED = "The outline is not closed yet: P goes on with it.";
+
 /** @param {import("./board.js").Board} board */
 export function drawAll(board) {
   if (!board.state) return;
   const { sheets, view, tool, svg } = board;
+  const { outline } = board.tools;
   view.lay(board.isPlacing ? board.drawing.placement : null);
   sheets.grid.draw(drawGrid(board));
   sheets.photo.draw(board.isPlacing ? [] : board.photo.items(view));
@@ -50,7 +53,7 @@ export function drawAll(board) {
   ]);
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawMend(board)]);
   sheets.handles.draw(drawHandles(board));
-  sheets.tool.draw(tool.items());
+  sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
   const [x, y] = view.toPx([0, 0]);
   svg.dataset.originPx = `${x},${y}`;
@@ -59,7 +62,8 @@ export function drawAll(board) {
   svg.style.cursor = tool.cursor;
   svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);
-  board.hintLine.textContent = tool.hint;
+  board.hintLine.textContent = tool !== outline && outline.isBusy ? UNCLOSED : tool.hint;
+  board.store.setBegun(tool.lastPart);
   board.strip.draw();
   board.rail?.draw();
   board.blank?.draw();

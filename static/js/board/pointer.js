@@ -140,7 +140,7 @@ export class PointerInput {
 
   /** What the tool had begun with this pointer is not done. */
   drop() {
-    if (this.pressed) this.board.tool.cancel();
+    if (this.pressed) this.board.tool.interrupt();
     this.pressed = null;
     this.board.loupe.show(null);
     this.board.render();

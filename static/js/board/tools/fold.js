@@ -19,6 +19,7 @@ const BY_EDGE_PX = 20;
 /** Kinds of snaps that mean the point itself, not its edge. */
 const POINTS = new Set(["vertex", "fraction"]);
 const BESIDE = "No fold there: the stroke does not touch the cloth.";
+const UNCLOSED = "The outline is not closed yet: go on with Draw outline (P).";
 const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
 
 export class FoldTool extends Tool {
@@ -58,10 +59,11 @@ export class FoldTool extends Tool {
   }
 
   enter() {
-    const { store } = this.board;
-    store.select(null);
-    store.showStep(store.moments - 1);
+    const { board } = this;
+    board.store.select(null);
+    board.store.showStep(board.store.moments - 1);
     this.last = "";
+    if (this.stroke && (this.stroke.step !== board.step || this.stroke.version !== board.state.version)) this.drop();
   }
 
   hover(pointer) {
@@ -79,11 +81,7 @@ export class FoldTool extends Tool {
     const snapped = this.hover(pointer);
     if (this.stroke) return;
     if (!this.board.rings.length) {
-      this.board.store.refuse(
-        this.board.paint.kind === "red" && this.board.step === 0
-          ? NO_FLAP
-          : "There is no cloth yet: draw an outline first.",
-      );
+      this.board.store.refuse(this.noCloth());
       return;
     }
     const isGrab = this.isGrab(snapped, pointer);
@@ -91,7 +89,16 @@ export class FoldTool extends Tool {
     const { isTouch } = pointer;
     const laid = this.laid(isGrab, snapped, isTouch);
     this.isRefused = false;
-    this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid };
+    const { step, state } = this.board;
+    const { version } = state;
+    this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid, step, version };
+  }
+
+  /** Why there is nothing to draw a fold on. */
+  noCloth() {
+    const { paint, step, tools } = this.board;
+    if (paint.kind === "red" && step === 0) return NO_FLAP;
+    return tools.outline.isBusy ? UNCLOSED : "There is no cloth yet: draw an outline first.";
   }
 
   /** Whether a stroke that begins there takes cloth along: inside it always, at its edges and corners when told to. */
@@ -237,6 +244,18 @@ export class FoldTool extends Tool {
     this.board.snapped = null;
     this.board.say("");
     return wasBusy;
+  }
+
+  /** A stroke whose first end was clicked goes on when the tool is chosen again. */
+  interrupt() {
+    if (!this.stroke?.isArmed) this.cancel();
+    this.question.forget();
+    this.board.ghost = null;
+    this.board.say("");
+  }
+
+  get lastPart() {
+    return this.isBusy ? "the fold\u2019s first end" : "";
   }
 
   leave() {

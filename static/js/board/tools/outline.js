@@ -1,4 +1,7 @@
-/** The tool `Draw outline`: point after point, closed at the first; takes the place of the outline before. */
+/**
+ * The tool `Draw outline`: point after point, closed at the first; takes the place of the outline before. An outline that
+ * is not closed stays when another tool is chosen, and goes on when this one is chosen again.
+ */
 
 import { replaceOutline } from "../edits.js";
 import { distance } from "../geometry.js";
@@ -18,8 +21,11 @@ export class OutlineTool extends Tool {
     this.points = [];
     /** Where the next point would be. @type {[number, number]|null} */
     this.next = null;
+    /** Whether the pointer has left the board: a typed length still goes towards where it was last. */
+    this.isAway = false;
     /** A length that was typed (m). @type {number|null} */
     this.typed = null;
+    board.store.addEventListener("opened", () => this.cancel());
   }
 
   get hint() {
@@ -39,6 +45,7 @@ export class OutlineTool extends Tool {
   }
 
   hover(pointer) {
+    this.isAway = false;
     const last = this.points.at(-1) ?? null;
     const close = this.points.length >= LEAST_CORNERS ? this.points[0] : null;
     this.board.hover = null;
@@ -67,8 +74,12 @@ export class OutlineTool extends Tool {
   }
 
   leave() {
-    this.next = null;
+    this.isAway = true;
     this.board.snapped = null;
+  }
+
+  interrupt() {
+    this.leave();
   }
 
   /** The next point becomes a corner; the first one again closes the outline. */
@@ -88,7 +99,7 @@ export class OutlineTool extends Tool {
       return;
     }
     this.points = [];
-    this.leave();
+    this.next = null;
     this.board.choose("select");
     this.board.showDraft((drawing) => replaceOutline(drawing, points));
     await this.board.store.edit("Draw outline", (drawing) => replaceOutline(drawing, points));
@@ -98,8 +109,13 @@ export class OutlineTool extends Tool {
   cancel() {
     const wasBusy = this.isBusy;
     this.points = [];
-    this.leave();
+    this.next = null;
+    this.board.snapped = null;
     return wasBusy;
+  }
+
+  get lastPart() {
+    return this.isBusy ? `corner ${this.points.length}` : "";
   }
 
   takeBack() {
@@ -139,8 +155,9 @@ export class OutlineTool extends Tool {
   items() {
     const { view } = this.board;
     const points = this.points.map((point) => view.toPx(point));
-    const next = this.next && view.toPx(this.next);
-    const stretch = this.stretch;
+    const isLed = this.typed !== null || (!this.isAway && this.board.tool === this);
+    const next = isLed && this.next ? view.toPx(this.next) : null;
+    const stretch = next && this.stretch;
     return [
       points.length > 1 && {
         key: "fill",

@@ -54,6 +54,16 @@ export class Tool {
     return false;
   }
 
+  /** Another tool is chosen, or two fingers pan: what is begun is dropped, unless it took more than this gesture. */
+  interrupt() {
+    this.cancel();
+  }
+
+  /** What Undo would take back of what is begun; empty for nothing. */
+  get lastPart() {
+    return "";
+  }
+
   /** Take back the last part of what is begun. */
   takeBack() {
     this.cancel();
