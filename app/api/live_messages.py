@@ -77,6 +77,8 @@ def status_text(state: DocumentState) -> str:
         return "Planning..."
     plan = state.answer.plan
     if plan.status == "solved":
+        if not plan.garment.folds:
+            return "No folds yet: draw the first one"
         count = len(plan.primitives)
         return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
     if plan.status == "budget_exceeded":

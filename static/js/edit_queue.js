@@ -53,10 +53,11 @@ export class EditQueue {
   /** @param {string|object} garment @param {string|null} label */
   open(garment, label) {
     const run = async () => {
+      const before = this.store.state?.drawing;
       const state = this.taken(await this.send("PUT", "/garment", { garment, label }));
       this.store.select(null);
       this.store.showStep(0);
-      this.store.tell("opened");
+      this.store.dispatchEvent(new CustomEvent("opened", { detail: before }));
       return state;
     };
     return this.push({ run });

@@ -1,31 +1,89 @@
-/** The combobox `Garment`: what is drawn, and what could be opened in its place. */
+/**
+ * The combobox `Garment`: the documents there are, and the garments of which a new one can be made. Choosing goes to the
+ * document; what is open stays as it is, under its own address.
+ */
 
-import { byId } from "./dom.js";
+import { goTo, goToNew } from "./dialogs/documents.js";
+import { sentenceOf } from "./dialogs/dialog.js";
+import { byId, element } from "./dom.js";
+
+/** @typedef {{id: string, title: string, name: string, changed_at: string, problem: string|null}} Entry */
+
+const DOCUMENT = "document:";
+const GARMENT = "garment:";
 
 /** @param {import("./store.js").Store} store */
 export function mountGarments(store) {
   const select = /** @type {HTMLSelectElement} */ (byId("garment"));
+  /** @type {Entry[]} */
+  let documents = [];
   /** @type {{name: string, title: string}[]} */
-  let entries = [];
+  let garments = [];
+  let shown = "";
 
   const show = () => {
     if (!store.state) return;
     const { name, title } = store.state.drawing;
-    const own = { name, title: title || name };
-    const isKnown = entries.some((entry) => entry.name === name);
-    const shown = isKnown ? entries.map((entry) => (entry.name === name ? own : entry)) : [own, ...entries];
-    select.replaceChildren(...shown.map((entry) => new Option(entry.title, entry.name)));
-    select.value = name;
+    const own = { id: store.id, title, name, changed_at: "", problem: null };
+    const drawn = [own, ...documents.filter((entry) => entry.id !== store.id && entry.problem === null)];
+    select.value = DOCUMENT + store.id;
+    const wanted = JSON.stringify([drawn, garments]);
+    if (wanted === shown) return; // a list that somebody has open stays as it is
+    shown = wanted;
+    select.replaceChildren(
+      group("Documents", drawn.map((entry) => new Option(called(entry, drawn), DOCUMENT + entry.id))),
+      group("New, of", garments.map((entry) => new Option(entry.title, GARMENT + entry.name))),
+    );
+    select.value = DOCUMENT + store.id;
   };
   const load = async () => {
-    const answer = await fetch("../api/garments").catch(() => null);
-    if (!answer?.ok) return;
-    entries = await answer.json();
+    [documents, garments] = await Promise.all([listed("../api/documents", documents), listed("../api/garments", garments)]);
     show();
   };
+  const choose = async () => {
+    const wanted = select.value;
+    show(); // until the page is another one, it shows this document
+    if (wanted.startsWith(DOCUMENT)) goTo(wanted.slice(DOCUMENT.length));
+    else await make(store, wanted.slice(GARMENT.length));
+  };
 
-  select.addEventListener("change", () => store.open(select.value));
+  select.addEventListener("change", choose);
+  for (const name of ["focus", "pointerenter"]) select.addEventListener(name, load);
   store.addEventListener("document", show);
-  store.addEventListener("refused", show);
   store.addEventListener("connection", () => store.isLive && load());
+}
+
+/** @param {string} label @param {HTMLOptionElement[]} options */
+function group(label, options) {
+  const made = /** @type {HTMLOptGroupElement} */ (element("optgroup", "", ...options));
+  made.label = label;
+  return made;
+}
+
+/** A document's title; when it was changed, too, where another one has the same. @param {Entry} entry @param {Entry[]} all */
+function called({ title, name, changed_at: changed }, all) {
+  const shown = title || name;
+  const isAlone = all.filter((other) => (other.title || other.name) === shown).length < 2;
+  return isAlone || !changed ? shown : `${shown}, ${when(new Date(changed))}`;
+}
+
+/** @param {Date} moment */
+function when(moment) {
+  const isToday = moment.toDateString() === new Date().toDateString();
+  return isToday
+    ? moment.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })
+    : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
+}
+
+/** What the server lists, or what it listed before. */
+async function listed(address, before) {
+  const answer = await fetch(address).catch(() => null);
+  return answer?.ok ? await answer.json() : before;
+}
+
+/** A new document of a garment, and the page on it. */
+async function make(store, garment) {
+  const answer = await goToNew({ garment }).catch(() => null);
+  if (!answer) store.refuse("The server cannot be reached; nothing was opened.");
+  else if (answer.status !== 201) store.refuse(sentenceOf(await answer.json()));
 }

@@ -41,7 +41,11 @@ document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board) 
 theme.addEventListener("change", tellTheme);
 store.addEventListener("connection", () => store.isLive && tellTheme());
 store.addEventListener("refused", (event) => notice(/** @type {CustomEvent} */ (event).detail));
-store.addEventListener("opened", () => board.framing.fitNext());
+store.addEventListener("opened", (event) => {
+  board.framing.fitNext();
+  const replaced = /** @type {CustomEvent} */ (event).detail;
+  if (replaced?.outline.length) notice(`\u201C${replaced.title || replaced.name}\u201D was replaced; Undo brings it back.`);
+});
 store.addEventListener("document", () => {
   document.title = `${store.state.drawing.title || store.state.drawing.name} - Pleat`;
 });

@@ -3,7 +3,8 @@
  * Parts listen to its events and call its verbs; none of them talks to another.
  *
  * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "pending", "hover-time",
- * "preview", "begun", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page).
+ * "preview", "begun", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page; detail: the drawing
+ * that it has replaced).
  */
 
 import { EditQueue } from "./edit_queue.js";

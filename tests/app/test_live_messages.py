@@ -47,6 +47,12 @@ def test_what_any_plan_takes_is_told_until_that_is_known_to_be_the_plans_cost() 
     assert told == [None, plan.cost_s - 2.0]
 
 
+def test_of_a_garment_without_folds_it_is_said_what_is_missing() -> None:
+    plan = make_plan(replace(T_SHIRT, folds=()))
+    assert plan.primitives == ()
+    assert status_text(answered(plan)) == "No folds yet: draw the first one"
+
+
 def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() -> None:
     plan = make_plan(T_SHIRT)
     states = [answered(plan, is_final=is_final) for is_final in (False, True)]

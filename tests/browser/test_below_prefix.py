@@ -19,7 +19,7 @@ def test_page_stage_and_edits_work_below_a_proxys_prefix(browser: Browser, serve
         expect_planned(page)
         assert page.url.startswith(f"{url}/d/")
         page.wait_for_function(IS_THERE, arg="/cloth/front")
-        page.locator("#garment").select_option("hand-towel")
+        page.locator("#garment").select_option("garment:hand-towel")
         expect(page).to_have_title("Hand towel - Pleat")
         expect_planned(page)
         page.goto(f"{url}/docs")

@@ -100,7 +100,8 @@ def test_undo_takes_back_what_is_being_drawn_before_any_step(page: Page, blank: 
     expect(sketched).to_have_count(7 + 2)
     page.get_by_role("button", name="Undo").click()
     expect(sketched).to_have_count(7 + 1)
-    expect_step(page, "Draw outline")
+    expect_step(page, "corner 1")
+    assert blank.can_undo == "Draw outline"
     page.keyboard.press("Control+z")
     page.keyboard.press("Control+z")
     expect(page.get_by_role("button", name="Redo")).to_be_enabled()

@@ -13,7 +13,15 @@ export function mountBoard(store, verbs) {
   const board = new Board(store, byId("board"), verbs.togglePlay);
   board.rail = new Rail(board, byId("rail"));
   board.blank = new Blank(board, verbs);
+  takeUp(board, location.hash.slice(1));
   return board;
+}
+
+/** Take up the tool that the address names, as soon as the document is there; later it is the reader's choice. */
+function takeUp(board, name) {
+  if (!board.tools[name]) return;
+  history.replaceState(null, "", location.pathname);
+  board.store.addEventListener("document", () => board.choose(name), { once: true });
 }
 
 /** The board's own keys, by letter. @param {Board} board */

@@ -1,15 +1,19 @@
-/** New documents: each has its own address, and the page goes there. */
+/** Documents: each has its own address, and the page goes there. */
+
+/** @param {string} id of a document */
+export const goTo = (id) => location.assign(`../d/${id}`);
 
 /**
  * @param {any} wanted `{garment}` or nothing for a blank board
+ * @param {string} tool the board's tool that is at hand there
  * @returns {Promise<Response>} what the server answered, if it was no new document
  */
-export async function goToNew(wanted) {
+export async function goToNew(wanted, tool = "") {
   const answer = await fetch("../api/documents", {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify(wanted),
   });
-  if (answer.status === 201) location.assign(answer.headers.get("location") ?? "../");
+  if (answer.status === 201) location.assign((answer.headers.get("location") ?? "../") + (tool && `#${tool}`));
   return answer;
 }

@@ -135,10 +135,18 @@ function found(store, body, file, how, { garment, notes, creases, sizes }) {
       ),
     ),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
+    ...replaces(store),
     said,
     element("div", "dialog-buttons", ...verbs, anew, here),
   );
   here.focus();
+}
+
+/** What would be gone from this document, where anything is drawn in it. */
+function replaces({ state }) {
+  const { outline, title, name } = state?.drawing ?? { outline: [] };
+  if (!outline.length) return [];
+  return [element("p", "dialog-text", `Opened here it replaces \u201C${title || name}\u201D; Undo brings that back.`)];
 }
 
 /** On which cloth the fold lines are drawn, where that matters. */

@@ -57,7 +57,7 @@ function tile(template, onClick) {
 
 function blank(problem) {
   const said = element("p", "dialog-problem", problem);
-  const go = button("main-button", () => create({}, said), "Start drawing");
+  const go = button("main-button", () => create({}, said, "outline"), "Start drawing");
   return [
     element("h3", "", "Blank board"),
     element("p", "dialog-text", "Draw the outline yourself, corner by corner."),
@@ -137,8 +137,8 @@ async function garmentOf(name, measures) {
   return answer.ok ? { garment: told.garment } : { problem: sentenceOf(told) };
 }
 
-async function create(wanted, said) {
-  const answer = await goToNew(wanted).catch(() => null);
+async function create(wanted, said, tool = "") {
+  const answer = await goToNew(wanted, tool).catch(() => null);
   if (!answer) said.textContent = OFFLINE;
   else if (answer.status !== 201) said.textContent = sentenceOf(await answer.json());
 }

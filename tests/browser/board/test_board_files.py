@@ -42,7 +42,7 @@ def test_a_template_with_other_measures_becomes_a_new_document(page: Page, shirt
     fields.nth(0).fill("20in")
     dialog.get_by_role("button", name="Create").click()
     page.wait_for_url(lambda url: url != shirt.page_url)
-    expect(page.get_by_role("combobox", name="Garment")).not_to_have_value("t-shirt")
+    expect(page.get_by_role("combobox", name="Garment").locator("option:checked")).to_have_text("Towel")
     expect_planned(page)
     found = Sheet(page.url.partition("/d/")[0], page.url.rpartition("/")[2])
     sides = [abs(corner["point"][0]) for corner in found.drawing["outline"]]
@@ -86,7 +86,15 @@ def test_the_blank_board_is_one_of_the_templates(page: Page, shirt: Desk) -> Non
     page.get_by_role("button", name="New", exact=True).click()
     page.get_by_role("option", name="Blank board").click()
     page.get_by_role("button", name="Start drawing").click()
-    expect(page.locator(".blank")).to_be_visible()
+    page.wait_for_url(lambda url: url != shirt.page_url)
+    expect(page.get_by_role("button", name="Draw outline", exact=True)).to_have_attribute("aria-pressed", "true")
+    expect(page.locator(".hint-line")).to_have_text("Click the corners one after the other; close at the first one.")
+    hand = Hand(page)
+    for corner in [(0.0, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.0)]:
+        hand.click(corner)
+    expect(page.locator(".corner")).to_have_count(3)
+    expect(page.get_by_role("status")).to_have_text("No folds yet: draw the first one")
+    assert "#" not in page.url
 
 
 def test_an_svg_is_imported_as_one_step_and_undone(page: Page, shirt: Desk) -> None:

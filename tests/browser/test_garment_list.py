@@ -1,0 +1,80 @@
+"""The list in the bar: choosing opens a document; nothing drawn leaves it, or is replaced, without a word."""
+
+from collections.abc import Callable
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.app.samples import towel
+from tests.browser.conftest import Garment, Sheet
+
+NewSheet = Callable[[Garment], Sheet]
+
+
+def bar(page: Page) -> Locator:
+    return page.get_by_role("combobox", name="Garment")
+
+
+def document_of(page: Page) -> str:
+    return page.url.rpartition("/")[2]
+
+
+def test_choosing_a_garment_opens_it_and_leaves_what_was_open_in_the_list(page: Page, new_sheet: NewSheet) -> None:
+    sheet = new_sheet(towel(title="My own towel"))
+    page.goto(sheet.page_url)
+    before, own = sheet.state, document_of(page)
+    bar(page).select_option("garment:scarf")
+    page.wait_for_url(lambda url: not url.endswith(own))
+    expect(bar(page).locator("option:checked")).to_have_text("Scarf")
+    expect(page.locator(".fold-row")).to_have_count(2)
+    assert sheet.state["version"] == before["version"]
+    assert sheet.drawing == before["drawing"]
+    bar(page).select_option(label="My own towel")
+    page.wait_for_url(f"**/{own}")
+    expect(bar(page).locator("option:checked")).to_have_text("My own towel")
+
+
+def test_a_document_without_a_name_of_its_own_stays_in_the_list(page: Page, new_sheet: NewSheet) -> None:
+    blank, other = new_sheet(None), new_sheet("scarf")
+    page.goto(other.page_url)
+    address = f"document:{blank.page_url.rpartition('/')[2]}"
+    choice = bar(page).locator(f"option[value='{address}']")
+    expect(choice).to_have_count(1)
+    expect(choice).to_contain_text("Untitled")
+    bar(page).select_option(address)
+    page.wait_for_url(blank.page_url)
+
+
+def test_a_document_made_elsewhere_is_listed_once_the_list_is_gone_to(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(new_sheet("scarf").page_url)
+    expect(bar(page).locator("option:checked")).to_have_text("Scarf")
+    elsewhere = new_sheet(towel(title="Made elsewhere"))
+    bar(page).focus()
+    expect(bar(page).locator(f"option[value$='{elsewhere.page_url.rpartition('/')[2]}']")).to_have_text(
+        "Made elsewhere"
+    )
+
+
+def test_without_the_server_the_document_stays_and_it_is_said(page: Page, new_sheet: NewSheet) -> None:
+    sheet = new_sheet("scarf")
+    page.goto(sheet.page_url)
+    expect(page.locator(".fold-row")).to_have_count(2)
+    page.context.set_offline(True)
+    bar(page).select_option("garment:tie")
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("nothing was opened")
+    expect(bar(page).locator("option:checked")).to_have_text("Scarf")
+    assert page.url == sheet.page_url
+
+
+def test_an_import_says_what_it_replaces_before_and_after(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(new_sheet(towel(title="My own towel")).page_url)
+    page.get_by_role("button", name="Import", exact=True).click()
+    line = '<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'
+    content = f'{line}<path d="M0 0H40V30H0Z" fill="none" stroke="black"/></svg>'
+    file = {"name": "cloth.svg", "mimeType": "image/svg+xml", "buffer": content.encode()}
+    page.get_by_label("File", exact=True).set_input_files([file])  # type: ignore[list-item]
+    dialog = page.get_by_role("dialog", name="Import")
+    expect(dialog).to_contain_text("it replaces \u201cMy own towel\u201d; Undo brings that back")
+    dialog.get_by_role("button", name="Open here").click()
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201cMy own towel\u201d was replaced")
+    page.get_by_role("button", name="Undo").click()
+    expect(bar(page).locator("option:checked")).to_contain_text("My own towel")
