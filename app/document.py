@@ -7,14 +7,14 @@ before anybody sees it.
 
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 
 from app.document_state import Answer, Checks, DocumentState, Film, HeldFold, Question
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
+from app.jobs.courtesy import Courtesy
 from app.playback import Playback
 from planner.errors import FoldingError
 from planner.plan.plan import Plan
@@ -43,6 +43,7 @@ class Document:
         version: int = 1,
         keep: Keep = lambda _version, _draft: None,
         clock: Callable[[], float] = time.monotonic,
+        courtesy: Courtesy | None = None,
     ) -> None:
         """A document that wants a plan.
 
@@ -52,14 +53,15 @@ class Document:
             keep: puts a draft onto the disk under the version that it is to have; called before anybody sees it. What
                 it raises stops the change.
             clock: the wall clock (s).
+            courtesy: has searches wait while the drawing is changed: whoever changes it sees that at once, a plan comes
+                later anyway.
         """
         self._clock = clock
         self._keep = keep
         self._lock = threading.Lock()
         self._edits = threading.Lock()
         self._has_ended = False
-        self._is_quiet = threading.Event()
-        self._is_quiet.set()
+        self._courtesy = courtesy or Courtesy()
         self._state = DocumentState(version, draft)
         self._listeners: list[Listener] = []
 
@@ -100,10 +102,6 @@ class Document:
     def redo(self, base_version: int | None = None) -> DocumentState:
         """Take the step again that was undone last; raises `StaleVersionError`."""
         return self._redraw(Draft.redone, base_version)
-
-    def give_way(self, at_most_s: float) -> None:
-        """Wait while the drawing is being changed: whoever changes it sees that at once, a plan comes later anyway."""
-        self._is_quiet.wait(at_most_s)
 
     def end(self) -> None:
         """Refuse all further changes of the drawing: nobody would see them."""
@@ -195,7 +193,7 @@ class Document:
 
     def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
         """Change the draft; one change at a time, for only this makes new versions."""
-        with self._edits, self._noise():
+        with self._edits, self._courtesy.short_work():
             if self._has_ended:
                 raise EndedDocumentError
             version, draft = self._state.version, self._state.draft
@@ -206,14 +204,6 @@ class Document:
                 return self._state
             self._keep(version + 1, after)
             return self._change(lambda state: state.redrawn(after, self._clock()))
-
-    @contextmanager
-    def _noise(self) -> Iterator[None]:
-        self._is_quiet.clear()
-        try:
-            yield
-        finally:
-            self._is_quiet.set()
 
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
         self._change(lambda state: replace(state, playback=change(state.playback)))

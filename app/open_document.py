@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from app.document import Document
-from app.job_pool import JobPool
+from app.jobs.job_pool import JobPool
 from app.player import Player
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore

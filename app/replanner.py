@@ -19,7 +19,7 @@ from typing import TypeAlias
 from app.document import Document
 from app.document_state import DocumentState, Question
 from app.held_folds import held_folds
-from app.job_pool import Job, JobPool, ShouldStop
+from app.jobs.job_pool import Job, JobPool, ShouldStop
 from app.known_plans import KnownPlans
 from app.store.plan_store import PlanStore
 from planner import make_plan, quick_plan
@@ -30,7 +30,6 @@ PATIENCE_S = 0.5
 """So long after it began a search for a first plan may go on although a preview has made it out of date (s)."""
 
 _REMEMBERED = 8
-_GIVE_WAY_S = 0.1
 
 Show: TypeAlias = Callable[[Plan], None]
 
@@ -108,7 +107,7 @@ class Replanner:
         first: list[Plan] = []
 
         def is_unwanted() -> bool:
-            self._document.give_way(_GIVE_WAY_S)
+            is_stopped = should_stop()
             now = self._document.state
             shown = now.answer if now.answer is not None and now.answer.version == state.version else None
             is_kept = shown is not None and shown.is_final and any(plan is shown.plan for plan in first)
@@ -116,7 +115,7 @@ class Replanner:
             if now.version == state.version and is_done:
                 return True
             patience_s = PATIENCE_S if shown is None else 0.0
-            return should_stop() or (self._is_behind and time.monotonic() - began_s > patience_s)
+            return is_stopped or (self._is_behind and time.monotonic() - began_s > patience_s)
 
         plan: Plan | None = None
         try:

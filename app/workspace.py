@@ -7,7 +7,8 @@ from app.document import Document
 from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.job_pool import JobPool
+from app.jobs.apart import template_is_ready
+from app.jobs.lanes import Lanes
 from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.document_shelf import DocumentShelf
@@ -31,7 +32,7 @@ class Workspace:
         garments: the garments that can be asked for by name.
         documents: the documents on the disk.
         plans: the plans made so far.
-        pool: where searches run that were asked for.
+        lanes: where all is done that takes time.
     """
 
     def __init__(self, settings: Settings) -> None:
@@ -39,8 +40,7 @@ class Workspace:
         self.garments = GarmentShelf(settings.data / "garments")
         self.documents = DocumentShelf(settings.data / "documents")
         self.plans = PlanStore()
-        self.pool = JobPool()
-        self._live = JobPool()
+        self.lanes = Lanes()
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
         self._closing = threading.Event()
@@ -51,6 +51,7 @@ class Workspace:
             self.opened(self.first()).show()
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
+        template_is_ready()  # so that the first search does not wait for it
         threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
 
     def first(self) -> str:
@@ -108,8 +109,7 @@ class Workspace:
     def close(self) -> None:
         """Stop every search and close every document."""
         self._closing.set()
-        self.pool.close()
-        self._live.close()
+        self.lanes.close()
         with self._lock:
             open_documents = tuple(self._open.values())
             self._open.clear()
@@ -118,8 +118,8 @@ class Workspace:
 
     def _open_as(self, document_id: str, version: int, draft: Draft) -> OpenDocument:
         keeper = self.documents.keeper(document_id)
-        document = Document(draft, version=version, keep=keeper.keep)
-        self._open[document_id] = OpenDocument(document_id, document, self._live, self.plans)
+        document = Document(draft, version=version, keep=keeper.keep, courtesy=self.lanes.courtesy)
+        self._open[document_id] = OpenDocument(document_id, document, self.lanes.live, self.plans)
         return self._open[document_id]
 
     def _look_after(self) -> None:

@@ -6,23 +6,16 @@ the stage by software, a frame of the page takes as long as that, so it is measu
 directions are those of `bench.re_plan`; each drag is undone before the next.
 """
 
-import json
-import subprocess
-import sys
-import tempfile
-import urllib.request
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from math import cos, sin
-from pathlib import Path
 from statistics import median, quantiles
 from typing import Any
 
-from bench.measurement import BenchmarkError
 from bench.paper import TABLE_2
 from bench.re_plan import MOVES, QUICK_MOVES, STEP_M, chosen
 from bench.report import ABSENT, Report, Row
+from bench.served import ask, cpu_s, served
 
 COLUMNS = (
     "article",
@@ -38,11 +31,8 @@ COLUMNS = (
     "solved",
     "other",
 )
-ROOT = Path(__file__).parent.parent
 STAGES = {False: "left out", True: "by software"}
 NO_BROWSER = "no browser"
-CLOCK_TICKS_PER_S = 100
-"""Of Linux's accounts of processes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,8 +84,8 @@ def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
     """So many drags of an article's corners, in a server and a browser of their own."""
     from bench.hand_page import window
 
-    with _served() as (url, process):
-        document = _ask("POST", f"{url}/api/documents", {"garment": article})
+    with served() as (url, process):
+        document = ask("POST", f"{url}/api/documents", {"garment": article})
         path, corners = f"{url}/api/documents/{document['id']}", document["drawing"]["outline"]
         with window(f"{url}/d/{document['id']}", has_stage=has_stage) as page:
             moves = chosen(article, len(corners), drags)
@@ -105,52 +95,18 @@ def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
 def _dragged(page: Any, path: str, pid: int, corner: int, towards_rad: float) -> Dragged:  # noqa: ANN401
     from bench.hand_page import drag, grasp, heard, wait_for_answer, wait_for_rest
 
-    wait_for_answer(page, _ask("GET", path)["version"])
+    wait_for_answer(page, ask("GET", path)["version"])
     x, y, scale = grasp(page, corner)
     wait_for_rest(page)
-    before_s = _cpu_s(pid)
+    before_s = cpu_s(pid)
     drag(page, (x, y), (STEP_M * cos(towards_rad) * scale, -STEP_M * sin(towards_rad) * scale))
-    while (state := _ask("GET", path))["gesture"] is not None or state["history"]["can_undo"] is None:
+    while (state := ask("GET", path))["gesture"] is not None or state["history"]["can_undo"] is None:
         page.wait_for_timeout(5.0)
     wait_for_answer(page, state["version"])
-    after_s, kept = _cpu_s(pid), heard(page, state["version"])
-    _ask("POST", f"{path}/undo")
+    after_s, kept = cpu_s(pid), heard(page, state["version"])
+    ask("POST", f"{path}/undo")
     cpu_ms = None if before_s is None or after_s is None else 1e3 * (after_s - before_s)
     return Dragged(kept.to_ghost_ms, kept.same_frame, kept.to_plan_ms, cpu_ms, kept.status)
-
-
-@contextmanager
-def _served() -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
-    """A server in a process of its own, and its address."""
-    with tempfile.TemporaryDirectory() as data:
-        options = ["serve", "--port", "0", "--data", data]
-        command = [sys.executable, "-c", "from app.cli import main; main()", *options]
-        with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
-            try:
-                assert process.stdout is not None
-                address = next((word for word in process.stdout.readline().split() if word.startswith("http://")), None)
-                if address is None:
-                    raise BenchmarkError("the server does not start")
-                yield address, process
-            finally:
-                process.kill()
-
-
-def _ask(method: str, url: str, body: object = None) -> dict[str, Any]:
-    content = None if body is None else json.dumps(body).encode()
-    request = urllib.request.Request(url, content, {"content-type": "application/json"}, method=method)
-    with urllib.request.urlopen(request) as answer:
-        found: dict[str, Any] = json.load(answer)
-    return found
-
-
-def _cpu_s(pid: int) -> float | None:
-    """CPU time that a process has spent (s); None where the system has no such account."""
-    account = Path(f"/proc/{pid}/stat")
-    if not account.exists():
-        return None
-    user, system = account.read_text().rpartition(")")[2].split()[11:13]
-    return (int(user) + int(system)) / CLOCK_TICKS_PER_S
 
 
 def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:

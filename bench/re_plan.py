@@ -23,7 +23,7 @@ from app.drawing.drawing import Corner, Drawing
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
-from app.job_pool import JobPool
+from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore
 from bench.paper import TABLE_2

@@ -17,12 +17,23 @@
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 from planner.message import Message
 
 
 class FoldingError(Exception):
-    """The root of all errors that Pleat raises on purpose."""
+    """The root of all errors that Pleat raises on purpose; one that comes from another process is equal to it."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Have it made again from what it holds: `Exception` would call the leaf with the finished message."""
+        return _remade, (type(self), self.args, self.__dict__)
+
+
+def _remade(kind: type[FoldingError], arguments: tuple[object, ...], fields: dict[str, Any]) -> FoldingError:
+    error = kind.__new__(kind, *arguments)
+    error.__dict__.update(fields)
+    return error
 
 
 class FieldError(FoldingError):

@@ -25,6 +25,7 @@ from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest
 from app.api.live_messages import document_message, playback_message
 from app.api.messages import Play
 from app.api.problems import ProblemResponse
+from app.api.waiting import quick_answer
 from app.document_state import DocumentState
 from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
@@ -132,30 +133,30 @@ async def post_playback(request: Request, document_id: str) -> JSONResponse:
 @router.post(
     "/{document_id}/crease",
     openapi_extra=takes(CreaseRequest),
-    responses={200: {"model": CreaseAnswer}, **problems(404, 413, 422)},
+    responses={200: {"model": CreaseAnswer}, **problems(404, 413, 422, 503)},
 )
 async def post_crease(request: Request, document_id: str) -> JSONResponse:
     """Where a fold would be that takes a point of the cloth to another place, or that runs along a line."""
     wanted = await read_model(request, CreaseRequest)
     opened = await _opened(request, document_id)
-    placed = await run_in_threadpool(_placed, opened, wanted)
+    placed = await quick_answer(request, _placed, opened, wanted)
     return JSONResponse(placed.to_dict())
 
 
-@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(404, 422)})
+@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(404, 422, 503)})
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
     """The layers before each legal fold and after the last, bottom to top."""
     opened = await _opened(request, document_id)
     state = opened.document.state
-    return JSONResponse({"version": state.version, "steps": await run_in_threadpool(state.solution.layers)})
+    return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
 
 
-@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(404, 422)})
+@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(404, 422, 503)})
 async def read_mends(request: Request, document_id: str) -> JSONResponse:
     """What would take the first of a drawing's problems away, the best first; none where there are no problems."""
     opened = await _opened(request, document_id)
     state = opened.document.state
-    found = await run_in_threadpool(mends, state.draft)
+    found = await quick_answer(request, mends, state.draft)
     return JSONResponse({"version": state.version, "mends": [mend.to_dict() for mend in found]})
 
 

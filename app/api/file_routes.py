@@ -9,6 +9,7 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse, Response
 
+from app import searches
 from app.api.answers import GarmentFile
 from app.api.asked import workspace_of
 from app.api.body import read_bytes
@@ -19,9 +20,10 @@ from app.document_state import DocumentState
 from app.files.crease_reading import Creases
 from app.files.exports import EXPORTS, Export, UnavailableFileError, find_export
 from app.files.import_errors import UnitsNeededError
-from app.files.import_file import LARGEST_FILE, Imported, import_file
+from app.files.import_file import LARGEST_FILE, Imported
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
-from app.job_pool import ShouldStop
+from app.jobs.apart import ignore, run_apart
+from app.jobs.job_pool import ShouldStop
 
 router = APIRouter(prefix="/api", tags=["files"])
 
@@ -70,7 +72,7 @@ class FileEntry(BaseModel):
 @router.post(
     "/imports",
     openapi_extra=_ANY_FILE,
-    responses={200: {"model": ImportAnswer}, **problems(413, 422)},
+    responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)},
 )
 async def post_import(
     request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0, creases: Lines = None
@@ -82,9 +84,9 @@ async def post_import(
     legal, unless `creases` says which.
     """
     data = await read_bytes(request, LARGEST_FILE)
-    job = workspace_of(request).pool.start(lambda _: import_file(filename, data, units, scale, creases))
+    work = partial(_read, filename, data, units, scale, creases)
     try:
-        return JSONResponse(_imported(await answer_of(request, job)))
+        return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
         return ProblemResponse(
             422, str(error), [{"field": "units", "message": str(error)}], None, {"sizes": error.sizes}
@@ -102,7 +104,7 @@ async def list_files(request: Request, document_id: str) -> JSONResponse:
 @router.get(
     "/documents/{document_id}/files/{what}",
     response_class=Response,
-    responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422)},
+    responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422, 503)},
 )
 async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
     """A document as a file, to be saved; `rate_hz` is how many frames a second a recording has.
@@ -113,14 +115,20 @@ async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate
     export, state = find_export(what), opened.document.state
     if export is None:
         raise HTTPException(404)
-    job = workspace_of(request).pool.start(partial(_made, export, state, rate_hz))
+    work = partial(_made, export, state, rate_hz)
     try:
         with opened.in_use():
-            made = await answer_of(request, job)
+            made = await answer_of(request, workspace_of(request).lanes.files, work)
     except UnavailableFileError as error:
         return ProblemResponse(409, str(error))
     disposition = f'attachment; filename="{export.filename(state)}"'
     return Response(made, media_type=export.media_type, headers={"content-disposition": disposition})
+
+
+def _read(
+    filename: str, data: bytes, units: str | None, scale: float, creases: Creases | None, should_stop: ShouldStop
+) -> Imported:
+    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases)
 
 
 def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:

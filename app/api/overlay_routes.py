@@ -8,20 +8,22 @@ from fastapi import APIRouter, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
-from app.api.asked import workspace_of
+from app import searches
+from app.api.asked import TimeLimit, workspace_of
 from app.api.body import read_model
 from app.api.described import problems, takes
 from app.api.messages import PlacesRequest
 from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
-from app.api.waiting import answer_of
+from app.api.waiting import answer_of, quick_answer
 from app.document_state import DocumentState
-from app.job_pool import ShouldStop
+from app.jobs.apart import ignore, run_apart
+from app.jobs.job_pool import ShouldStop
 from app.overlays.moment import Moment, NoClothError, moment_as_drawn, moment_of_plan
 from app.overlays.overlays import OVERLAYS, overlays
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Pose2
-from planner.plan.suggestion_map import Cell, placement_map
+from planner.plan.suggestion_map import Cell
 
 router = APIRouter(prefix="/api/documents/{document_id}/overlays", tags=["overlays"])
 
@@ -30,7 +32,7 @@ BackOff = Annotated[float, Query(allow_inf_nan=False)]
 Shown = Annotated[str | None, Query(description=f"some of {', '.join(OVERLAYS)}, separated by commas; all by default")]
 
 
-@router.get("", responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422)})
+@router.get("", responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422, 503)})
 async def read_overlays(
     request: Request,
     document_id: str,
@@ -50,7 +52,7 @@ async def read_overlays(
     time_s = opened.document.t_s if t_s is None else t_s
     state = opened.document.state
     try:
-        return JSONResponse(await run_in_threadpool(_overlays, state, time_s, station, back_off_m, shown))
+        return JSONResponse(await quick_answer(request, _overlays, state, time_s, station, back_off_m, shown))
     except NoClothError as error:
         return ProblemResponse(409, str(error))
 
@@ -58,7 +60,7 @@ async def read_overlays(
 @router.post(
     "/places",
     openapi_extra=takes(PlacesRequest, may_be_empty=True),
-    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422)},
+    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 503)},
 )
 async def post_places(request: Request, document_id: str) -> Response:
     """Plan the document's garment wherever it could be laid, not turned, and return what that costs."""
@@ -67,9 +69,10 @@ async def post_places(request: Request, document_id: str) -> Response:
     state = opened.document.state
     if state.question is None:
         return ProblemResponse(409, "The drawing is not finished, so no placement can be tried.")
-    job = workspace_of(request).pool.start(partial(_places, state, wanted))
+    limit = TimeLimit(wanted.time_limit_s)
+    work = partial(_places, state, wanted, limit)
     with opened.in_use():
-        return JSONResponse(await answer_of(request, job))
+        return JSONResponse(await answer_of(request, workspace_of(request).lanes.searches, work, limit.limit_s))
 
 
 def _shown(show: str | None) -> frozenset[str]:
@@ -96,18 +99,16 @@ def _overlays(
         raise error.within("scene") from None
 
 
-def _places(state: DocumentState, wanted: PlacesRequest, should_stop: ShouldStop) -> dict[str, Any]:
+def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, should_stop: ShouldStop) -> dict[str, Any]:
     question = state.question
     assert question is not None
-    found = placement_map(
-        question.garment,
-        question.scene,
-        start_station=question.start_station,
-        comfort_radius_m=question.comfort_radius_m,
-        time_limit_s=wanted.time_limit_s,
-        should_stop=should_stop,
-        step_m=wanted.step_m,
-    )
+    options = {
+        "start_station": question.start_station,
+        "comfort_radius_m": question.comfort_radius_m,
+        "time_limit_s": limit.left_s,
+    }
+    garment, scene = question.garment, question.scene
+    found = run_apart(searches.map_places, should_stop, ignore, garment, scene, wanted.step_m, options)
     here = question.garment.placement
     return {
         "version": state.version,

@@ -14,6 +14,8 @@ from starlette.responses import Response
 
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
+from app.jobs.apart import StoppedError
+from app.jobs.job_pool import BusyError
 from app.store.document_keeper import UnkeptDocumentError
 from app.store.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
 from app.store.plan_store import UnknownPlanError
@@ -42,6 +44,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnkeptDocumentError: 507,
     ReadOnlyGarmentError: 409,
     UnsolvedPlanError: 409,
+    StoppedError: 503,
     GarmentFileError: 422,
 }
 _REQUEST_PARTS = ("body", "query", "path", "header")
@@ -102,6 +105,7 @@ def install_problems(app: FastAPI) -> None:
         TooLargeError: _too_large_problem,
         ClientDisconnect: _unread_problem,
         ClientGoneError: _unread_problem,
+        BusyError: _busy_problem,
         FoldingError: _folding_problem,
     }
     for kind, handler in handlers.items():
@@ -134,6 +138,10 @@ async def _too_large_problem(_: Request, error: TooLargeError) -> Response:
 async def _folding_problem(_: Request, error: FoldingError) -> Response:
     status = next((code for kind, code in _STATUS_OF.items() if isinstance(error, kind)), 422)
     return ProblemResponse(status, str(error))
+
+
+async def _busy_problem(_: Request, error: BusyError) -> Response:
+    return ProblemResponse(503, str(error), headers={"retry-after": str(error.retry_after_s)})
 
 
 async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) -> Response:

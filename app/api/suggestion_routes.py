@@ -2,7 +2,8 @@
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Callable, Iterator
+from collections.abc import AsyncIterator
+from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
 from typing import Annotated, Any, Literal
@@ -12,23 +13,19 @@ from fastapi.sse import EventSourceResponse, ServerSentEvent
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
+from app import searches
 from app.api.answers import PoseFile
-from app.api.asked import asked_garment, asked_scene, workspace_of
+from app.api.asked import TimeLimit, asked_garment, asked_options, asked_scene, within_request, workspace_of
 from app.api.body import read_model
 from app.api.described import problems, takes
 from app.api.messages import PlacementsRequest, PlanRequest
-from app.api.waiting import answer_of
-from app.job_pool import ShouldStop
+from app.api.waiting import answer_of, until
+from app.jobs.apart import ignore, run_apart
+from app.jobs.job_pool import Job, ShouldStop
 from app.workspace import Workspace
-from planner.errors import FoldError, GarmentError, SceneError
-from planner.geometry.pose import Pose2
-from planner.plan.suggestion import Suggestion
-from planner.plan.suggestion_map import placement_map
-from planner.plan.suggestions import Suggestions, suggestions
+from planner.primitives.scene import Scene
 
 router = APIRouter(prefix="/api", tags=["suggestions"])
-
-Tell = Callable[[ServerSentEvent | None], None]
 
 
 class SuggestionEvent(BaseModel):
@@ -74,80 +71,72 @@ class SuggestionSearch:
         """Nothing is planned yet."""
         self._workspace = workspace
         self._wanted = wanted
+        self._limit = TimeLimit(wanted.time_limit_s)
         self._started = time.perf_counter()
-        self._is_unwanted: ShouldStop = bool
-        self._found: Suggestions | None = None
-        self._is_complete = False
+        self._loop = asyncio.get_running_loop()
+        self._told: asyncio.Queue[searches.Suggested | None] = asyncio.Queue()
+        self._begun: Future[None] = Future()
+        self._job: Job[bool] | None = None
 
-    def begin(self, should_stop: ShouldStop) -> None:
-        """Plan the request itself; raises what is wrong with it."""
-        self._is_unwanted = should_stop
-        wanted = self._wanted
-        garment = asked_garment(self._workspace, wanted.garment)
-        scene = asked_scene(wanted.scene)
-        placed = wanted.placement
+    async def begin(self, request: Request) -> None:
+        """Have the request itself planned; raises what is wrong with it."""
+        pool = self._workspace.lanes.searches
+        self._job = pool.start(self._search)
+        self._job.future.add_done_callback(self._ended)
         try:
-            self._found = suggestions(
-                garment,
-                scene,
-                placement=Pose2(placed.x_m, placed.y_m, placed.yaw_rad) if placed else None,
-                start_station=wanted.start_station,
-                robot=wanted.robot,
-                comfort_radius_m=wanted.comfort_radius_m,
-                heuristic=wanted.heuristic,
-                time_limit_s=wanted.time_limit_s,
-                max_expanded=wanted.max_expanded,
-                should_stop=lambda: self._is_unwanted(),
-            )
-        except (FoldError, GarmentError) as error:
-            raise error.within("garment") from None
-        except SceneError as error:
-            raise error.within("scene") from None
+            await until(request, pool, self._job, self._begun, self._limit.limit_s)
+        except BaseException:
+            self._job.stop()
+            raise
 
     async def events(self) -> AsyncIterator[ServerSentEvent]:
-        """The suggestions as they are found; when nobody reads them any more, the search is stopped."""
-        loop = asyncio.get_running_loop()
-        told: asyncio.Queue[ServerSentEvent | None] = asyncio.Queue()
-
-        def tell(event: ServerSentEvent | None) -> None:
-            with suppress(RuntimeError):  # the loop has gone
-                loop.call_soon_threadsafe(told.put_nowait, event)
-
-        job = self._workspace.pool.start(partial(self._search, tell))
-        job.future.add_done_callback(lambda _: tell(None))
-        try:
-            while (event := await told.get()) is not None:
-                yield event
-            if not job.future.cancelled():
-                yield self._done(job.future.result())
-        finally:
-            job.stop()
-
-    def _search(self, tell: Tell, should_stop: ShouldStop) -> int:
-        self._is_unwanted = should_stop
+        """Yield the suggestions as they are found; when nobody reads them any more, the search is stopped."""
+        assert self._job is not None
         count = 0
-        for suggestion in self._all():
-            count += 1
-            plan_id = self._workspace.plans.add(suggestion.plan)
-            tell(ServerSentEvent(event="suggestion", data={**suggestion.to_dict(), "plan_id": plan_id}))
-        return count
+        try:
+            while (found := await self._told.get()) is not None:
+                count += 1
+                plan_id = self._workspace.plans.add(found.plan)
+                yield ServerSentEvent(event="suggestion", data={**found.body, "plan_id": plan_id})
+            if not self._job.future.cancelled():
+                yield self._done(count, is_complete=self._job.future.result())
+        finally:
+            self._job.stop()
 
-    def _all(self) -> Iterator[Suggestion]:
-        """What is found; then it is known whether all changes were tried."""
-        if self._found is not None:
-            self._is_complete = yield from self._found
+    def _search(self, should_stop: ShouldStop) -> bool:
+        garment, scene = asked_garment(self._workspace, self._wanted.garment), asked_scene(self._wanted.scene)
+        options = asked_options(self._wanted, self._limit)
+        with within_request():
+            return run_apart(searches.suggest, should_stop, self._hear, garment, scene, options)
 
-    def _done(self, count: int) -> ServerSentEvent:
+    def _hear(self, news: searches.Suggested | None) -> None:
+        if news is None:
+            self._begun.set_result(None)
+        else:
+            self._tell(news)
+
+    def _ended(self, future: Future[bool]) -> None:
+        if not self._begun.done():
+            if future.cancelled():
+                self._begun.cancel()
+            else:
+                self._begun.set_exception(future.exception())
+        self._tell(None)
+
+    def _tell(self, found: searches.Suggested | None) -> None:
+        with suppress(RuntimeError):  # the loop has gone
+            self._loop.call_soon_threadsafe(self._told.put_nowait, found)
+
+    def _done(self, count: int, *, is_complete: bool) -> ServerSentEvent:
         elapsed_s = time.perf_counter() - self._started
-        return ServerSentEvent(
-            event="done", data={"count": count, "elapsed_s": elapsed_s, "complete": self._is_complete}
-        )
+        data = {"count": count, "elapsed_s": elapsed_s, "complete": is_complete}
+        return ServerSentEvent(event="done", data=data)
 
 
 async def _begun(request: Request) -> SuggestionSearch:
     """The search that a request asks for, its request found good."""
     search = SuggestionSearch(workspace_of(request), await read_model(request, PlanRequest))
-    await answer_of(request, workspace_of(request).pool.start(search.begin))
+    await search.begin(request)
     return search
 
 
@@ -155,7 +144,7 @@ async def _begun(request: Request) -> SuggestionSearch:
     "/suggestions",
     response_class=EventSourceResponse,
     openapi_extra=takes(PlanRequest),
-    responses={200: {"model": SuggestionEvent}, **problems(404, 413, 422)},
+    responses={200: {"model": SuggestionEvent}, **problems(404, 413, 422, 503)},
 )
 async def post_suggestions(
     search: Annotated[SuggestionSearch, Depends(_begun)],
@@ -172,20 +161,20 @@ async def post_suggestions(
 @router.post(
     "/placements",
     openapi_extra=takes(PlacementsRequest),
-    responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422)},
+    responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)},
 )
 async def post_placements(request: Request) -> JSONResponse:
     """Plan a garment wherever it could be laid on the default table, not turned, and return what that costs."""
     wanted = await read_model(request, PlacementsRequest)
-    workspace = workspace_of(request)
-    job = workspace.pool.start(partial(_placements, workspace, wanted))
-    return JSONResponse(await answer_of(request, job))
+    workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
+    work = partial(_placements, workspace, wanted, limit)
+    return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))
 
 
-def _placements(workspace: Workspace, wanted: PlacementsRequest, should_stop: ShouldStop) -> dict[str, Any]:
-    garment = asked_garment(workspace, wanted.garment)
-    try:
-        found = placement_map(garment, step_m=wanted.step_m, time_limit_s=wanted.time_limit_s, should_stop=should_stop)
-    except (FoldError, GarmentError) as error:
-        raise error.within("garment") from None
+def _placements(
+    workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
+) -> dict[str, Any]:
+    garment, options = asked_garment(workspace, wanted.garment), {"time_limit_s": limit.left_s}
+    with within_request():
+        found = run_apart(searches.map_places, should_stop, ignore, garment, Scene(), wanted.step_m, options)
     return found.to_dict()

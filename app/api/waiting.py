@@ -1,32 +1,80 @@
-"""Waits for work in another thread as long as somebody waits for the answer."""
+"""Waits for work elsewhere as long as somebody waits for the answer."""
 
 import asyncio
-from typing import Any, TypeVar
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any, ParamSpec, TypeVar
 
 from fastapi import Request
 
+from app.api.asked import workspace_of
 from app.api.problems import ClientGoneError
-from app.job_pool import Job
+from app.jobs.job_pool import Job, JobPool, ShouldStop
 
 Answer = TypeVar("Answer")
+P = ParamSpec("P")
 
 
-async def answer_of(request: Request, job: Job[Answer]) -> Answer:
-    """The job's answer; when the client goes away first, the job is stopped.
+async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: P.args, **options: P.kwargs) -> Answer:
+    """Return what a piece of short work comes to, for which all long work steps aside."""
+    lanes = workspace_of(request).lanes
 
-    The request's body must have been read. Raises what the job raises, and `ClientGoneError`.
+    def do(_: ShouldStop) -> Answer:
+        with lanes.courtesy.short_work():
+            return work(*arguments, **options)
+
+    return await answer_of(request, lanes.quick, do)
+
+
+async def answer_of(
+    request: Request, pool: JobPool, work: Callable[[ShouldStop], Answer], begins_within_s: float | None = None
+) -> Answer:
+    """Return what some work comes to; when the client goes away first, it is stopped.
+
+    The request's body must have been read.
+
+    Args:
+        request: who asks.
+        pool: who does it.
+        work: what is to be done.
+        begins_within_s: how long it may wait for its turn (s); None: as long as the client does.
+
+    Raises:
+        BusyError: the queue is full, or the wait was too long.
+        ClientGoneError: the client has gone away.
+        Exception: what the work raises.
     """
-    answer = asyncio.wrap_future(job.future)
+    job = pool.start(work)
+    try:
+        return await until(request, pool, job, job.future, begins_within_s)
+    finally:
+        job.stop()
+
+
+async def until(
+    request: Request, pool: JobPool, job: Job[Any], awaited: Future[Answer], begins_within_s: float | None
+) -> Answer:
+    """Return what is awaited of a job; arguments and errors are those of `answer_of`."""
+    answer = asyncio.wrap_future(awaited)
+    answer.add_done_callback(_heed)
     gone = asyncio.ensure_future(_disconnect(request))
     either: set[asyncio.Future[Any]] = {answer, gone}
     try:
+        done, _ = await asyncio.wait(either, timeout=begins_within_s, return_when=asyncio.FIRST_COMPLETED)
+        if not done and job.future.cancel():
+            raise pool.busy()
         await asyncio.wait(either, return_when=asyncio.FIRST_COMPLETED)
         if answer.done():
             return answer.result()
         raise ClientGoneError("the client went away")
     finally:
         gone.cancel()
-        job.stop()
+
+
+def _heed(answer: asyncio.Future[Any]) -> None:
+    """Take note of an error that nobody waits for any more: asyncio would log it."""
+    if not answer.cancelled():
+        answer.exception()
 
 
 async def _disconnect(request: Request) -> None:

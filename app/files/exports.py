@@ -11,7 +11,7 @@ from app.files.fold_format import fold_format
 from app.files.plan_table import plan_table
 from app.files.recording import recording
 from app.files.svg_drawing import svg_drawing
-from app.job_pool import ShouldStop
+from app.jobs.job_pool import ShouldStop
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError, GarmentError
 from planner.plan.plan import Plan

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.files.fold_mesh import FoldMesh
-from app.job_pool import ShouldStop
+from app.jobs.job_pool import ShouldStop
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.geometry.pose import FloatArray

@@ -7,7 +7,7 @@ have sent to a browser, with the times in between, and puts it into its client.
 import html
 import re
 
-from app.job_pool import ShouldStop
+from app.jobs.job_pool import ShouldStop
 from app.ui.stage import Stage
 from planner.plan.plan import Plan
 

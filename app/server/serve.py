@@ -24,17 +24,22 @@ class ExposedError(FoldingError):
     """Other machines would come in, and nobody has said that they may."""
 
 
-class _AnnouncingServer(uvicorn.Server):
-    """A server that says when it listens."""
+class _Server(uvicorn.Server):
+    """A server that says when it listens, and has work stopped before it waits for requests to end."""
 
-    def __init__(self, config: uvicorn.Config, announce: Callable[[], None]) -> None:
+    def __init__(self, config: uvicorn.Config, announce: Callable[[], None], stop_work: Callable[[], None]) -> None:
         super().__init__(config)
         self._announce = announce
+        self._stop_work = stop_work
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         if self.started:
             self._announce()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._stop_work()
+        await super().shutdown(sockets)
 
 
 def serve(settings: Settings, announce: Callable[[str], None]) -> None:
@@ -47,8 +52,9 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
     sys.setswitchinterval(_SWITCH_S)
     with _listening(settings) as listener, logging_to(standard_error()):
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
+        app = create_app(bound)
         config = uvicorn.Config(
-            create_app(bound),
+            app,
             log_config=None,
             http=TimedProtocol,
             ws_max_size=_LARGEST_MESSAGE,
@@ -56,7 +62,8 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
             timeout_graceful_shutdown=_GRACE_S,
             server_header=False,
         )
-        _AnnouncingServer(config, lambda: announce(_url(bound))).run(sockets=[listener])
+        stop_work = app.state.workspace.lanes.stop
+        _Server(config, lambda: announce(_url(bound)), stop_work).run(sockets=[listener])
 
 
 def _listening(settings: Settings) -> socket.socket:

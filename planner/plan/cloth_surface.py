@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer
 from planner.folds.fold_path import FoldPath
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.drape import bends, draped
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -22,7 +23,6 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
 from planner.plan.frame import ClothSurface
 from planner.primitives.phase import ClothMotion
-from planner.primitives.work import Work
 
 LAYER_GAP_M = 0.0015
 """How far apart neighbouring layers are drawn (m)."""
@@ -125,8 +125,8 @@ class _Mesh:
 class ClothSurfaces:
     """The cloth of one planning problem, at any moment of any phase."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, sequence: FoldSequence) -> None:
+        self._sequence = sequence
         self._last: tuple[_Seen, ClothSurface] | None = None
 
     def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
@@ -148,15 +148,15 @@ class ClothSurfaces:
     ) -> ClothSurface:
         mesh = _Mesh(placement, top, droop)
         if fold is None:
-            layers = self._work.sequence.cloth(done).layers
+            layers = self._sequence.cloth(done).layers
             mesh.lay(_Pieces.of(layers, range(len(layers))))
         else:
             self._fold(mesh, done, fold, sweep)
         return mesh.surface()
 
     def _fold(self, mesh: _Mesh, done: int, fold: int, sweep: float) -> None:
-        folded = self._work.sequence.folded(done, fold)
-        line = self._work.sequence.folds[fold].line
+        folded = self._sequence.folded(done, fold)
+        line = self._sequence.folds[fold].line
         staying = len(folded.cloth.layers) - folded.cloth.moved
         numbers = range(staying, len(folded.cloth.layers))
         is_falling = sweep > 1.0

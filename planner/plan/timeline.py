@@ -43,7 +43,7 @@ class Timeline:
     @staticmethod
     def of(film: Film, duration_s: float, work: Work, card: RobotCard) -> "Timeline":
         """The timeline of a film that lasts as long as the plan (s)."""
-        return Timeline(duration_s, film, ClothSurfaces(work), card, work.scene.torso_m)
+        return Timeline(duration_s, film, ClothSurfaces(work.sequence), card, work.scene.torso_m)
 
     def at(self, t_s: float) -> Frame:
         """The frame at a time (s); times before the start or after the end give the first or last frame."""

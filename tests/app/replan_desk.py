@@ -10,7 +10,7 @@ from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
-from app.job_pool import JobPool
+from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore
 from planner import make_plan

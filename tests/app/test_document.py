@@ -12,6 +12,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
+from app.jobs.courtesy import GIVE_WAY_S, Courtesy
 from planner import Plan, load_garment, make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import outlined, pulled
@@ -270,14 +271,14 @@ def test_who_plans_waits_while_the_drawing_is_being_changed_but_not_for_ever() -
         begun.set()
         assert go.wait(60.0)
 
-    held = Document(TOWEL, keep=hold)
+    courtesy = Courtesy()
+    held = Document(TOWEL, keep=hold, courtesy=courtesy)
     editing = threading.Thread(target=lambda: held.edit(Edit("Move", moved(1))))
     editing.start()
     assert begun.wait(60.0)
     start = time.monotonic()
-    held.give_way(0.05)
-    assert time.monotonic() - start >= 0.05
+    courtesy.give_way()
+    assert time.monotonic() - start >= GIVE_WAY_S / 2
     threading.Timer(0.05, go.set).start()
-    held.give_way(60.0)
     editing.join()
     assert held.state.version == 2

@@ -156,7 +156,7 @@ async def test_a_bug_is_a_problem_without_a_trace(client: httpx.AsyncClient, mon
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("secret")
 
-    monkeypatch.setattr("app.api.plan_routes.make_plan", fail)
+    monkeypatch.setattr("app.api.plan_routes.run_apart", fail)
     answer = await client.post("/api/plans", json={"garment": "tie"})
     assert_problem(answer, 500)
     assert "secret" not in answer.text

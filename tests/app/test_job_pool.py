@@ -2,7 +2,7 @@ import threading
 
 import pytest
 
-from app.job_pool import JobPool
+from app.jobs.job_pool import JobPool
 from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import load_garment, make_plan
 

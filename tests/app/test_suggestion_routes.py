@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from app.cli import cli
 from tests.app.conftest import Served
+from tests.app.processes import cpu_s
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
@@ -99,15 +100,9 @@ async def test_when_the_client_goes_away_the_search_stops(served: Served) -> Non
                 if line.startswith("event: suggestion"):
                     break
         await asyncio.sleep(1.0)
-        before_s = cpu_s(served)
+        before_s = cpu_s(served.process.pid)
         await asyncio.sleep(1.0)
-        assert cpu_s(served) - before_s < 0.5
-
-
-def cpu_s(served: Served) -> float:
-    """The processor time that a server has used (s)."""
-    stat = Path(f"/proc/{served.process.pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(stat[11]) + int(stat[12])) / 100.0
+        assert cpu_s(served.process.pid) - before_s < 0.5
 
 
 async def test_the_map_of_placements_has_costs_and_a_best(client: httpx.AsyncClient) -> None:

@@ -1,0 +1,48 @@
+"""Who works at what: short work never waits behind long work.
+
+- ``quick`` is for what takes some hundredths of a second. All the rest gives way to it.
+- ``files`` is for what takes up to some seconds: reading files, making them, sampling timelines.
+- ``searches`` is for plans, suggestions and maps, in processes of their own.
+- ``live`` plans the documents that are open, in threads: it keeps what it found out from plan to plan.
+
+Each has its own workers and its own queue, which has an end where anybody may put work in.
+"""
+
+import time
+
+from app.jobs.courtesy import Courtesy
+from app.jobs.job_pool import PATIENCE_S, JobPool
+
+QUICK_WAITING_MAX = 64
+FILES_WAITING_MAX = 16
+SEARCHES_WAITING_MAX = 32
+
+
+class Lanes:
+    """The lanes of a server.
+
+    Attributes:
+        courtesy: what is short announces itself here.
+    """
+
+    def __init__(self) -> None:
+        """Start no thread before it has work."""
+        self.courtesy = Courtesy()
+        self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
+        self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
+        self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
+        self.live = JobPool(courtesy=self.courtesy)
+
+        self._pools = (self.quick, self.files, self.searches, self.live)
+
+    def stop(self) -> None:
+        """Stop all work."""
+        for pool in self._pools:
+            pool.stop()
+
+    def close(self) -> None:
+        """Stop all work, and wait a little for it to end."""
+        self.stop()
+        deadline_s = time.monotonic() + PATIENCE_S
+        for pool in self._pools:
+            pool.close(max(0.0, deadline_s - time.monotonic()))

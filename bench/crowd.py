@@ -1,0 +1,199 @@
+"""How long an edit takes while many documents are open, some are dragged, and others ask for plans.
+
+Twenty documents are open, each followed by a page's websocket. In three of them a hand drags a corner in a circle:
+every tenth of a second its page sends the drawing, and after two seconds it lets go and takes the next corner. As a
+page does, a hand sends its next drawing only once the last was answered. Then the same again while five plans a second
+are asked for, each of which may take five seconds. What is timed is each edit, from the moment when the hand was there,
+which may be earlier than when it was sent.
+"""
+
+import http.client
+import itertools
+import json
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field
+from functools import partial
+from math import cos, sin, tau
+from statistics import median, quantiles
+from typing import Any
+from urllib.parse import urlsplit
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from bench.paper import TABLE_2
+from bench.report import Report, Row
+from bench.served import ask, served
+
+COLUMNS = (
+    "meanwhile",
+    "edits",
+    "of those wanted",
+    "median [ms]",
+    "p95",
+    "p99",
+    "most",
+    "plans",
+    "median [s]",
+    "refused",
+)
+OPEN = 20
+DRAGGED = 3
+EDITS_PER_S = 10.0
+PLANS_PER_S = 5.0
+PLAN_LIMIT_S = 5.0
+STROKE = 20
+"""Edits after which a hand lets go."""
+
+RADIUS_M = 0.01
+DURATION_S = 15.0
+QUICK_S = 2.0
+PATIENCE_S = 120.0
+
+
+@dataclass(slots=True)
+class Heard:
+    """What a crowd has measured.
+
+    Attributes:
+        edits_ms: for each edit, how long it took (ms).
+        plans_s: for each plan that was answered, how long that took (s).
+        statuses: how often each status came for a plan.
+    """
+
+    edits_ms: list[float] = field(default_factory=list)
+    plans_s: list[float] = field(default_factory=list)
+    statuses: Counter[int] = field(default_factory=Counter)
+
+
+def crowd(articles: Sequence[str], repetitions: int) -> Report:
+    """Documents of the articles, with plans and without."""
+    asked = [article for article in TABLE_2 if article in articles]
+    title = f"Edits in {DRAGGED} of {OPEN} open documents, {EDITS_PER_S:g} a second each"
+    duration_s = DURATION_S if repetitions > 1 else QUICK_S
+    rows = (
+        tuple(_row(rate, crowded(asked, duration_s, rate), duration_s) for rate in (0.0, PLANS_PER_S)) if asked else ()
+    )
+    return Report("crowd", title, COLUMNS, rows, 1)
+
+
+def crowded(articles: Sequence[str], duration_s: float, plans_per_s: float) -> Heard:
+    """Have a crowd at work on a server of its own for so long (s)."""
+    heard = Heard()
+    with served() as (url, _), ExitStack() as pages:
+        kinds = itertools.cycle(articles)
+        documents = [ask("POST", f"{url}/api/documents", {"garment": next(kinds)}) for _ in range(OPEN)]
+        for document in documents:
+            pages.enter_context(_followed(url, document["id"]))
+        time.sleep(min(duration_s, 5.0))  # until the first plans are there
+        until_s = time.monotonic() + duration_s
+        work = [partial(_drag, url, document, until_s, heard) for document in documents[:DRAGGED]]
+        if plans_per_s:
+            work.append(partial(_ask_for_plans, url, articles, plans_per_s, until_s, heard))
+        threads = [threading.Thread(target=one, daemon=True) for one in work]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    return heard
+
+
+@contextmanager
+def _followed(url: str, document: str) -> Iterator[None]:
+    """Keep a page's websocket to a document open, and read what comes."""
+    with connect(f"ws://{urlsplit(url).netloc}/api/documents/{document}/live", proxy=None, max_size=None) as page:
+
+        def read() -> None:
+            with suppress(ConnectionClosed, OSError):
+                for _ in page:
+                    pass
+
+        threading.Thread(target=read, daemon=True).start()
+        yield
+
+
+def _drag(url: str, document: dict[str, Any], until_s: float, heard: Heard) -> None:
+    """Lead corner after corner round in a circle."""
+    wire, path = (
+        http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S),
+        f"/api/documents/{document['id']}",
+    )
+    drawing, version = document["drawing"], document["version"]
+    began_s = time.monotonic()
+    for number in itertools.count():
+        due_s = began_s + number / EDITS_PER_S
+        if due_s > until_s or time.monotonic() > until_s:
+            return
+        time.sleep(max(0.0, due_s - time.monotonic()))
+        stroke, step = divmod(number, STROKE)
+        moved = _moved(drawing, stroke, tau * step / STROKE)
+        phase = "commit" if step == STROKE - 1 else "preview"
+        edit = {"base_version": version, "label": "Drag", "phase": phase, "drawing": moved, "gesture": str(stroke)}
+        due_s = max(due_s, time.monotonic() - 1.0 / EDITS_PER_S)  # previews that were overtaken are never sent
+        wire.request("PUT", f"{path}/drawing", json.dumps(edit), {"content-type": "application/json"})
+        answer = wire.getresponse()
+        told = json.loads(answer.read())
+        version = told["version"] if answer.status == http.client.OK else told["state"]["version"]
+        heard.edits_ms.append(1e3 * (time.monotonic() - due_s))
+        began_s += max(0.0, (time.monotonic() - due_s) - 1.0 / EDITS_PER_S)
+
+
+def _moved(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, Any]:
+    moved: dict[str, Any] = json.loads(json.dumps(drawing))
+    corner = moved["outline"][stroke % len(moved["outline"])]
+    x, y = corner["point"]
+    corner["point"] = [x + RADIUS_M * (cos(turned) - 1.0), y + RADIUS_M * sin(turned)]
+    return moved
+
+
+def _ask_for_plans(url: str, articles: Sequence[str], plans_per_s: float, until_s: float, heard: Heard) -> None:
+    """Ask for a plan again and again, whether or not the last one was answered."""
+    kinds, asking = itertools.cycle(articles), []
+    while time.monotonic() < until_s:
+        asking.append(threading.Thread(target=_plan, args=(url, next(kinds), heard), daemon=True))
+        asking[-1].start()
+        time.sleep(1.0 / plans_per_s)
+    for thread in asking:
+        thread.join(PATIENCE_S)
+
+
+def _plan(url: str, article: str, heard: Heard) -> None:
+    wire, began_s = http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S), time.monotonic()
+    body = json.dumps({"garment": article, "time_limit_s": PLAN_LIMIT_S})
+    wire.request("POST", "/api/plans", body, {"content-type": "application/json"})
+    answer = wire.getresponse()
+    answer.read()
+    heard.plans_s.append(time.monotonic() - began_s)
+    heard.statuses[answer.status] += 1
+
+
+def _row(plans_per_s: float, heard: Heard, duration_s: float) -> Row:
+    wanted = DRAGGED * EDITS_PER_S * duration_s
+    cuts = quantiles(heard.edits_ms, n=100, method="inclusive")
+    edits = {"median": median(heard.edits_ms), "p95": cuts[94], "p99": cuts[98], "most": max(heard.edits_ms)}
+    refused = heard.statuses.total() - heard.statuses[http.client.OK]
+    name = f"{plans_per_s:g} plans a second" if plans_per_s else "nothing else"
+    plan_s = median(heard.plans_s) if heard.plans_s else None
+    line = (
+        name,
+        str(len(heard.edits_ms)),
+        f"{100 * len(heard.edits_ms) / wanted:.0f} %",
+        *(f"{edits[part]:.0f}" for part in ("median", "p95", "p99", "most")),
+        str(heard.statuses.total()),
+        "-" if plan_s is None else f"{plan_s:.2f}",
+        str(refused),
+    )
+    data = {
+        "plans_per_s": plans_per_s,
+        "edits": len(heard.edits_ms),
+        "edits_wanted": wanted,
+        "edit_ms": edits,
+        "plans": heard.statuses.total(),
+        "plan_s": plan_s,
+        "plans_refused": refused,
+    }
+    return Row((line,), data)

@@ -1,0 +1,48 @@
+"""The processes that a process has started, as Linux tells of them."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+PATIENCE_S = 30.0
+
+
+def descendants(pid: int) -> set[int]:
+    """All that are below a process now."""
+    parents: dict[int, int] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            after_name = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if after_name[0] != "Z":
+            parents[int(stat.parent.name)] = int(after_name[1])
+    found, grown = {pid}, True
+    while grown:
+        below = {child for child, parent in parents.items() if parent in found} - found
+        found |= below
+        grown = bool(below)
+    return found - {pid}
+
+
+def is_alive(pid: int) -> bool:
+    stat = Path(f"/proc/{pid}/stat")
+    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+def cpu_s(pid: int) -> float:
+    """The processor time that a process and those below it have used (s)."""
+    total = 0.0
+    for one in {pid, *descendants(pid)}:
+        stat = Path(f"/proc/{one}/stat")
+        if stat.exists():
+            fields = stat.read_text().rpartition(")")[2].split()
+            total += (int(fields[11]) + int(fields[12])) / 100.0
+    return total
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)

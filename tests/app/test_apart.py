@@ -1,0 +1,83 @@
+import os
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from app.files.import_errors import UnitsNeededError
+from app.jobs.apart import LostProcessError, StoppedError, ignore, run_apart
+from planner.errors import FoldError, FoldingError, GarmentError, UnknownGarmentError
+from tests.app.processes import descendants, wait_until
+
+
+def count(tell: Callable[[object], None], up_to: int) -> int:
+    for number in range(up_to):
+        tell(number)
+    return os.getpid()
+
+
+def run_for_ever(tell: Callable[[object], None]) -> None:
+    tell(os.getpid())
+    while True:
+        pass
+
+
+def fail(_: object, error: Exception) -> None:
+    raise error
+
+
+def crash(_: object) -> None:
+    os._exit(7)
+
+
+def apart(work: Callable[..., Any], *arguments: object) -> Any:
+    return run_apart(work, bool, ignore, *arguments)
+
+
+def test_work_is_done_in_another_process_and_tells_news_on_the_way() -> None:
+    heard: list[object] = []
+    assert run_apart(count, bool, heard.append, 3) not in (None, os.getpid())
+    assert heard == [0, 1, 2]
+
+
+def test_work_that_would_never_end_is_ended_when_it_is_stopped() -> None:
+    pids: list[int] = []
+    stop = threading.Event()
+
+    def note(pid: int) -> None:
+        pids.append(pid)
+        stop.set()
+
+    with pytest.raises(StoppedError):
+        run_apart(run_for_ever, stop.is_set, note)
+    wait_until(lambda: pids[0] not in descendants(os.getpid()))
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        GarmentError("outline[3]", "edges cross"),
+        FoldError("folds[0].start", "is beside the cloth").within("garment"),
+        UnknownGarmentError("nothing"),
+        UnitsNeededError("nobody says", {"mm": (0.1, 0.2)}),
+        FoldingError("no"),
+    ],
+)
+def test_an_error_comes_with_all_that_it_holds(error: FoldingError) -> None:
+    with pytest.raises(type(error)) as raised:
+        apart(fail, error)
+    held, expected = dict(raised.value.__dict__), error.__dict__
+    held.pop("__notes__")
+    assert str(raised.value) == str(error) and held == expected
+
+
+def test_a_bug_comes_with_the_place_where_it_is() -> None:
+    with pytest.raises(ZeroDivisionError) as raised:
+        apart(fail, ZeroDivisionError("no"))
+    assert "in fail" in raised.value.__notes__[0]
+
+
+def test_a_process_that_crashes_is_told_from_one_that_was_stopped() -> None:
+    with pytest.raises(LostProcessError, match="7"):
+        apart(crash)
