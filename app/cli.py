@@ -81,8 +81,7 @@ def serve(
     ] = None,
 ) -> None:
     """Serve the designer until Ctrl-C."""
-    from app.server.serve import ExposedError  # takes a second: only when it is needed
-    from app.server.serve import serve as serve_settings
+    from app.server.serve import serve as serve_settings  # takes a second: only when it is needed
 
     proxy = {"root_path": root_path, "origin": origin}
     given: dict[str, Any] = {"host": host, "port": port, "data": data, "insecure": insecure, **proxy}
@@ -94,7 +93,7 @@ def serve(
         serve_settings(settings, lambda url: _output.print(f"Pleat is on {url} (Ctrl-C stops it)"))
     except KeyboardInterrupt:
         return
-    except ExposedError as error:
+    except FoldingError as error:
         raise _failure(str(error)) from None
     except OSError as error:
         raise _failure(f"cannot serve on {settings.host}:{settings.port}: {error.strerror}") from None

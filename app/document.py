@@ -103,9 +103,14 @@ class Document:
         """Take the step again that was undone last; raises `StaleVersionError`."""
         return self._redraw(Draft.redone, base_version)
 
-    def end(self) -> None:
-        """Refuse all further changes of the drawing: nobody would see them."""
+    def end(self, remove: Callable[[], None] = lambda: None) -> None:
+        """Refuse all further changes of the drawing: nobody would see them.
+
+        Args:
+            remove: called first, while nothing changes; what it raises lets the document go on.
+        """
         with self._edits:
+            remove()
             self._has_ended = True
 
     def settle(self, version: int, question: Question, plan: Plan, plan_id: str, *, is_final: bool = True) -> None:

@@ -4,13 +4,15 @@ import logging
 import threading
 
 from app.document import Document
-from app.drawing.draft import Draft, draft_of
+from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.jobs.apart import template_is_ready
 from app.jobs.lanes import Lanes
 from app.open_document import OpenDocument
 from app.settings import Settings
+from app.store.data_folder import DataFolder
+from app.store.document_reader import KeptDocument
 from app.store.document_shelf import DocumentShelf
 from app.store.garment_shelf import GarmentShelf
 from app.store.plan_store import PlanStore
@@ -29,6 +31,7 @@ class Workspace:
     """One for each server.
 
     Attributes:
+        folder: where garments and documents are.
         garments: the garments that can be asked for by name.
         documents: the documents on the disk.
         plans: the plans made so far.
@@ -37,8 +40,9 @@ class Workspace:
 
     def __init__(self, settings: Settings) -> None:
         """Nothing is open yet."""
-        self.garments = GarmentShelf(settings.data / "garments")
-        self.documents = DocumentShelf(settings.data / "documents")
+        self.folder = DataFolder(settings.data)
+        self.garments = GarmentShelf(self.folder.garments)
+        self.documents = DocumentShelf(self.folder.documents)
         self.plans = PlanStore()
         self.lanes = Lanes()
         self._open: dict[str, OpenDocument] = {}
@@ -69,30 +73,40 @@ class Workspace:
         with self._lock:
             document_id = self.documents.new_id()
             draft = draft_of(drawing)
-            self.documents.keeper(document_id).keep(1, draft)
-            return self._open_as(document_id, 1, draft)
+            keeper = self.documents.keeper(document_id)
+            keeper.keep(1, draft)
+            return self._open_as(document_id, KeptDocument(1, draft, keeper))
 
     def opened(self, document_id: str) -> OpenDocument:
         """A document, opened if it is not open.
 
         Raises:
             UnknownDocumentError: there is none of this id.
+            NewerDocumentError: a newer version of Pleat wrote it.
             BrokenDocumentError: its file cannot be read.
+            StorageError: the system does not let it be read.
         """
         with self._lock:
             if document_id not in self._open:
-                self._open_as(document_id, *self.documents.kept(document_id))
+                self._open_as(document_id, self.documents.kept(document_id))
             opened = self._open[document_id]
             opened.touch()
             return opened
 
     def remove(self, document_id: str) -> None:
-        """Remove a document for good; who uses it is told. Raises `UnknownDocumentError`."""
+        """Remove a document for good; who uses it is told.
+
+        Raises:
+            UnknownDocumentError: there is none of this id.
+            StorageError: it could not be removed; then nothing has changed for anybody.
+        """
         with self._lock:
-            opened = self._open.pop(document_id, None)
-            if opened is not None:
-                opened.document.end()
-            self.documents.remove(document_id)
+            opened = self._open.get(document_id)
+            if opened is None:
+                self.documents.remove(document_id)
+            else:
+                opened.document.end(lambda: self.documents.remove(document_id))
+                del self._open[document_id]
         if opened is not None:
             opened.say_goodbye()
             opened.close()
@@ -116,9 +130,8 @@ class Workspace:
         for opened in open_documents:
             opened.close()
 
-    def _open_as(self, document_id: str, version: int, draft: Draft) -> OpenDocument:
-        keeper = self.documents.keeper(document_id)
-        document = Document(draft, version=version, keep=keeper.keep, courtesy=self.lanes.courtesy)
+    def _open_as(self, document_id: str, kept: KeptDocument) -> OpenDocument:
+        document = Document(kept.draft, version=kept.version, keep=kept.keeper.keep, courtesy=self.lanes.courtesy)
         self._open[document_id] = OpenDocument(document_id, document, self.lanes.live, self.plans)
         return self._open[document_id]
 

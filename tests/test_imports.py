@@ -38,6 +38,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "viser": ("app.ui",),
     "svgpathtools": ("app.files",),
     "ezdxf": ("app.files",),
+    "filelock": ("app.store",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

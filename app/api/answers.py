@@ -12,10 +12,11 @@ Point3 = tuple[float, float, float]
 
 
 class Health(BaseModel):
-    """The server is there."""
+    """How the server is, and which version; `problem` only where something is wrong."""
 
-    status: Literal["ok"]
+    status: Literal["ok", "degraded"]
     version: str
+    problem: str | None = None
 
 
 class PoseFile(BaseModel):

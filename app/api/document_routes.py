@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
+from urllib.parse import urlencode
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
@@ -41,21 +42,36 @@ from planner.geometry.segment import Segment
 
 router = APIRouter(prefix="/api/documents", tags=["documents"])
 
-_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(404, 409, 413, 422, 507)}
+PAGE, PAGE_MAX = 100, 500
+"""Documents on a page of the list: as long as nobody asks for another number, and at most."""
+
+Limit = Annotated[int, Query(ge=1, le=PAGE_MAX, description="documents on the page")]
+After = Annotated[str, Query(max_length=100, description="where the page before ended, as its `Link` has it")]
+
+_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(403, 404, 409, 413, 422, 507)}
 
 
 @router.get("", response_model=list[DocumentEntryAnswer])
-async def list_documents(request: Request) -> list[dict[str, Any]]:
-    """All documents, the one changed last first; those whose file cannot be read at the end."""
-    entries = await run_in_threadpool(workspace_of(request).documents.entries)
-    return [asdict(entry) for entry in entries]
+async def list_documents(
+    request: Request, response: Response, limit: Limit = PAGE, after: After | None = None
+) -> list[dict[str, Any]]:
+    """The documents, the one changed last first; those whose file cannot be read at the end.
+
+    Where there are more than `limit`, the header `Link` leads to the next ones: `<?limit=...&after=...>; rel="next"`.
+    """
+    documents = workspace_of(request).documents
+    page = await run_in_threadpool(documents.page, _place(after), limit)
+    if page.end is not None:
+        query = urlencode({"limit": limit, "after": "/".join(page.end)})
+        response.headers["link"] = f'<?{query}>; rel="next"'
+    return [asdict(entry) for entry in page.entries]
 
 
 @router.post(
     "",
     status_code=201,
     openapi_extra=takes(NewDocument),
-    responses={201: {"model": DocumentAnswer}, **problems(404, 413, 422, 507)},
+    responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 507)},
 )
 async def create_document(request: Request) -> JSONResponse:
     """A new document; its address is in `Location`."""
@@ -66,14 +82,14 @@ async def create_document(request: Request) -> JSONResponse:
     return JSONResponse(message, status_code=201, headers={"location": location})
 
 
-@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(404, 422)})
+@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422)})
 async def read_document(request: Request, document_id: str) -> JSONResponse:
     """What is drawn, and what it comes to."""
     opened = await _opened(request, document_id)
     return JSONResponse(await run_in_threadpool(document_message, document_id, opened.document.state))
 
 
-@router.delete("/{document_id}", status_code=204, responses=problems(404))
+@router.delete("/{document_id}", status_code=204, responses=problems(403, 404, 507))
 async def remove_document(request: Request, document_id: str) -> Response:
     """Remove a document for good."""
     await run_in_threadpool(workspace_of(request).remove, document_id)
@@ -120,7 +136,7 @@ async def redo(request: Request, document_id: str) -> Response:
 @router.post(
     "/{document_id}/playback",
     openapi_extra=takes(Play),
-    responses={200: {"model": PlaybackAnswer}, **problems(404, 413, 422)},
+    responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422)},
 )
 async def post_playback(request: Request, document_id: str) -> JSONResponse:
     """A command as on the websocket: play, pause, seek, speed, theme, choose."""
@@ -133,7 +149,7 @@ async def post_playback(request: Request, document_id: str) -> JSONResponse:
 @router.post(
     "/{document_id}/crease",
     openapi_extra=takes(CreaseRequest),
-    responses={200: {"model": CreaseAnswer}, **problems(404, 413, 422, 503)},
+    responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 503)},
 )
 async def post_crease(request: Request, document_id: str) -> JSONResponse:
     """Where a fold would be that takes a point of the cloth to another place, or that runs along a line."""
@@ -143,7 +159,7 @@ async def post_crease(request: Request, document_id: str) -> JSONResponse:
     return JSONResponse(placed.to_dict())
 
 
-@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(404, 422, 503)})
+@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 503)})
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
     """The layers before each legal fold and after the last, bottom to top."""
     opened = await _opened(request, document_id)
@@ -151,13 +167,21 @@ async def read_steps(request: Request, document_id: str) -> JSONResponse:
     return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
 
 
-@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(404, 422, 503)})
+@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(403, 404, 409, 422, 503)})
 async def read_mends(request: Request, document_id: str) -> JSONResponse:
     """What would take the first of a drawing's problems away, the best first; none where there are no problems."""
     opened = await _opened(request, document_id)
     state = opened.document.state
     found = await quick_answer(request, mends, state.draft)
     return JSONResponse({"version": state.version, "mends": [mend.to_dict() for mend in found]})
+
+
+def _place(after: str | None) -> tuple[str, str] | None:
+    """Return the place in the list that a query names."""
+    if after is None:
+        return None
+    changed_at, _, document_id = after.rpartition("/")
+    return changed_at, document_id
 
 
 async def _opened(request: Request, document_id: str) -> OpenDocument:

@@ -34,7 +34,7 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
 @router.put(
     "/{name}",
     openapi_extra=takes(GarmentFile),
-    responses={200: {"model": GarmentFile}, 201: {"model": GarmentFile}, **problems(409, 413, 422)},
+    responses={200: {"model": GarmentFile}, 201: {"model": GarmentFile}, **problems(403, 409, 413, 422, 507)},
 )
 async def save_garment(request: Request, name: str) -> JSONResponse:
     """Save or replace a garment of one's own: 201 when it is new, 200 when it was there."""
@@ -46,7 +46,7 @@ async def save_garment(request: Request, name: str) -> JSONResponse:
     return JSONResponse(garment.to_dict(), status_code=201 if is_new else 200)
 
 
-@router.delete("/{name}", status_code=204, responses=problems(404, 409))
+@router.delete("/{name}", status_code=204, responses=problems(403, 404, 409))
 async def remove_garment(request: Request, name: str) -> Response:
     """Remove a garment of one's own."""
     await run_in_threadpool(workspace_of(request).garments.remove, name)

@@ -1,6 +1,5 @@
 """The page at `/d/{document}` and its files; `/` leads to the document opened last."""
 
-import contextlib
 from http import HTTPStatus
 
 from fastapi import APIRouter, FastAPI, Request
@@ -38,8 +37,7 @@ def _remembered(workspace: Workspace, document_id: str) -> int:
         workspace.opened(document_id)
     except FoldingError:
         return HTTPStatus.NOT_FOUND
-    with contextlib.suppress(OSError):  # then `/` leads to another one
-        workspace.documents.remember_last(document_id)
+    workspace.documents.remember_last(document_id)
     return HTTPStatus.OK
 
 

@@ -2,6 +2,7 @@
 
 import http
 import json
+import logging
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 
@@ -16,9 +17,10 @@ from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.jobs.apart import StoppedError
 from app.jobs.job_pool import BusyError
-from app.store.document_keeper import UnkeptDocumentError
-from app.store.document_shelf import BrokenDocumentError, UnknownDocumentError, UnreadableDocumentError
+from app.store.document_files import NewerDocumentError, UnknownDocumentError
+from app.store.document_reader import BrokenDocumentError
 from app.store.plan_store import UnknownPlanError
+from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
 from planner.errors import (
     FieldError,
     FoldingError,
@@ -28,6 +30,8 @@ from planner.errors import (
     UnsolvedPlanError,
 )
 from planner.strict_model import field_path, plain_message
+
+_log = logging.getLogger(__name__)
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -40,8 +44,10 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownDocumentError: 404,
     EndedDocumentError: 404,
     BrokenDocumentError: 422,
-    UnreadableDocumentError: 422,
-    UnkeptDocumentError: 507,
+    NewerDocumentError: 409,
+    ForbiddenStorageError: 403,
+    FullStorageError: 507,
+    StorageError: 500,
     ReadOnlyGarmentError: 409,
     UnsolvedPlanError: 409,
     StoppedError: 503,
@@ -107,6 +113,7 @@ def install_problems(app: FastAPI) -> None:
         ClientGoneError: _unread_problem,
         BusyError: _busy_problem,
         FoldingError: _folding_problem,
+        OSError: _system_problem,
     }
     for kind, handler in handlers.items():
         app.add_exception_handler(kind, handler)
@@ -146,6 +153,14 @@ async def _busy_problem(_: Request, error: BusyError) -> Response:
 
 async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) -> Response:
     return ProblemResponse(CLIENT_GONE, "The client went away.")
+
+
+async def _system_problem(request: Request, error: OSError) -> Response:
+    """What the system refuses is told as such; an `OSError` of a library's own making is a bug like any other."""
+    if error.errno is None:
+        raise error
+    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    return await _folding_problem(request, storage_error("the request could not be answered", error))
 
 
 def _title(status: int) -> str:

@@ -3,18 +3,24 @@
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
+from fastapi.concurrency import run_in_threadpool
 
 from app.api.answers import Health, SceneFile
+from app.api.asked import workspace_of
 from planner.primitives.scene import Scene
 
 router = APIRouter(prefix="/api")
 
 
-@router.get("/health", response_model=Health)
-async def read_health() -> dict[str, str]:
-    """That the server is there, and which."""
-    return {"status": "ok", "version": own_version()}
+@router.get("/health", response_model=Health, response_model_exclude_none=True)
+async def read_health(request: Request) -> Health:
+    """Whether all is well with the server, and which version it is.
+
+    It is `degraded` where nothing can be saved; `problem` says why.
+    """
+    problem = await run_in_threadpool(workspace_of(request).folder.problem)
+    return Health(status="degraded" if problem else "ok", version=own_version(), problem=problem)
 
 
 @router.get("/scene", response_model=SceneFile)

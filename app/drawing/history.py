@@ -3,18 +3,15 @@
 A value: taking a step, undoing and redoing give new ones. Undo then redo gives back what was there.
 """
 
-import json
 from dataclasses import dataclass
-from functools import cached_property
 
 from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import drawing_to_dict
 
 STEPS_MAX = 200
 """So many steps can be undone; older ones are forgotten."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Step:
     """One step, as it is kept to be undone or redone.
 
@@ -25,11 +22,6 @@ class Step:
 
     label: str
     drawing: Drawing
-
-    @cached_property
-    def text(self) -> str:
-        """The step as JSON; made once, because every change writes all steps to the disk."""
-        return json.dumps({"label": self.label, "drawing": drawing_to_dict(self.drawing)})
 
 
 @dataclass(frozen=True, slots=True)

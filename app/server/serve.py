@@ -4,6 +4,7 @@ import ipaddress
 import socket
 import sys
 from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import uvicorn
 
@@ -11,6 +12,7 @@ from app.api.create_app import create_app
 from app.server.log import logging_to, standard_error
 from app.server.timed_protocol import TimedProtocol
 from app.settings import Settings
+from app.store.data_folder import DataFolder
 from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
@@ -18,6 +20,9 @@ _GRACE_S = 1
 _SWITCH_S = 0.0001
 """How long a thread keeps the interpreter (s). A request changes threads several times, each time waiting so long for a
 search that runs meanwhile; Python's own 5 ms would be felt."""
+
+
+_Address: TypeAlias = tuple[socket.AddressFamily, tuple[Any, ...]]
 
 
 class ExposedError(FoldingError):
@@ -48,9 +53,16 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
     Raises:
         ExposedError: the address is beyond loopback, and `Settings.insecure` is not set.
         OSError: the address cannot be listened on.
+        UnusableFolderError: the data folder is none.
+        HeldFolderError: another server uses the data folder.
     """
     sys.setswitchinterval(_SWITCH_S)
-    with _listening(settings) as listener, logging_to(standard_error()):
+    address = _address(settings)
+    with (
+        DataFolder(settings.data).held() as tell_others,
+        _listening(address) as listener,
+        logging_to(standard_error()),
+    ):
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
         app = create_app(bound)
         config = uvicorn.Config(
@@ -63,18 +75,28 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
             server_header=False,
         )
         stop_work = app.state.workspace.lanes.stop
-        _Server(config, lambda: announce(_url(bound)), stop_work).run(sockets=[listener])
+
+        def announce_everywhere() -> None:
+            tell_others(_url(bound))
+            announce(_url(bound))
+
+        _Server(config, announce_everywhere, stop_work).run(sockets=[listener])
 
 
-def _listening(settings: Settings) -> socket.socket:
-    found = socket.getaddrinfo(settings.host, settings.port, type=socket.SOCK_STREAM)
-    family, kind, protocol, _, address = found[0]
+def _address(settings: Settings) -> _Address:
+    """Return where to listen; raises `ExposedError`."""
+    family, _, _, _, address = socket.getaddrinfo(settings.host, settings.port, type=socket.SOCK_STREAM)[0]
     if not settings.insecure and not ipaddress.ip_address(address[0]).is_loopback:
         raise ExposedError(
             f"{settings.host} can be reached from other machines, and whoever comes in from there could read, change "
             "and delete your documents: nobody is asked for a password. Serve on 127.0.0.1, or say --insecure."
         )
-    listener = socket.socket(family, kind, protocol)
+    return family, address
+
+
+def _listening(where: _Address) -> socket.socket:
+    family, address = where
+    listener = socket.socket(family, socket.SOCK_STREAM)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address)

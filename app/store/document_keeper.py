@@ -1,66 +1,146 @@
 """Keeps one document on the disk.
 
-A commit is written with its whole history, and synced. Previews come many times a second: they go into a small file of
+A commit adds a line to the document's journal, synced. Previews come many times a second: they go into a small file of
 their own, which outlives the end of this process and need not outlive a power failure.
 """
 
+import os
+from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
+from datetime import UTC, datetime
+
+from pydantic_core import to_json
 
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.drawing.history import History
-from app.store.document_file import document_text, preview_text
+from app.store.document_files import HEAD, JOURNAL, JSON, PREVIEW, DocumentFiles, preview_text
 from app.store.durable_file import write_at_once
-from planner.errors import FoldingError
+from app.store.journal import Journal, change_line, start_line
+from app.store.storage_error import storing
+from app.store.tape import Tape, tape_of, whole
+
+_SLACK_BYTES = 1 << 16
+"""A journal may grow by so much, or else to twice its length, before it is begun anew."""
 
 
-@dataclass
-class UnkeptDocumentError(FoldingError):
-    """A change could not be written, so it was not made."""
+@dataclass(slots=True)
+class _Kept:
+    """What is on the disk: the drawings, their version, and where the journal ends that says so."""
 
-    document_id: str
-    why: str
+    version: int
+    tape: Tape[Drawing]
+    generation: int = -1
+    base_bytes: int = 0
+    bytes: int = 0
 
-    def __str__(self) -> str:
-        return f"the change was not made, because document {self.document_id!r} could not be written: {self.why}"
+    @property
+    def is_overgrown(self) -> bool:
+        """Whether the journal has grown so much that it is worth beginning anew."""
+        return self.bytes - self.base_bytes > max(_SLACK_BYTES, self.base_bytes)
 
 
 class DocumentKeeper:
     """Writes the drafts of one document, one at a time."""
 
-    def __init__(self, document_id: str, path: Path, preview: Path) -> None:
-        """Nothing is written yet.
+    def __init__(self, files: DocumentFiles) -> None:
+        """Begin with a document of which nothing is on the disk."""
+        self._files = files
+        self._kept: _Kept | None = None
 
-        Args:
-            document_id: the document.
-            path: its file.
-            preview: the file of a gesture that is going on.
-        """
-        self._id = document_id
-        self._path = path
-        self._preview = preview
-        self._history: History | None = None
-        self._drawing: Drawing | None = None
+    @staticmethod
+    def of_journal(files: DocumentFiles, journal: Journal, tape: Tape[Drawing]) -> "DocumentKeeper":
+        """Return what goes on with a journal that has just been read."""
+        keeper = DocumentKeeper(files)
+        keeper._kept = _Kept(journal.version, tape, journal.generation, journal.base_bytes, journal.whole_bytes)
+        return keeper
+
+    @staticmethod
+    def of_older(files: DocumentFiles, version: int, tape: Tape[Drawing]) -> "DocumentKeeper":
+        """Return what goes on with a document of an older format."""
+        keeper = DocumentKeeper(files)
+        keeper._kept = _Kept(version, tape)
+        return keeper
 
     def keep(self, version: int, draft: Draft) -> None:
-        """Write a draft; raises `UnkeptDocumentError`, and then what was written before is still there."""
-        try:
+        """Write a draft; raises `StorageError`, and then what was written before is still there."""
+        with storing(f"document {self._files.id!r} could not be written, so the change was not made"):
             self._keep(version, draft)
-        except OSError as error:
-            raise UnkeptDocumentError(self._id, error.strerror or str(error)) from error
 
     def _keep(self, version: int, draft: Draft) -> None:
         gesture = draft.gesture
         if gesture is None:
-            self._write(version, draft.drawing, draft.history)
-            self._preview.unlink(missing_ok=True)
+            self._write(version, tape_of(draft.drawing, draft.history))
+            with suppress(OSError):  # a preview of an older version counts for nothing
+                self._files.path(PREVIEW).unlink()
             return
-        if self._history is not draft.history or self._drawing != gesture.before:
-            self._write(version - 1, gesture.before, draft.history)
-        write_at_once(self._preview, preview_text(version, gesture.label, draft.drawing), is_synced=False)
+        before = tape_of(gesture.before, draft.history)
+        if self._kept is None or self._kept.tape != before:
+            self._write(version - 1, before)
+        text = preview_text(version, gesture.label, draft.drawing)
+        write_at_once(self._files.path(PREVIEW), text, is_synced=False)
 
-    def _write(self, version: int, drawing: Drawing, history: History) -> None:
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        write_at_once(self._path, document_text(self._id, version, drawing, history))
-        self._drawing, self._history = drawing, history
+    def _write(self, version: int, tape: Tape[Drawing]) -> None:
+        if self._kept is None:
+            self._files.folder.mkdir(parents=True, exist_ok=True)
+            self._begin(_Kept(version, tape))
+            return
+        if self._kept.is_overgrown:
+            with suppress(OSError):  # it can go on growing
+                self._begin(self._kept)
+        if not self._is_in_place(self._kept):
+            self._files.folder.mkdir(parents=True, exist_ok=True)
+            self._begin(self._kept)
+        self._append(self._kept, version, tape)
+
+    def _is_in_place(self, kept: _Kept) -> bool:
+        """Return whether the journal is there and has all that is kept."""
+        try:
+            return 0 < kept.bytes <= self._files.path(JOURNAL).stat().st_size
+        except FileNotFoundError:
+            return False
+
+    def _begin(self, kept: _Kept) -> None:
+        """Write a journal that says what is kept, in place of the one before."""
+        generation, now = kept.generation + 1, _now()
+        line = change_line(kept.version, now, whole(kept.tape))
+        text = start_line(self._files.id, generation) + line
+        write_at_once(self._files.path(JOURNAL), text)
+        kept.generation, kept.base_bytes, kept.bytes = generation, len(text), len(text)
+        self._kept = kept
+        self._write_head(kept, now)
+        with suppress(OSError):  # the journal counts
+            self._files.path(JSON).unlink()
+
+    def _append(self, kept: _Kept, version: int, tape: Tape[Drawing]) -> None:
+        now = _now()
+        line = change_line(version, now, kept.tape.change_to(tape))
+        with self._files.path(JOURNAL).open("r+b") as file:
+            file.truncate(kept.bytes)  # behind that stands what a server did not finish
+            file.seek(kept.bytes)
+            try:
+                file.write(line)
+                file.flush()
+                os.fsync(file.fileno())
+            except OSError:
+                with suppress(OSError):
+                    file.truncate(kept.bytes)
+                raise
+        kept.version, kept.tape, kept.bytes = version, tape, kept.bytes + len(line)
+        self._write_head(kept, now)
+
+    def _write_head(self, kept: _Kept, now: str) -> None:
+        drawing = kept.tape.sheets[kept.tape.now].drawing
+        head = {
+            "id": self._files.id,
+            "generation": kept.generation,
+            "bytes": kept.bytes,
+            "title": drawing.title,
+            "name": drawing.name,
+            "changed_at": now,
+        }
+        with suppress(OSError):  # the journal says the same
+            write_at_once(self._files.path(HEAD), to_json(head), is_synced=False)
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")

@@ -5,20 +5,18 @@ import tempfile
 from pathlib import Path
 
 
-def write_at_once(path: Path, text: str, *, is_synced: bool = True) -> None:
+def write_at_once(path: Path, content: bytes, *, is_synced: bool = True) -> None:
     """The whole file or nothing of it.
 
     Args:
         path: the file; its folder is there.
-        text: what it is to contain.
+        content: what it is to contain.
         is_synced: whether it is on the disk when this returns, so that it outlives a power failure; otherwise it
             outlives the end of this process.
     """
-    with tempfile.NamedTemporaryFile(
-        "w", encoding="utf-8", dir=path.parent, prefix=f".{path.stem}-", delete=False
-    ) as file:
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.stem}-", delete=False) as file:
         try:
-            file.write(text)
+            file.write(content)
             file.flush()
             if is_synced:
                 os.fsync(file.fileno())

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.store.durable_file import write_at_once
+from app.store.storage_error import storing
 from planner.cloth.garment import NAME_PATTERN, Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, UnknownGarmentError
@@ -51,13 +52,15 @@ class GarmentShelf:
 
         Raises:
             ReadOnlyGarmentError: a shipped one has this name.
+            StorageError: it could not be written; what was there before still is.
         """
         if garment.name in shipped_garment_names():
             raise ReadOnlyGarmentError(garment.name)
         path = self._path(garment.name)
-        is_new = not path.exists()
-        self._folder.mkdir(parents=True, exist_ok=True)
-        write_at_once(path, json.dumps(garment.to_dict(), indent=1))
+        with storing(f"garment {garment.name!r} could not be saved"):
+            is_new = not path.exists()
+            self._folder.mkdir(parents=True, exist_ok=True)
+            write_at_once(path, json.dumps(garment.to_dict(), indent=1).encode())
         return is_new
 
     def remove(self, name: str) -> None:
@@ -66,13 +69,16 @@ class GarmentShelf:
         Raises:
             ReadOnlyGarmentError: it is a shipped one.
             UnknownGarmentError: there is none.
+            StorageError: it could not be removed.
         """
         if name in shipped_garment_names():
             raise ReadOnlyGarmentError(name)
-        try:
-            self._path(name).unlink()
-        except FileNotFoundError:
-            raise UnknownGarmentError(name) from None
+        path = self._path(name)
+        with storing(f"garment {name!r} could not be removed"):
+            try:
+                path.unlink()
+            except FileNotFoundError:
+                raise UnknownGarmentError(name) from None
 
     def _own(self) -> Iterator[Garment]:
         for path in sorted(self._folder.glob("*.json")):

@@ -98,10 +98,10 @@ def test_wrong_usage_is_status_2(arguments: tuple[str, ...]) -> None:
     assert "Traceback" not in result.output
 
 
-def test_a_port_that_is_taken_is_named() -> None:
+def test_a_port_that_is_taken_is_named(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        result = pleat("serve", "--port", str(port))
+        result = pleat("serve", "--port", str(port), "--data", str(tmp_path))
     assert result.exit_code == 2
     assert f"127.0.0.1:{port}" in result.stderr
 
@@ -163,3 +163,18 @@ def test_beyond_loopback_nothing_is_served_unless_that_is_said(tmp_path: Path, h
     assert result.exit_code == 2
     assert "other machines" in result.stderr and "--insecure" in result.stderr
     assert not (tmp_path / "data").exists()
+
+
+@pytest.mark.parametrize("inside", ["", "deeper", "documents"])
+def test_a_data_path_that_is_none_is_said_before_any_address(tmp_path: Path, inside: str) -> None:
+    data = tmp_path / "data"
+    if inside == "documents":
+        data.mkdir()
+        (data / inside).write_text("a file")
+    else:
+        data.write_text("a file")
+        data /= inside
+    result = pleat("serve", "--port", "0", "--data", str(data))
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert str(data) in result.stderr.replace("\n", "")

@@ -1,6 +1,7 @@
 """Documents by REST: made, copied, listed, opened again, removed, and the page of each."""
 
 import asyncio
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from tests.app.document_requests import created, moved, put
 from tests.app.samples import towel
+from tests.app.store.drafts import TOWEL, older_file
 from tests.app.test_garbage import BODIES, assert_problem
 
 pytestmark = pytest.mark.anyio
@@ -57,6 +59,41 @@ async def test_documents_are_listed_and_removed(client: httpx.AsyncClient) -> No
     ):
         assert_problem(answer, 404)
     assert [entry["id"] for entry in (await client.get("/api/documents")).json()] == [other["id"]]
+
+
+async def test_a_long_list_comes_in_pages_each_of_which_leads_to_the_next(client: httpx.AsyncClient) -> None:
+    made = [(await created(client))["id"] for _ in range(7)]
+    path, pages = "/api/documents?limit=3", []
+    while path:
+        answer = await client.get(path)
+        pages.append([entry["id"] for entry in answer.json()])
+        path = str(answer.url.join(answer.links["next"]["url"])) if "next" in answer.links else ""
+    assert [len(page) for page in pages] == [3, 3, 1]
+    assert sorted(itertools.chain(*pages)) == sorted(made)
+    assert "link" not in (await client.get("/api/documents")).headers
+    for query in ("limit=0", "limit=501", "limit=x", "after=" + "x" * 101):
+        assert_problem(await client.get(f"/api/documents?{query}"), 422)
+    for after in ("", "x", "/", "9/zzzzzzzz", "\x00", "é/é"):
+        assert (await client.get("/api/documents", params={"after": after})).status_code == 200
+
+
+@pytest.mark.parametrize("format_", [2, 99])
+async def test_a_document_of_a_newer_version_is_refused_by_it(
+    client: httpx.AsyncClient, tmp_path: Path, format_: int
+) -> None:
+    state = await created(client)
+    path = tmp_path / "documents" / "newer222.json"
+    path.write_text(older_file("newer222", 3, TOWEL, format_))
+    before = path.read_bytes()
+    for answer in (
+        await client.get("/api/documents/newer222"),
+        await put(client, {**state, "id": "newer222"}, state["drawing"]),
+        await client.post("/api/documents", json={"copy_of": "newer222"}),
+    ):
+        assert f"format {format_}" in assert_problem(answer, 409)["detail"]
+    assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == ["newer222"]
+    assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
+    assert path.read_bytes() == before
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES.keys())

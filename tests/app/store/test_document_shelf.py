@@ -1,27 +1,21 @@
 """Documents on the disk: what is kept is what was there, whatever happens to the server."""
 
-import json
+import itertools
+import shutil
 from pathlib import Path
 
 import pytest
 
 from app.document import Document
-from app.drawing.draft import Draft, draft_of
-from app.drawing.drawing import Drawing
+from app.drawing.draft import Draft
 from app.drawing.edit import Edit, Phase
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.solve import solve
-from app.store.document_keeper import UnkeptDocumentError
-from app.store.document_shelf import BrokenDocumentError, DocumentShelf, UnknownDocumentError
-from planner.cloth.garment import Garment
-from tests.app.drawing.drawings import outlined, pulled
-from tests.app.samples import towel
-
-TOWEL = draft_of(drawing_of(Garment.from_dict(towel())))
-
-
-def moved(millimetres: int) -> Drawing:
-    return solve(pulled(TOWEL.drawing, 0, -0.001 * millimetres, 0.0)).drawing
+from app.store.document_files import NewerDocumentError, UnknownDocumentError
+from app.store.document_list import DocumentEntry
+from app.store.document_reader import BrokenDocumentError
+from app.store.document_shelf import DocumentShelf
+from app.store.storage_error import StorageError
+from tests.app.drawing.drawings import outlined
+from tests.app.store.drafts import TOWEL, moved, older_file, worked_on
 
 
 @pytest.fixture
@@ -38,7 +32,12 @@ def kept_document(shelf: DocumentShelf) -> tuple[str, Document]:
 
 def restored(shelf: DocumentShelf, document_id: str, tmp_path: Path) -> tuple[int, Draft]:
     """What a server finds that starts after this one was killed."""
-    return DocumentShelf(tmp_path / "documents").kept(document_id)
+    kept = DocumentShelf(tmp_path / "documents").kept(document_id)
+    return kept.version, kept.draft
+
+
+def entries(shelf: DocumentShelf) -> tuple[DocumentEntry, ...]:
+    return shelf.page(None, 100).entries
 
 
 def test_every_committed_change_is_there_after_the_server_was_killed(shelf: DocumentShelf, tmp_path: Path) -> None:
@@ -99,36 +98,28 @@ def test_a_server_that_was_killed_while_it_wrote_leaves_the_old_file_and_no_rubb
     assert not half_written.exists()
 
 
-@pytest.mark.parametrize("content", ["", "{", "[]", "null", '{"format": 2}', "\x00" * 100, "[" * 100_000])
+@pytest.mark.parametrize(
+    "content", ["", "{", "[]", "null", '{"format": 2}', '{"format": "3"}', "\x00" * 100, "[" * 100_000]
+)
 def test_a_spoilt_file_is_put_aside_and_told_of_and_the_others_are_read(
     shelf: DocumentShelf, tmp_path: Path, content: str
 ) -> None:
     good, _ = kept_document(shelf)
     spoilt, _ = kept_document(shelf)
-    path = tmp_path / "documents" / f"{spoilt}.json"
+    path = tmp_path / "documents" / f"{spoilt}.journal"
     path.write_text(content)
     with pytest.raises(BrokenDocumentError, match=f"{spoilt}.broken"):
         shelf.kept(spoilt)
     assert (tmp_path / "documents" / f"{spoilt}.broken").read_text() == content
-    entries = shelf.entries()
-    assert [entry.id for entry in entries] == [good, spoilt]
-    assert entries[0].problem is None
-    assert entries[1].problem is not None and "broken" in entries[1].problem
-    assert shelf.recent() == [good]
+    shown = entries(shelf)
+    assert [entry.id for entry in shown] == [good, spoilt]
+    assert shown[0].problem is None
+    assert shown[1].problem is not None and "broken" in shown[1].problem
+    assert list(shelf.recent()) == [good]
     with pytest.raises(BrokenDocumentError):
         shelf.kept(spoilt)
     shelf.remove(spoilt)
-    assert [entry.id for entry in shelf.entries()] == [good]
-
-
-def test_a_spoilt_drawing_within_a_good_file_is_told_of_by_its_field(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, _ = kept_document(shelf)
-    path = tmp_path / "documents" / f"{document_id}.json"
-    data = json.loads(path.read_text())
-    data["drawing"]["outline"][1]["point"] = [0, "x"]
-    path.write_text(json.dumps(data))
-    with pytest.raises(BrokenDocumentError, match=r"outline\[1\]\.point\[1\]"):
-        shelf.kept(document_id)
+    assert [entry.id for entry in entries(shelf)] == [good]
 
 
 def test_a_spoilt_preview_loses_only_itself(shelf: DocumentShelf, tmp_path: Path) -> None:
@@ -142,10 +133,10 @@ def test_the_list_has_the_one_changed_last_first(shelf: DocumentShelf) -> None:
     first, changed = kept_document(shelf)
     second, _ = kept_document(shelf)
     shelf.remember_last(second)
-    assert shelf.recent() == [second, first]
+    assert list(shelf.recent()) == [second, first]
     changed.edit(Edit("one", moved(1)))
-    assert {entry.id for entry in shelf.entries()} == {first, second}
-    assert shelf.entries()[0].title == "My towel"
+    assert [entry.id for entry in entries(shelf)] == [first, second]
+    assert entries(shelf)[0].title == "My towel"
 
 
 def test_ids_are_short_and_fit_into_an_address(shelf: DocumentShelf) -> None:
@@ -166,6 +157,133 @@ def test_a_change_that_cannot_be_written_says_so_and_is_not_made(shelf: Document
     folder = tmp_path / "documents"
     folder.rename(tmp_path / "elsewhere")
     folder.write_text("in the way")
-    with pytest.raises(UnkeptDocumentError, match="not made"):
+    with pytest.raises(StorageError, match="not made"):
         document.edit(Edit("one", moved(1)))
     assert document.state.drawing == TOWEL.drawing
+
+
+def put_older(tmp_path: Path, document_id: str, draft: Draft, format_: int = 1) -> Path:
+    """A document of format 1, or one that says it is of another."""
+    path = tmp_path / "documents" / f"{document_id}.json"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(older_file(document_id, 7, draft, format_))
+    return path
+
+
+def test_a_document_of_the_format_before_is_read_and_goes_on_as_a_journal(shelf: DocumentShelf, tmp_path: Path) -> None:
+    *_, draft = (draft for draft in worked_on(5, 40) if draft.gesture is None)
+    assert draft.history.past
+    path = put_older(tmp_path, "oldone22", draft)
+    assert [(entry.id, entry.problem) for entry in entries(shelf)] == [("oldone22", None)]
+    kept = shelf.kept("oldone22")
+    assert (kept.version, kept.draft.drawing, kept.draft.history) == (7, draft.drawing, draft.history)
+    assert path.exists(), "reading changes nothing"
+    document = Document(kept.draft, version=kept.version, keep=kept.keeper.keep)
+    document.edit(Edit("new", moved(9)))
+    assert not path.exists()
+    version, after = restored(shelf, "oldone22", tmp_path)
+    assert (version, after.drawing, after.history) == (8, moved(9), document.state.draft.history)
+    assert [entry.id for entry in entries(shelf)] == ["oldone22"]
+
+
+def test_a_spoilt_drawing_in_an_older_file_is_told_of_by_its_field(shelf: DocumentShelf, tmp_path: Path) -> None:
+    path = put_older(tmp_path, "oldone22", TOWEL)
+    path.write_text(path.read_text().replace("[0.4, 0.0]", '[0, "x"]'))
+    assert "outline[1].point[1]" in str(entries(shelf)[0].problem)
+    with pytest.raises(BrokenDocumentError, match=r"outline\[1\]\.point\[1\]"):
+        shelf.kept("oldone22")
+
+
+def newer_files(shelf: DocumentShelf, tmp_path: Path) -> dict[str, int]:
+    """Documents of formats to come, cut off or reordered as may be, with their formats."""
+    put_older(tmp_path, "newerabc", TOWEL, 2)
+    cut = put_older(tmp_path, "newercut", TOWEL, 17)
+    cut.write_bytes(cut.read_bytes()[:-40])
+    put_older(tmp_path, "newertoo", TOWEL).write_text('{"content": {}, "format": 3}')
+    (tmp_path / "documents" / "newerxyz.journal").write_bytes(b'{"format": 3, "id": "newerxyz"}\n\x00\x01')
+    return {"newerabc": 2, "newercut": 17, "newertoo": 3, "newerxyz": 3}
+
+
+def test_a_document_of_a_newer_format_is_refused_by_its_version_and_left_alone(
+    shelf: DocumentShelf, tmp_path: Path
+) -> None:
+    formats = newer_files(shelf, tmp_path)
+    before = {path.name: path.read_bytes() for path in (tmp_path / "documents").iterdir()}
+    problems = {entry.id: str(entry.problem) for entry in entries(shelf)}
+    assert list(shelf.recent()) == []
+    for document_id, number in formats.items():
+        assert f"format {number}" in problems[document_id]
+        with pytest.raises(NewerDocumentError, match=f"format {number}"):
+            shelf.kept(document_id)
+    DocumentShelf(tmp_path / "documents")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "documents").iterdir()} == before
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7, 0.99])
+def test_a_document_that_was_cut_off_does_not_look_well(shelf: DocumentShelf, tmp_path: Path, share: float) -> None:
+    """What was acknowledged is missing: that is told, where a line that a kill left unfinished is not."""
+    document_id, document = kept_document(shelf)
+    for number in range(4):
+        document.edit(Edit("Move", moved(number + 1)))
+    put_older(tmp_path, "oldone22", document.state.draft)
+    for name in (f"{document_id}.journal", "oldone22.json"):
+        path = tmp_path / "documents" / name
+        path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+    for here in (shelf, DocumentShelf(tmp_path / "documents")):
+        assert {entry.id for entry in entries(here) if entry.problem} == {document_id, "oldone22"}
+    for cut in (document_id, "oldone22"):
+        with pytest.raises(BrokenDocumentError):
+            shelf.kept(cut)
+
+
+def test_a_line_that_was_never_finished_is_no_harm_and_the_next_takes_its_place(
+    shelf: DocumentShelf, tmp_path: Path
+) -> None:
+    document_id, document = kept_document(shelf)
+    document.edit(Edit("one", moved(1)))
+    with (tmp_path / "documents" / f"{document_id}.journal").open("ab") as file:
+        file.write(b"0123abcd {" + b"x" * 100_000)
+    assert entries(shelf)[0].problem is None
+    kept = DocumentShelf(tmp_path / "documents").kept(document_id)
+    assert kept.draft.drawing == moved(1)
+    Document(kept.draft, version=kept.version, keep=kept.keeper.keep).edit(Edit("two", moved(2)))
+    assert restored(shelf, document_id, tmp_path)[1].drawing == moved(2)
+
+
+def test_without_its_head_a_document_is_the_same(shelf: DocumentShelf, tmp_path: Path) -> None:
+    """A power failure may lose it, or bring an older one back."""
+    document_id, document = kept_document(shelf)
+    head = tmp_path / "documents" / f"{document_id}.head"
+    older = head.read_bytes()
+    document.edit(Edit("one", moved(1)))
+    shown = entries(shelf)
+    for content in (older, b"", None):
+        head.unlink() if content is None else head.write_bytes(content)
+        found = entries(DocumentShelf(tmp_path / "documents"))
+        assert [(one.id, one.title, one.problem) for one in found] == [(one.id, one.title, None) for one in shown]
+        assert restored(shelf, document_id, tmp_path)[1].drawing == moved(1)
+
+
+def test_a_commit_writes_about_one_step_and_the_journal_does_not_grow_for_ever(
+    shelf: DocumentShelf, tmp_path: Path
+) -> None:
+    document_id, document = kept_document(shelf)
+    journal = tmp_path / "documents" / f"{document_id}.journal"
+    one_drawing, sizes = journal.stat().st_size, []
+    for number in range(450):
+        document.edit(Edit("Move", moved(1 + number % 7)))
+        sizes.append(journal.stat().st_size)
+    grown = [after - before for before, after in itertools.pairwise(sizes)]
+    assert sum(size > 1.2 * one_drawing for size in grown) == 0
+    anew = sum(size < 0 for size in grown)
+    assert 1 <= anew <= 4, "now and then, not at every commit"
+    assert max(sizes) < 3 * 200 * one_drawing
+    assert restored(shelf, document_id, tmp_path)[1].history == document.state.draft.history
+
+
+def test_a_document_whose_files_somebody_took_away_is_written_whole_again(shelf: DocumentShelf, tmp_path: Path) -> None:
+    document_id, document = kept_document(shelf)
+    document.edit(Edit("one", moved(1)))
+    shutil.rmtree(tmp_path / "documents")
+    document.edit(Edit("two", moved(2)))
+    assert restored(shelf, document_id, tmp_path)[1].history == document.state.draft.history

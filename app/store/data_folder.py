@@ -1,0 +1,165 @@
+"""The folder in which one server keeps garments and documents.
+
+Two servers on one folder would overwrite each other's documents, so a server locks its folder. The system drops the
+lock when the process ends, however it ends. Beside the lock stands who holds it, for whoever comes second.
+"""
+
+import json
+import logging
+import os
+import socket
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from app.store.durable_file import write_at_once
+from app.store.storage_error import ForbiddenStorageError, storage_error
+from planner.errors import FoldingError
+
+_PROBE = b"\0" * 4096
+"""Enough to need a block on the disk: a full one refuses it."""
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass
+class UnusableFolderError(FoldingError):
+    """A data folder that is none, or that cannot be made."""
+
+    folder: Path
+    why: str
+
+    def __str__(self) -> str:
+        return f"the data folder {self.folder} cannot be used: {self.why}"
+
+
+@dataclass
+class HeldFolderError(FoldingError):
+    """Another server uses the data folder."""
+
+    folder: Path
+    holder: str
+
+    def __str__(self) -> str:
+        return (
+            f"the data folder {self.folder} is in use by {self.holder}. "
+            "Stop that server, or give this one another folder with --data."
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """The server that uses a folder.
+
+    Attributes:
+        pid: its process.
+        host: the machine on which it runs.
+        since: when it started, UTC, as in RFC 3339.
+        url: where it answers; None as long as it does not.
+    """
+
+    pid: int
+    host: str
+    since: str
+    url: str | None
+
+    def __str__(self) -> str:
+        where = f" at {self.url}" if self.url else ""
+        return f"the server{where}, process {self.pid} on {self.host}, since {self.since}"
+
+
+class DataFolder:
+    """A folder of garments and documents.
+
+    Attributes:
+        path: the folder.
+        garments: where garments are.
+        documents: where documents are.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Nothing is touched yet."""
+        self.path = path
+        self.garments = path / "garments"
+        self.documents = path / "documents"
+        self._holder = path / "server.json"
+
+    @contextmanager
+    def held(self) -> Iterator[Callable[[str], None]]:
+        """Use the folder alone; gives the function that is to be told the server's URL.
+
+        A folder in which nothing can be written is used without a lock.
+
+        Raises:
+            UnusableFolderError: it is no folder, or cannot be made.
+            HeldFolderError: another server uses it.
+        """
+        self._make()
+        lock = FileLock(self.path / "server.lock", blocking=False)
+        try:
+            lock.acquire()
+        except Timeout:
+            raise HeldFolderError(self.path, self._known_holder()) from None
+        except OSError as error:
+            if not self._is_read_only(error):
+                raise UnusableFolderError(self.path, f"it cannot be locked: {error.strerror}") from None
+            _log.warning("the data folder %s is read-only: nothing can be saved", self.path)
+            yield lambda _: None
+            return
+        since = datetime.now(UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
+
+        def announce(url: str | None) -> None:
+            holder = Holder(os.getpid(), socket.gethostname(), since, url)
+            with suppress(OSError):  # the lock holds without it
+                write_at_once(self._holder, json.dumps(asdict(holder)).encode(), is_synced=False)
+
+        announce(None)
+        try:
+            yield announce
+        finally:
+            with suppress(OSError):
+                self._holder.unlink()
+            lock.release()
+
+    def problem(self) -> str | None:
+        """Why nothing can be saved here now; None if it can."""
+        for folder in (self.path, self.garments, self.documents):
+            try:
+                self._try_writing(folder)
+            except OSError as error:
+                name = "" if folder == self.path else f"'s {folder.name}"
+                return str(storage_error(f"the data folder{name} cannot be written", error))
+        return None
+
+    def _try_writing(self, folder: Path) -> None:
+        if folder != self.path and not folder.exists():
+            return  # it is made when the first is saved
+        with tempfile.TemporaryFile(dir=folder, prefix=".probe-") as file:
+            file.write(_PROBE)
+
+    def _make(self) -> None:
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+        except FileExistsError:
+            raise UnusableFolderError(self.path, "it is a file") from None
+        except OSError as error:
+            raise UnusableFolderError(self.path, f"it cannot be made: {error.strerror}") from None
+        for folder in (self.garments, self.documents):
+            if folder.is_file():
+                raise UnusableFolderError(self.path, f"{folder.name!r} in it is a file")
+
+    def _is_read_only(self, error: OSError) -> bool:
+        if not isinstance(storage_error("", error), ForbiddenStorageError):
+            return False
+        return not any(os.access(folder, os.W_OK) for folder in (self.path, self.garments, self.documents))
+
+    def _known_holder(self) -> str:
+        try:
+            return str(Holder(**json.loads(self._holder.read_text(encoding="utf-8"))))
+        except (OSError, ValueError, TypeError):
+            return "another server"

@@ -1,0 +1,132 @@
+"""The files of one document, and what can be read from them before its history is.
+
+======== ==========================================================================
+ending   content
+======== ==========================================================================
+.journal the document (see `app.store.journal`)
+.head    what a list shows of the journal, and how long the journal must be at least
+.preview what a gesture that is going on has changed
+.json    a document of format 1 (see `app.store.document_file`); a journal supersedes it
+.broken  one that could not be read, put aside
+======== ==========================================================================
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+from pydantic_core import from_json, to_json
+
+from app.drawing.drawing import Drawing
+from app.drawing.drawing_json import DrawingModel, drawing_to_dict
+from app.store import document_file, journal
+from planner.errors import FoldingError
+from planner.strict_model import StrictModel
+
+JOURNAL, HEAD, PREVIEW, JSON, BROKEN = ".journal", ".head", ".preview", ".json", ".broken"
+ID_PATTERN = re.compile(r"[a-z0-9]{8}")
+
+_FORMAT_AT_START = re.compile(rb'\s*\{\s*"format"\s*:\s*(\d{1,9})\b')
+
+
+@dataclass
+class UnknownDocumentError(FoldingError):
+    """No document has this id."""
+
+    document_id: str
+
+    def __str__(self) -> str:
+        return f"there is no document {self.document_id[:80]!r}"
+
+
+@dataclass
+class NewerDocumentError(FoldingError):
+    """A document was written by a newer version of Pleat."""
+
+    document_id: str
+    format: int
+
+    def __str__(self) -> str:
+        return (
+            f"document {self.document_id!r} is of format {self.format}, which this version of Pleat cannot read. "
+            "It is left as it is; open it with a newer version."
+        )
+
+
+class Head(StrictModel):
+    """What a list shows of a journal of so many bytes."""
+
+    id: str
+    generation: Annotated[int, Field(ge=0)]
+    bytes: Annotated[int, Field(ge=0)]
+    title: str
+    name: str
+    changed_at: str
+
+
+class Preview(StrictModel):
+    """A gesture that is going on."""
+
+    version: Annotated[int, Field(ge=1)]
+    label: str
+    drawing: DrawingModel
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentFiles:
+    """Where the files of a document are.
+
+    Attributes:
+        id: the document.
+        folder: the folder of all documents.
+    """
+
+    id: str
+    folder: Path
+
+    def __post_init__(self) -> None:
+        if not ID_PATTERN.fullmatch(self.id):
+            raise UnknownDocumentError(self.id)
+
+    def path(self, suffix: str) -> Path:
+        """Return where the file with this ending is."""
+        return self.folder / (self.id + suffix)
+
+    @property
+    def document(self) -> Path | None:
+        """The file that is the document; None if there is none that could be opened."""
+        return next((path for path in map(self.path, (JOURNAL, JSON)) if path.exists()), None)
+
+    def head(self) -> Head | None:
+        """Return what stands beside the journal; None if that cannot be read, for it can be made again."""
+        try:
+            return Head.model_validate_json(self.path(HEAD).read_bytes())
+        except (OSError, ValueError):
+            return None
+
+
+def preview_text(version: int, label: str, drawing: Drawing) -> bytes:
+    """Return the file of a gesture that is going on."""
+    return to_json({"version": version, "label": label, "drawing": drawing_to_dict(drawing)})
+
+
+def require_known_format(document_id: str, path: Path, data: bytes) -> None:
+    """Raise `NewerDocumentError` for a file of a format to come."""
+    known = document_file.FORMAT if path.suffix == JSON else journal.FORMAT
+    found = format_of(data)
+    if found is not None and found > known:
+        raise NewerDocumentError(document_id, found)
+
+
+def format_of(data: bytes) -> int | None:
+    """Return the format that a file says it has; None if it says nothing of the kind."""
+    if at_start := _FORMAT_AT_START.match(data):
+        return int(at_start[1])
+    try:
+        content = from_json(data)
+    except ValueError:
+        return None
+    found = content.get("format") if isinstance(content, dict) else None
+    return found if isinstance(found, int) else None

@@ -1,0 +1,174 @@
+"""Reads documents, journals and those of the older format alike."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from app.drawing.draft import Draft
+from app.drawing.drawing import Drawing
+from app.drawing.solve import solve
+from app.store import document_file
+from app.store.document_file import DocumentModel
+from app.store.document_files import (
+    BROKEN,
+    JOURNAL,
+    JSON,
+    PREVIEW,
+    DocumentFiles,
+    NewerDocumentError,
+    Preview,
+    UnknownDocumentError,
+    format_of,
+    require_known_format,
+)
+from app.store.document_keeper import DocumentKeeper
+from app.store.document_list import DocumentEntry
+from app.store.journal import Journal, read_journal
+from app.store.tape import Tape, history_of, tape_of
+from planner.errors import FieldError, FoldingError, RequestError
+from planner.strict_model import first_error
+
+
+@dataclass
+class BrokenDocumentError(FoldingError):
+    """A document's file cannot be read."""
+
+    document_id: str
+    why: str
+    kept_as: str
+
+    def __str__(self) -> str:
+        return f"the file of document {self.document_id!r} cannot be read and is kept as {self.kept_as!r}: {self.why}"
+
+
+@dataclass(frozen=True, slots=True)
+class KeptDocument:
+    """A document as it was kept; a gesture that was going on is a step.
+
+    Attributes:
+        version: its version.
+        draft: what is drawn.
+        keeper: what goes on keeping it.
+    """
+
+    version: int
+    draft: Draft
+    keeper: DocumentKeeper
+
+
+def read_document(files: DocumentFiles) -> KeptDocument:
+    """Return a document as it was kept.
+
+    Raises:
+        UnknownDocumentError: there is none.
+        NewerDocumentError: it was written by a newer version of Pleat.
+        BrokenDocumentError: its file is no document, and has been put aside if that was possible.
+        OSError: the system does not let it be read.
+    """
+    path = files.document
+    if path is None:
+        raise _missing(files)
+    try:
+        return _resumed(files, _kept(files, path))
+    except (ValueError, FieldError) as error:
+        raise BrokenDocumentError(files.id, _in_short(error), _put_aside(files, path)) from None
+
+
+def glance_at(files: DocumentFiles) -> DocumentEntry:
+    """Return what a list shows of a document, as quickly as can be."""
+    head = files.head()
+    try:
+        if head is not None and head.bytes == files.path(JOURNAL).stat().st_size:
+            return DocumentEntry(files.id, head.title, head.name, head.changed_at)
+    except OSError:
+        pass  # without a journal it may be of the older format
+    return read_entry(files)
+
+
+def read_entry(files: DocumentFiles) -> DocumentEntry:
+    """Return what a list shows of a document; with a problem if it cannot be read from beginning to end."""
+    path = files.document
+    try:
+        if path is None:
+            raise _missing(files)
+        content = _content(files, path)
+    except (ValueError, OSError) as error:
+        return DocumentEntry(files.id, problem=_in_short(error))
+    except FoldingError as error:
+        return DocumentEntry(files.id, problem=str(error))
+    if isinstance(content, DocumentModel):
+        return DocumentEntry(files.id, content.title, content.name, content.changed_at)
+    title, name = (str(content.raw_drawing.get(field, "")) for field in ("title", "name"))
+    return DocumentEntry(files.id, title, name, content.changed_at)
+
+
+def _kept(files: DocumentFiles, path: Path) -> KeptDocument:
+    content = _content(files, path)
+    tape = _tape(content)
+    if isinstance(content, DocumentModel):
+        keeper = DocumentKeeper.of_older(files, content.version, tape)
+    else:
+        keeper = DocumentKeeper.of_journal(files, content, tape)
+    drawing, history = history_of(tape)
+    return KeptDocument(content.version, Draft(solve(drawing), history), keeper)
+
+
+def _content(files: DocumentFiles, path: Path) -> DocumentModel | Journal:
+    """Return what a file says; raises `NewerDocumentError`, or `ValueError` for one that is damaged."""
+    data = path.read_bytes()
+    require_known_format(files.id, path, data)
+    if path.suffix == JSON or (path.suffix == BROKEN and format_of(data) == document_file.FORMAT):
+        return DocumentModel.model_validate_json(data)
+    journal, head = read_journal(data), files.head()
+    if head is not None and head.generation == journal.generation and head.bytes > journal.whole_bytes:
+        raise ValueError(f"it is cut off: of {head.bytes} bytes {journal.whole_bytes} are there")
+    return journal
+
+
+def _tape(content: DocumentModel | Journal) -> Tape[Drawing]:
+    if isinstance(content, Journal):
+        return content.tape()
+    return tape_of(content.drawing.value(), content.history())
+
+
+def _resumed(files: DocumentFiles, kept: KeptDocument) -> KeptDocument:
+    """Return the document with what a gesture had changed when the server ended; a broken file of it is dropped."""
+    version, draft, keeper = kept.version, kept.draft, kept.keeper
+    try:
+        preview = Preview.model_validate_json(files.path(PREVIEW).read_bytes())
+        solution = solve(preview.drawing.value())
+    except (OSError, ValueError, FieldError):
+        return kept
+    if preview.version <= version or solution.drawing == draft.drawing:
+        return KeptDocument(max(version, preview.version), draft, keeper)
+    history = draft.history.stepped(preview.label, draft.drawing)
+    return KeptDocument(preview.version, Draft(solution, history), keeper)
+
+
+def _put_aside(files: DocumentFiles, path: Path) -> str:
+    """Rename a file that cannot be read; returns what it is called now. Where that is not possible it is left."""
+    try:
+        path.replace(files.path(BROKEN))
+    except OSError:
+        return path.name
+    return files.path(BROKEN).name
+
+
+def _missing(files: DocumentFiles) -> UnknownDocumentError | BrokenDocumentError:
+    """Return why there is no document: it has been put aside, or there never was one."""
+    broken = files.path(BROKEN)
+    if not broken.exists():
+        return UnknownDocumentError(files.id)
+    try:
+        _tape(_content(files, broken))
+    except (ValueError, FieldError, OSError, NewerDocumentError) as error:
+        return BrokenDocumentError(files.id, _in_short(error), broken.name)
+    return BrokenDocumentError(files.id, "it can be read by now: rename it", broken.name)
+
+
+def _in_short(error: Exception) -> str:
+    """Return the first fault, without what it was found in."""
+    if isinstance(error, ValidationError):
+        return str(first_error(error, RequestError))
+    return error.strerror or "the system refused" if isinstance(error, OSError) else str(error)

@@ -1,0 +1,133 @@
+"""A disk that is full, read-only or failing: every request is answered with a problem, and nothing is half done."""
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.document_requests import created, moved, put
+from tests.app.refused import refused
+from tests.app.samples import towel
+from tests.app.test_garbage import assert_problem
+from tests.app.websocket import Listener
+
+pytestmark = pytest.mark.anyio
+
+STATUS_OF = {
+    "EACCES": 403,
+    "EPERM": 403,
+    "EROFS": 403,
+    "ENOSPC": 507,
+    "EDQUOT": 507,
+    "ENAMETOOLONG": 500,
+    "EIO": 500,
+}
+
+
+def every_writing_request(client: httpx.AsyncClient, state: dict[str, Any]) -> dict[str, Any]:
+    """What writes, by name."""
+    path = f"/api/documents/{state['id']}"
+    return {
+        "commit": lambda: put(client, state, moved(state, -0.03)),
+        "preview": lambda: put(client, state, moved(state, -0.03), phase="preview"),
+        "garment": lambda: client.put(f"{path}/garment", json={"garment": "tie"}),
+        "choose": lambda: client.post(f"{path}/playback", json={"do": "choose", "garment": "tie"}),
+        "undo": lambda: client.post(f"{path}/undo"),
+        "delete": lambda: client.delete(path),
+        "create": lambda: client.post("/api/documents", json={"garment": towel()}),
+        "copy": lambda: client.post("/api/documents", json={"copy_of": state["id"]}),
+        "save garment": lambda: client.put("/api/garments/my-towel", json=towel(title="Another")),
+        "remove garment": lambda: client.delete("/api/garments/my-towel"),
+    }
+
+
+@pytest.mark.parametrize("name", STATUS_OF)
+async def test_what_cannot_be_written_is_a_problem_and_is_not_done(
+    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    state = await created(client)
+    state = (await put(client, state, moved(state, -0.01))).json()
+    assert (await client.put("/api/garments/my-towel", json=towel())).status_code == 201
+    files = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    with refused(monkeypatch, tmp_path, name):
+        for ask in every_writing_request(client, state).values():
+            problem = assert_problem(await ask(), STATUS_OF[name])
+            assert str(tmp_path) not in problem["detail"]
+        assert (await client.get(f"/d/{state['id']}")).status_code == 200
+        assert (await client.get("/api/documents")).json()[0]["id"] == state["id"]
+        assert (await client.get(f"/api/documents/{state['id']}")).json() == state
+        health = (await client.get("/api/health")).json()
+        assert health["status"] == "degraded" and "written" in health["problem"]
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == files
+    assert "problem" not in (await client.get("/api/health")).json()
+    assert (await put(client, state, moved(state, -0.03))).status_code == 200
+
+
+async def test_a_document_that_could_not_be_removed_is_the_same_for_everybody(
+    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = await created(client)
+    app = client._transport.app  # type: ignore[attr-defined]
+    page = Listener(app, f"/api/documents/{state['id']}/live")
+    async with asyncio.timeout(60.0):
+        while "document" not in page.last:
+            await asyncio.sleep(0.005)
+        with refused(monkeypatch, tmp_path, "EROFS"):
+            assert_problem(await client.delete(f"/api/documents/{state['id']}"), 403)
+        changed = (await put(client, state, moved(state, -0.02))).json()
+        assert changed["version"] == 2
+        while page.last["document"]["version"] != 2:
+            await asyncio.sleep(0.005)
+    assert page.last["document"] == changed
+    assert (await client.delete(f"/api/documents/{state['id']}")).status_code == 204
+    assert_problem(await client.get(f"/api/documents/{state['id']}"), 404)
+    assert list((tmp_path / "documents").glob(f"{state['id']}*")) == []
+    await page.hang_up()
+
+
+async def test_in_a_read_only_folder_a_spoilt_document_is_told_of_where_it_is_and_others_are_shown(
+    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = await created(client)
+    spoilt = await created(client)
+    journal = tmp_path / "documents" / f"{spoilt['id']}.journal"
+    journal.write_bytes(journal.read_bytes()[:100])
+    workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    workspace.close_unused(-1.0)
+    with refused(monkeypatch, tmp_path, "EROFS"):
+        assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
+        problem = assert_problem(await client.get(f"/api/documents/{spoilt['id']}"), 422)
+        assert journal.name in problem["detail"]
+        assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == [spoilt["id"]]
+    assert len(journal.read_bytes()) == 100
+
+
+async def test_a_file_that_cannot_be_read_is_a_problem(
+    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = await created(client)
+    client._transport.app.state.workspace.close_unused(-1.0)  # type: ignore[attr-defined]
+
+    def deny(path: Path, *_: object) -> bytes:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "read_bytes", deny)
+        problem = assert_problem(await client.get(f"/api/documents/{state['id']}"), 403)
+        assert "Permission denied" in problem["detail"]
+    assert (await client.get(f"/api/documents/{state['id']}")).json() == state
+
+
+async def test_what_the_system_refuses_anywhere_is_a_problem_too(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not only in the rooms that know of files: a template that could not be read, say."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device", "/secret/path")
+
+    monkeypatch.setattr("app.api.plan_routes.make_plan", refuse)
+    answer = await client.post("/api/plans", json={"garment": "tie"})
+    assert "secret" not in assert_problem(answer, 507)["detail"]
