@@ -9,6 +9,7 @@ import { byId, element } from "./dom.js";
 
 /** @typedef {{id: string, title: string, name: string, changed_at: string, problem: string|null}} Entry */
 
+const DOCUMENTS = "../api/documents?limit=500";
 const DOCUMENT = "document:";
 const GARMENT = "garment:";
 
@@ -30,14 +31,16 @@ export function mountGarments(store) {
     const wanted = JSON.stringify([drawn, garments]);
     if (wanted === shown) return; // a list that somebody has open stays as it is
     shown = wanted;
+    const counts = new Map();
+    for (const entry of drawn) counts.set(nameOf(entry), (counts.get(nameOf(entry)) ?? 0) + 1);
     select.replaceChildren(
-      group("Documents", drawn.map((entry) => new Option(called(entry, drawn), DOCUMENT + entry.id))),
+      group("Documents", drawn.map((entry) => new Option(called(entry, counts), DOCUMENT + entry.id))),
       group("New, of", garments.map((entry) => new Option(entry.title, GARMENT + entry.name))),
     );
     select.value = DOCUMENT + store.id;
   };
   const load = async () => {
-    [documents, garments] = await Promise.all([listed("../api/documents", documents), listed("../api/garments", garments)]);
+    [documents, garments] = await Promise.all([listed(DOCUMENTS, documents), listed("../api/garments", garments)]);
     show();
   };
   const choose = async () => {
@@ -60,11 +63,16 @@ function group(label, options) {
   return made;
 }
 
-/** A document's title; when it was changed, too, where another one has the same. @param {Entry} entry @param {Entry[]} all */
-function called({ title, name, changed_at: changed }, all) {
-  const shown = title || name;
-  const isAlone = all.filter((other) => (other.title || other.name) === shown).length < 2;
-  return isAlone || !changed ? shown : `${shown}, ${when(new Date(changed))}`;
+/** A document's title; when it was changed, too, where several have it. @param {Entry} entry @param {Map<string, number>} counts */
+function called(entry, counts) {
+  const shown = nameOf(entry);
+  const isAlone = (counts.get(shown) ?? 0) < 2;
+  return isAlone || !entry.changed_at ? shown : `${shown}, ${when(new Date(entry.changed_at))}`;
+}
+
+/** @param {Entry} entry */
+function nameOf({ title, name }) {
+  return title || name;
 }
 
 /** @param {Date} moment */
@@ -75,10 +83,22 @@ function when(moment) {
     : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
 }
 
-/** What the server lists, or what it listed before. */
+/** What the server lists, page by page to the end, or what it listed before. */
 async function listed(address, before) {
-  const answer = await fetch(address).catch(() => null);
-  return answer?.ok ? await answer.json() : before;
+  const found = [];
+  for (let page = address; page; ) {
+    const answer = await fetch(page).catch(() => null);
+    if (!answer?.ok) return before;
+    found.push(...(await answer.json()));
+    page = following(answer);
+  }
+  return found;
+}
+
+/** The address of the page after an answer's; null if it is the last. @param {Response} answer */
+function following(answer) {
+  const next = /<([^>]*)>; rel="next"/.exec(answer.headers.get("link") ?? "");
+  return next && new URL(next[1], answer.url).href;
 }
 
 /** A new document of a garment, and the page on it. */

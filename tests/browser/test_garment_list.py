@@ -4,7 +4,10 @@ from collections.abc import Callable
 
 from playwright.sync_api import Locator, Page, expect
 
+from app.api.document_routes import PAGE_MAX
+from tests.app.conftest import Served
 from tests.app.samples import towel
+from tests.app.store.drafts import TOWEL, older_file
 from tests.browser.conftest import Garment, Sheet
 
 NewSheet = Callable[[Garment], Sheet]
@@ -52,6 +55,21 @@ def test_a_document_made_elsewhere_is_listed_once_the_list_is_gone_to(page: Page
     expect(bar(page).locator(f"option[value$='{elsewhere.page_url.rpartition('/')[2]}']")).to_have_text(
         "Made elsewhere"
     )
+
+
+def test_the_list_has_all_documents_however_many_pages_they_fill(
+    page: Page, new_sheet: NewSheet, designer: Served
+) -> None:
+    page.goto(new_sheet("scarf").page_url)
+    expect(bar(page).locator("option:checked")).to_have_text("Scarf")
+    names = [f"many{number:04}" for number in range(PAGE_MAX + 20)]
+    paths = [designer.data / "documents" / f"{name}.json" for name in names]
+    for name, path in zip(names, paths, strict=True):
+        path.write_text(older_file(name, 1, TOWEL))
+    bar(page).focus()
+    expect(bar(page).locator("option[value^='document:many']")).to_have_count(len(names))
+    for path in paths:
+        path.unlink()
 
 
 def test_without_the_server_the_document_stays_and_it_is_said(page: Page, new_sheet: NewSheet) -> None:
