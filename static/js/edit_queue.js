@@ -2,11 +2,16 @@
  * Sends changes to the server one after the other, each made to what the one before led to.
  *
  * A change that comes too late, because somebody else changed the drawing, is made again to the newer drawing. Of the
- * previews that wait only the newest is sent, and none once their gesture is committed or cancelled.
+ * previews that wait only the newest is sent, and none once their gesture is committed or cancelled. A change that finds
+ * no server is kept, and sent again when there is one.
  */
 
 const TRIES = 3;
+const RETRY_MS = 1000;
 const OFFLINE = "The server cannot be reached; nothing was changed.";
+const KEPT = "The server cannot be reached. Your change is kept and sent when it is back.";
+
+class UnreachableError extends Error {}
 
 export class EditQueue {
   /** @param {import("./store.js").Store} store */
@@ -18,13 +23,17 @@ export class EditQueue {
     /** The gesture going on: its key, the drawing before it, and the version that its last answer had. */
     /** @type {{key: string, drawing: any, version: number}|null} */
     this.gesture = null;
+    /** Whether changes wait for a server. */
+    this.isHeld = false;
+    store.addEventListener("connection", () => this.resume());
   }
 
   /** @param {any} wanted see Store.edit */
   edit(wanted) {
     this.drop((other) => other.phase === "preview" && wanted.gesture && other.gesture === wanted.gesture);
     const last = this.waiting.at(-1);
-    if (wanted.coalesce && last?.coalesce === wanted.coalesce) return this.joined(last, wanted.change);
+    const isWaiting = last && !(this.isBusy && last === this.waiting[0]);
+    if (isWaiting && wanted.coalesce && last.coalesce === wanted.coalesce) return this.joined(last, wanted.change);
     return this.push({ ...wanted, run: (job) => this.put(job) });
   }
 
@@ -65,8 +74,10 @@ export class EditQueue {
 
   /** @param {(job: any) => unknown} isUnwanted */
   drop(isUnwanted) {
-    for (const job of this.waiting.filter(isUnwanted)) job.resolve(null);
-    this.waiting = this.waiting.filter((job) => !isUnwanted(job));
+    const [first] = this.isBusy ? this.waiting : []; // on its way
+    const dropped = this.waiting.filter((job) => job !== first && isUnwanted(job));
+    for (const job of dropped) job.resolve(null);
+    this.waiting = this.waiting.filter((job) => !dropped.includes(job));
   }
 
   push(job) {
@@ -80,23 +91,46 @@ export class EditQueue {
   async work() {
     if (this.isBusy) return;
     this.isBusy = true;
-    for (let job = this.waiting.shift(); job; job = this.waiting.shift()) job.resolve(await this.done(job));
+    while (!this.isHeld && this.waiting.length) await this.done(this.waiting[0]);
     this.isBusy = false;
   }
 
-  /** One job, whatever may happen to it. */
+  /** One job, whatever may happen to it; one that is kept stays the first of those that wait. */
   async done(job) {
+    let state = null;
     try {
-      return await job.run(job);
+      state = await job.run(job);
     } catch (error) {
-      if (job.phase !== "preview") this.store.refuse(error instanceof TypeError ? OFFLINE : String(error.message));
-      return null;
+      const isLost = error instanceof UnreachableError;
+      if (isLost && job.phase === "commit") return this.hold(job);
+      if (job.phase !== "preview") this.store.refuse(isLost ? OFFLINE : String(error.message));
     }
+    this.waiting = this.waiting.filter((other) => other !== job);
+    job.resolve(state);
+  }
+
+  /** Keep a change, and what comes after it, until the server is back. */
+  hold(job) {
+    if (!job.isRepeated) this.store.refuse(KEPT);
+    job.isRepeated = true;
+    this.isHeld = true;
+    this.store.tell("held");
+    setTimeout(() => this.resume(), RETRY_MS);
+  }
+
+  /** Go on, unless it is known that there is still no server. */
+  resume() {
+    if (!this.isHeld || this.store.isLost) return;
+    this.isHeld = false;
+    this.store.tell("held");
+    this.work();
   }
 
   /** Send a change of the drawing, again if it came too late. */
   async put(job) {
     if (!this.store.state) return null;
+    if (job.isRepeated && this.wasMade(job)) return this.store.state;
+    job.after = this.store.state.history.can_undo;
     const isPartOfGesture = job.gesture !== null && job.gesture === this.gesture?.key;
     if (job.phase === "cancel" && !isPartOfGesture) return this.store.state;
     let base = isPartOfGesture ? this.gesture : this.store.state;
@@ -108,6 +142,15 @@ export class EditQueue {
       if (job.phase === "cancel") return this.forgotten();
     }
     throw new Error("The drawing is being changed elsewhere; this change was not made.");
+  }
+
+  /**
+   * Whether a change that is to be sent again has been made before, only its answer was lost. A gesture says where things
+   * shall be: to make it again does no harm.
+   */
+  wasMade(job) {
+    const last = this.store.state.history.can_undo;
+    return job.gesture === null && last === job.label && job.after !== last;
   }
 
   settled(job, base, answer) {
@@ -130,12 +173,14 @@ export class EditQueue {
   }
 
   async send(method, path, sent) {
-    const answer = await fetch(this.store.path + path, {
-      method,
-      headers: { "content-type": "application/json" },
-      body: sent === undefined ? undefined : JSON.stringify(sent),
-    });
-    return { ok: answer.ok, status: answer.status, told: await answer.json() };
+    const body = sent === undefined ? undefined : JSON.stringify(sent);
+    const headers = { "content-type": "application/json" };
+    try {
+      const answer = await fetch(this.store.path + path, { method, headers, body });
+      return { ok: answer.ok, status: answer.status, told: await answer.json() };
+    } catch {
+      throw new UnreachableError();
+    }
   }
 }
 

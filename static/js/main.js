@@ -1,5 +1,6 @@
 /** The page: its parts put together round one store. */
 
+import { mountAssumptions } from "./assumptions.js";
 import { boardKeys, mountBoard } from "./board/mount_board.js";
 import { mountDialogs } from "./dialogs/mount_dialogs.js";
 import { mountDock } from "./dock/dock.js";
@@ -9,6 +10,7 @@ import { mountGarments } from "./garments.js";
 import { mountHistory } from "./history.js";
 import { keyHandler } from "./keys.js";
 import { notice } from "./notices.js";
+import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
 import { mountSplitter } from "./splitter.js";
 import { mountStage } from "./stage.js";
@@ -21,6 +23,7 @@ const tellTheme = () => store.command({ do: "theme", dark: theme.isDark });
 const togglePlay = () => store.command({ do: store.playback?.playing ? "pause" : "play" });
 
 mountStatus(store, byId("status"));
+mountAssumptions(store, byId("assumptions"));
 mountDock(store);
 mountGarments(store);
 mountSplitter();
@@ -35,6 +38,7 @@ const verbs = {
   help: dialogs.help,
 };
 mountHistory(store, verbs);
+mountOffline(store);
 mountStage(store, keyHandler(verbs)); // letters move the camera there
 
 document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board) }));

@@ -3,8 +3,8 @@
  * Parts listen to its events and call its verbs; none of them talks to another.
  *
  * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "pending", "hover-time",
- * "preview", "begun", "refused" (detail: a sentence), "gone", "opened" (another garment, by this page; detail: the drawing
- * that it has replaced).
+ * "preview", "begun", "held" (changes wait for a server, or do no more), "refused" (detail: a sentence), "gone", "opened"
+ * (another garment, by this page; detail: the drawing that it has replaced).
  */
 
 import { EditQueue } from "./edit_queue.js";
@@ -54,6 +54,8 @@ export class Store extends EventTarget {
     /** @type {any} the server's `playback` message */
     this.playback = null;
     this.isLive = false;
+    /** Whether there was a connection, and is none now. */
+    this.isLost = false;
     /** @type {Selection|null} */
     this.selection = null;
     /** Which moment of the folds the board shows: 0 = spread out. */
@@ -88,6 +90,7 @@ export class Store extends EventTarget {
     let isFirst = true; // after a restart the server's versions may begin lower
     live.addEventListener("open", () => (isFirst = true));
     live.addEventListener("lost", () => {
+      this.isLost = this.isLost || this.isLive;
       this.isLive = false;
       this.tell("connection");
     });
@@ -102,6 +105,7 @@ export class Store extends EventTarget {
       this.plan = told(event);
       this.tell("plan");
       if (this.isLive) return;
+      this.isLost = false;
       this.isLive = true; // not before: until the server has said all, what is known is of before
       this.tell("connection");
     });

@@ -100,6 +100,17 @@ def test_folds_are_named_by_where_cloth_comes_from_and_numbered_where_that_is_ta
     assert asked(page, "stroke", f"m.nameOf([0, 0], [1, 0], {folds})") == "top down"
 
 
+@pytest.mark.parametrize(
+    ("name", "flipped"), [("left over", "right over"), ("left over 2", "right over"), ("left sleeve", "left sleeve")]
+)
+def test_a_flipped_fold_is_named_anew_unless_somebody_has_named_it(page: Page, name: str, flipped: str) -> None:
+    fold = f'{{name: "{name}", start: {{point: [0, 0]}}, end: {{point: [0, 1]}}}}'
+    assert asked(page, "stroke", f"m.nameFlipped({fold}, [])") == flipped
+    assert asked(page, "stroke", f'm.nameFlipped({fold}, [{{name: "right over"}}])') == flipped + (
+        " 2" if flipped == "right over" else ""
+    )
+
+
 def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any:
     """Where a point is carried by the axis of an outline."""
     carried = f"import('/static/js/board/geometry.js').then((g) => g.mirrored({point}, ...m.axisOf({outline})))"

@@ -102,7 +102,7 @@ export class Board extends Shown {
   listen() {
     this.pointer = new PointerInput(this);
     this.keyboard = new Keyboard(this);
-    for (const name of ["document", "plan", "playback", "selection", "step", "overlays", "preview", "hover-time"])
+    for (const name of ["document", "plan", "playback", "selection", "step", "overlays", "preview", "hover-time", "connection", "held"])
       this.store.addEventListener(name, () => this.render());
     new ResizeObserver(() => this.framing.resize()).observe(this.svg);
   }

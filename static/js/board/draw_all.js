@@ -1,5 +1,6 @@
 /** Everything on the board, from the table up to the cursor. */
 
+import { offlineHint } from "../offline.js";
 import { drawCloth } from "./draw_cloth.js";
 import { drawChecks, drawProblems } from "./draw_findings.js";
 import { drawFolds, drawGhost } from "./draw_folds.js";
@@ -62,7 +63,8 @@ export function drawAll(board) {
   svg.style.cursor = tool.cursor;
   svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);
-  board.hintLine.textContent = tool !== outline && outline.isBusy ? UNCLOSED : tool.hint;
+  const hint = tool !== outline && outline.isBusy ? UNCLOSED : tool.hint;
+  board.hintLine.textContent = board.store.isLost ? offlineHint(board.store) : hint;
   board.store.setBegun(tool.lastPart);
   board.strip.draw();
   board.rail?.draw();

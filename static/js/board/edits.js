@@ -1,6 +1,7 @@
 /** Changes to a drawing. Each alters the drawing it is given, which is a copy. */
 
 import { between, boxOf, distance, mirrored, turned } from "./geometry.js";
+import { nameFlipped } from "./stroke.js";
 import { axisOf, leftOf } from "./symmetry.js";
 
 /** How far inside the table's edge cloth is laid (m). */
@@ -92,8 +93,9 @@ export function moveFold(drawing, id, ends) {
 
 /** The other side moves. @param {any} drawing @param {string[]} ids */
 export function flipFolds(drawing, ids) {
-  for (const fold of drawing.folds) {
-    if (ids.includes(fold.id)) [fold.start, fold.end] = [fold.end, fold.start];
+  for (const fold of drawing.folds.filter(({ id }) => ids.includes(id))) {
+    fold.name = nameFlipped(fold, drawing.folds.filter((other) => other !== fold));
+    [fold.start, fold.end] = [fold.end, fold.start];
   }
 }
 

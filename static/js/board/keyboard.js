@@ -37,6 +37,7 @@ export class Keyboard {
     const { board } = this;
     const { tool } = board;
     if (event.key === "Escape") return board.escape();
+    if (board.store.isLost) return false;
     if (event.key === "Tab") return !event.shiftKey && this.toNumbers(event);
     if (tool.stretch && NUMBER.test(event.key)) {
       board.openTyped(event.key);

@@ -74,7 +74,8 @@ export class PointerInput {
       return;
     }
     this.board.svg.setPointerCapture(event.pointerId);
-    if (event.button === 1 || (event.button === 0 && this.isSpaceDown)) {
+    const isLooking = this.isSpaceDown || this.board.store.isLost; // without a server nothing is changed
+    if (event.button === 1 || (event.button === 0 && isLooking)) {
       this.panning = { id: event.pointerId, px: this.place(event) };
       this.hasPanned = true;
       this.board.svg.classList.add("is-panning");

@@ -50,6 +50,13 @@ export function ghostOf([a, b], rings) {
   return { moving, landed: moving.map((ring) => ring.map((point) => mirrored(point, a, b))) };
 }
 
+const GIVEN = /^(left over|right over|top down|bottom up)( \d+)?$/;
+
+/** What a fold is called once its other side moves: a name that tells the side goes along, any other stays. */
+export function nameFlipped({ name, start, end }, others) {
+  return GIVEN.test(name) ? nameOf(end.point, start.point, others) : name;
+}
+
 /**
  * What a fold is called at first: from where the cloth comes, and a number if another is called so.
  * @param {Point} start

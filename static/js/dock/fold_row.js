@@ -1,6 +1,8 @@
 /** One fold in the list `Folds`: how far it is, its name, what it waits for; while selected, what can be changed. */
 
+import { assumptionChip } from "../assumptions.js";
 import { button, element } from "../dom.js";
+import { length } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
 import { icon } from "./icons.js";
@@ -25,6 +27,7 @@ const STATES = { done: "done", current: "being folded", available: "can be folde
  * @property {number} index
  * @property {number} count of folds
  * @property {number} articleRadius metres
+ * @property {boolean} isAssumed whether its own radius is taken to be more than that
  * @property {{index: number, name: string}[]} waits what it waits for
  * @property {string} problem what is wrong with it, or nothing
  */
@@ -43,7 +46,9 @@ export class FoldRow {
     this.waits = element("span", "fold-waits");
     this.eye = iconButton("eye", "", verbs.onShow);
     this.fields = new FoldFields(verbs, () => this.rename());
-    this.line = element("div", "fold-line", this.mark, this.stroke, this.name, this.waits, this.eye);
+    this.assumed = element("span", "fold-assumed");
+    const marks = element("span", "fold-marks", this.assumed, this.waits);
+    this.line = element("div", "fold-line", this.mark, this.stroke, this.name, marks, this.eye);
     this.root = element("li", "fold-row", this.line, this.fields.root);
     this.root.dataset.fold = id;
   }
@@ -52,7 +57,7 @@ export class FoldRow {
    * @param {any} fold of the drawing
    * @param {Now} now
    */
-  show(fold, { index, count, articleRadius, waits, problem }) {
+  show(fold, { index, count, articleRadius, isAssumed, waits, problem }) {
     this.fold = fold;
     this.index = index;
     const called = foldName(fold, index);
@@ -60,6 +65,11 @@ export class FoldRow {
     this.root.dataset.kind = fold.kind;
     this.root.classList.toggle("is-illegal", problem !== "");
     this.name.title = problem || `${COLOURS[fold.kind]}, ${MOVED[fold.kind]}`;
+    const assumed = isAssumed ? `grip ${length(fold.grip_radius_m)}` : "";
+    if (assumed !== this.assumed.dataset.text) {
+      this.assumed.dataset.text = assumed;
+      this.assumed.replaceChildren(...(assumed ? [assumptionChip(assumed, () => this.verbs.onGrip(null))] : []));
+    }
     this.waits.replaceChildren(...waits.map((other) => element("span", "badge", String(other.index + 1))));
     this.waits.title = waits.length ? `After ${waits.map((other) => other.name).join(", ")}` : "";
     this.waiting = waits.map((other) => other.name).join(" and ");

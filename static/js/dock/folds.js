@@ -1,5 +1,6 @@
 /** The column of the folds: the list `Folds`, or the same as a graph. */
 
+import { isWide } from "../assumptions.js";
 import { element } from "../dom.js";
 import { toggle } from "./buttons.js";
 import { Dag } from "./dag.js";
@@ -59,6 +60,7 @@ export class Folds {
         index,
         count: folds.length,
         articleRadius,
+        isAssumed: isWide(state.drawing, fold),
         waits: waitsFor(this.plan, index).map((other) => ({ index: other, name: foldName(folds[other], other) })),
         problem: state.problems.find((problem) => problem.fold === index)?.message ?? "",
       });

@@ -26,7 +26,7 @@ export function mountStatus(store, pill) {
     pill.dataset.isFinal = String(store.plan?.plan?.is_final ?? true);
   }
 
-  for (const name of ["document", "plan", "connection"]) store.addEventListener(name, show);
+  for (const name of ["document", "plan", "connection", "held"]) store.addEventListener(name, show);
   planning.addEventListener("change", show);
   addEventListener("unit", show);
   store.addEventListener("gone", () => {
@@ -39,6 +39,7 @@ export function mountStatus(store, pill) {
 /** What to say, and of which kind it is; null: what was said still holds. @returns {[string|null, string]} */
 function told(store, planning) {
   const { plan, state, isLive } = store;
+  if (store.queue.isHeld && isLive) return ["Not sent yet, trying again...", "lost"];
   if (!isLive) return plan ? ["Connection lost, trying again...", "lost"] : ["Connecting...", "planning"];
   if (!plan || !state) return [null, ""];
   if (planning.isGoingOn) return [planning.wait === "short" ? null : "Planning...", "planning"];

@@ -1,0 +1,71 @@
+/**
+ * What a drawing takes for granted of the world beyond what is usual: that grips hold more, that cloth slips less, that
+ * reach needs less slack. Each is marked beside the status and at the folds it is about, and taken off by a click.
+ */
+
+import { button, element } from "./dom.js";
+import { length } from "./messages/lengths.js";
+
+/** What is usual (see planner.primitives.scene, planner.plan.make_plan). */
+export const USUAL = { friction: 1, comfort_m: 0.03 };
+
+const SAME = 1e-9;
+
+/** @typedef {{kind: string, text: string, off: (drawing: any) => void}} Assumption */
+
+/** @param {any} drawing @returns {Assumption[]} */
+export function assumptions(drawing) {
+  const { scene, comfort_radius_m: comfort, folds } = drawing;
+  const wide = folds.filter((fold) => isWide(drawing, fold));
+  const widest = Math.max(...wide.map((fold) => fold.grip_radius_m));
+  return [
+    wide.length > 0 && {
+      kind: "grip_radius",
+      text: `grip ${length(widest)}`,
+      off: (changed) => changed.folds.filter((fold) => isWide(changed, fold)).forEach(narrow),
+    },
+    scene.friction > USUAL.friction + SAME && {
+      kind: "friction",
+      text: `friction ${Number(scene.friction.toPrecision(3))}`,
+      off: (changed) => void (changed.scene.friction = USUAL.friction),
+    },
+    comfort < USUAL.comfort_m - SAME && {
+      kind: "comfort_radius",
+      text: `comfort ${length(comfort)}`,
+      off: (changed) => void (changed.comfort_radius_m = USUAL.comfort_m),
+    },
+  ].filter((one) => one !== false);
+}
+
+/** Whether a grip at a fold is taken to hold more than the garment's own. */
+export const isWide = (drawing, fold) =>
+  fold.grip_radius_m !== null && fold.grip_radius_m > drawing.grip_radius_m + SAME;
+
+/** Have grips at a fold hold what they usually do. */
+export const narrow = (fold) => void (fold.grip_radius_m = null);
+
+/** A mark of an assumption, pressed to take it off. @param {string} text @param {() => void} onClick */
+export function assumptionChip(text, onClick) {
+  const made = button("chip assumed", onClick, text, element("span", "assumed-off", "\u2715"));
+  made.setAttribute("aria-label", `Assumed: ${text}. Take it off`);
+  made.title = `Assumed: ${text}. Click to take it off.`;
+  return made;
+}
+
+/** @param {import("./store.js").Store} store @param {HTMLElement} root beside the status */
+export function mountAssumptions(store, root) {
+  let shown = "";
+  const show = () => {
+    const found = store.state ? assumptions(store.state.drawing) : [];
+    const wanted = found.map(({ kind, text }) => `${kind} ${text}`).join();
+    if (wanted === shown) return;
+    shown = wanted;
+    root.hidden = !found.length;
+    root.replaceChildren(
+      ...found.map(({ text, off }) => assumptionChip(text, () => store.edit(`Assume no ${text}`, off))),
+    );
+  };
+  store.addEventListener("document", show);
+  addEventListener("unit", show);
+  show();
+}

@@ -1,0 +1,76 @@
+"""What a plan takes for granted beyond what is usual is marked, and taken off by a click."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from app.drawing.garment_drawing import COMFORT_RADIUS_M
+from planner import Scene
+from tests.browser.board_desk import expect_step
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
+
+ASSUMED = ["grip 50 cm", "friction 1.5", "comfort 1 cm"]
+
+
+@pytest.fixture
+def assumed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
+    """A napkin with a wide grip in two of its folds, on a rougher table, reached with less slack."""
+    sheet = new_sheet(napkin())
+
+    def assume(drawing: dict[str, Any]) -> None:
+        drawing["scene"]["friction"] = 1.5
+        drawing["comfort_radius_m"] = 0.01
+        for fold, radius_m in zip(drawing["folds"], (0.2, 0.5, None), strict=True):
+            fold["grip_radius_m"] = radius_m
+
+    sheet.edit(assume)
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    return sheet
+
+
+def marks(page: Page) -> list[str]:
+    return page.get_by_role("group", name="Assumptions").get_by_role("button").all_inner_texts()
+
+
+def test_what_is_assumed_is_marked_beside_the_status_and_at_the_folds(page: Page, assumed: Sheet) -> None:
+    assert [text.split("\n")[0].rstrip("\N{MULTIPLICATION X}") for text in marks(page)] == ASSUMED
+    rows = page.locator(".fold-row")
+    expect(rows.nth(0).get_by_role("button", name="Assumed: grip 20 cm")).to_be_visible()
+    expect(rows.nth(1).get_by_role("button", name="Assumed: grip 50 cm")).to_be_visible()
+    expect(rows.nth(2).get_by_role("button", name="Assumed")).to_have_count(0)
+
+
+def test_each_is_taken_off_by_a_click_as_one_step(page: Page, assumed: Sheet) -> None:
+    page.locator(".fold-row").nth(0).get_by_role("button", name="Assumed: grip 20 cm").click()
+    expect_step(page, "Set grip radius")
+    assert [fold["grip_radius_m"] for fold in assumed.drawing["folds"]] == [None, 0.5, None]
+    for text in ASSUMED:
+        mark = page.get_by_role("group", name="Assumptions").get_by_role("button", name=f"Assumed: {text}")
+        mark.click()
+        expect(mark).to_have_count(0)
+    expect(page.get_by_role("group", name="Assumptions")).to_be_hidden()
+    drawing = assumed.drawing
+    assert [fold["grip_radius_m"] for fold in drawing["folds"]] == [None, None, None]
+    assert drawing["scene"]["friction"] == Scene().friction
+    assert drawing["comfort_radius_m"] == COMFORT_RADIUS_M
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_role("group", name="Assumptions").get_by_role("button")).to_have_count(1)
+
+
+def test_what_is_stricter_than_usual_is_no_assumption(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    sheet = new_sheet(napkin(grip_radius_m=0.2))
+
+    def be_strict(drawing: dict[str, Any]) -> None:
+        drawing["scene"]["friction"] = 0.9
+        drawing["comfort_radius_m"] = 0.04
+        drawing["folds"][0]["grip_radius_m"] = 0.1
+
+    sheet.edit(be_strict)
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    expect(page.get_by_role("group", name="Assumptions")).to_be_hidden()

@@ -1,0 +1,95 @@
+"""The server goes away while somebody draws: nothing that was done is lost, and the tools rest until it is back."""
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Page, Route, expect
+
+from tests.app.conftest import Served
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
+
+CORNER = (0.0, 0.0)
+PULLED = (-0.05, -0.03)
+
+
+@pytest.fixture
+def napkin_sheet(page: Page, designer: Served, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Sheet]:
+    """A napkin in the browser; whatever happens the server is there again afterwards."""
+    sheet = new_sheet(napkin())
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    yield sheet
+    if designer.process.poll() is not None:
+        designer.start_again()
+
+
+def label(page: Page) -> str:
+    return str(page.locator(".corner").first.get_attribute("aria-label"))
+
+
+def at(point: tuple[float, float]) -> str:
+    return f"Vertex 1: {100 * point[0]:.1f}, {100 * point[1]:.1f} cm"
+
+
+def test_a_corner_that_is_dragged_when_the_server_dies_stays_and_is_sent_when_it_is_back(
+    page: Page, designer: Served, napkin_sheet: Sheet
+) -> None:
+    hand = Hand(page)
+    hand.drag(CORNER, (-0.02, -0.01), is_released=False)
+    designer.stop()
+    expect(page.get_by_role("status")).to_contain_text("Connection lost")
+    page.mouse.move(*hand.px(PULLED), steps=3)
+    page.mouse.up()
+    expect(page.get_by_role("log", name="Notices")).to_contain_text("Your change is kept")
+    expect(page.locator(".corner").first).to_have_attribute("aria-label", at(PULLED))
+    expect(page.locator(".hint-line")).to_contain_text("what you did is kept")
+    designer.start_again()
+    expect_planned(page)
+    expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", "Undo: Move vertex (Ctrl+Z)")
+    assert label(page) == at(PULLED)
+    assert napkin_sheet.at_rest()["drawing"]["outline"][0]["point"] == pytest.approx(PULLED, abs=1e-9)
+    assert napkin_sheet.can_undo == "Move vertex"
+
+
+def test_without_a_server_the_tools_rest_and_the_board_says_why(
+    page: Page, designer: Served, napkin_sheet: Sheet
+) -> None:
+    before = label(page)
+    rail = page.locator("#rail")
+    expect(rail).not_to_have_attribute("inert", "")
+    designer.stop()
+    expect(page.locator(".hint-line")).to_have_text("Offline: the tools wait until the server is back.")
+    for part in (rail, page.locator(".fold-list"), page.locator("#import")):
+        expect(part).to_have_attribute("inert", "")
+    hand = Hand(page)
+    hand.drag(CORNER, PULLED)  # moves the view, as with the middle button
+    assert label(page) == before
+    designer.start_again()
+    expect_planned(page)
+    expect(rail).not_to_have_attribute("inert", "")
+    expect(page.locator(".hint-line")).not_to_contain_text("Offline")
+    assert napkin_sheet.can_undo is None
+
+
+def test_a_change_whose_answer_alone_was_lost_is_not_made_twice(page: Page, napkin_sheet: Sheet) -> None:
+    hand = Hand(page)
+    hand.click(CORNER)
+    lost: list[int] = []
+
+    def lose_the_first(route: Route) -> None:
+        if lost:
+            route.fallback()
+            return
+        lost.append(route.fetch().status)
+        route.abort()
+
+    page.route("**/drawing", lose_the_first)
+    page.keyboard.press("ArrowRight")
+    expect(page.locator(".corner").first).to_have_attribute("aria-label", at((0.001, 0.0)))
+    expect(page.get_by_role("status")).not_to_contain_text("Not sent yet")
+    expect_planned(page)
+    assert lost == [200]
+    assert napkin_sheet.drawing["outline"][0]["point"] == pytest.approx((0.001, 0.0), abs=1e-9)
