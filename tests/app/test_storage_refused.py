@@ -123,11 +123,11 @@ async def test_a_file_that_cannot_be_read_is_a_problem(
 async def test_what_the_system_refuses_anywhere_is_a_problem_too(
     client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Not only in the rooms that know of files: a template that could not be read, say."""
+    """Not only in the rooms that know of files."""
 
     def refuse(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device", "/secret/path")
 
-    monkeypatch.setattr("app.api.plan_routes.make_plan", refuse)
-    answer = await client.post("/api/plans", json={"garment": "tie"})
+    monkeypatch.setattr("app.api.plan_routes.fold_dag", refuse)
+    answer = await client.post("/api/dag", json={"garment": "tie"})
     assert "secret" not in assert_problem(answer, 507)["detail"]
