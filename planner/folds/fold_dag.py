@@ -2,14 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import networkx as nx
 
 from planner.geometry.region import Region
 
+_FEW_SETS = 64
+"""A search can go through so many sets of folds done, wherever cloth and robot are meanwhile."""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True)
 class FoldDag:
     """The order that folding demands: a fold waits for every fold whose folded part its own overlaps.
 
@@ -43,6 +47,11 @@ class FoldDag:
             return (last + 1,)
         open_chains = (c for c in self.chains if not done >> c[0] & 1)
         return tuple(c[0] for c in open_chains if self._is_free(c, done))
+
+    @cached_property
+    def is_loose(self) -> bool:
+        """Whether so few folds wait for others that there are many sets of folds that may be done first."""
+        return self.sets_before(self.folds, _FEW_SETS) is None
 
     def sets_before(self, fold: int, at_most: int) -> tuple[int, ...] | None:
         """Every set of finished folds, as a bit mask, after which a fold may come next.

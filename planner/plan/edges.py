@@ -7,7 +7,7 @@ from typing import TypeAlias
 from planner.geometry.tolerance import TIME_S
 from planner.primitives.primitive import Later, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
-from planner.primitives.state import State
+from planner.primitives.state import ANYWHERE, State
 from planner.primitives.work import Work
 from planner.search.a_star import Edge, Promise, Successors
 
@@ -74,10 +74,16 @@ class Edges:
             if later in self._worked_out:
                 yield from self._of(state, self._worked_out[later])
             else:
-                yield Promise(later.duration_s, later.towards, partial(self._redeemed, state, later))
+                towards = later.towards if later.is_there else _anywhere(later.towards)
+                yield Promise(later.duration_s, towards, partial(self._redeemed, state, later))
         for step, cost_s in self._possible(state, (one for one in found if not isinstance(one, Later))):
             yield Edge(step, cost_s, step.after)
 
     def _redeemed(self, state: State, later: Later[Step]) -> Successors[State, Step]:
         self._worked_out[later] = tuple(later.steps())
         return self._of(state, self._worked_out[later])
+
+
+def _anywhere(state: State) -> State:
+    """A state that stands for all with as many folds done, hands holding on or not, wherever cloth and robot are."""
+    return State(state.done, (0.0, 0.0), ANYWHERE, ANYWHERE, dragged=state.dragged)

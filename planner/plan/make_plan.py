@@ -17,7 +17,7 @@ from collections.abc import Callable, Sequence
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.heuristic import HEURISTICS, arm_time
+from planner.plan.heuristic import HEURISTICS
 from planner.plan.plan import Plan
 from planner.plan.plan_search import PlanSearch
 from planner.plan.problem import Problem, require_between
@@ -77,9 +77,8 @@ def make_plan(
         raise RequestError("heuristic", f"{heuristic!r} is none of {', '.join(HEURISTICS)}")
     compile_kernels()
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
-    bound = HEURISTICS[heuristic](problem.work)
     is_over = should_stop or (lambda: False)
-    return PlanSearch(problem, bound, time_limit_s, max_expanded, is_over, known, like, on_found).plan()
+    return PlanSearch(problem, heuristic, time_limit_s, max_expanded, is_over, known, like, on_found).plan()
 
 
 def quick_plan(
@@ -129,4 +128,4 @@ def compile_kernels() -> None:
 
 def _plan_simply(garment: Garment) -> Plan:
     problem = Problem.of(garment, Scene(), None, "front", "pr2", 0.0)
-    return PlanSearch(problem, arm_time(problem.work), math.inf, EXPANDED_MAX, lambda: False).plan()
+    return PlanSearch(problem, "arm_time", math.inf, EXPANDED_MAX, lambda: False).plan()

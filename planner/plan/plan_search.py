@@ -9,8 +9,9 @@ from itertools import islice, zip_longest
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.alone import Alone
+from planner.plan.driving_bound import DrivingBound
 from planner.plan.edges import Edges
-from planner.plan.heuristic import Heuristic
+from planner.plan.heuristic import HEURISTICS, Heuristic
 from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
 from planner.plan.quick_plan import quickly_planned
@@ -38,7 +39,7 @@ class PlanSearch:
     def __init__(
         self,
         problem: Problem,
-        heuristic: Heuristic,
+        heuristic: str,
         time_limit_s: float,
         max_expanded: int,
         should_stop: Callable[[], bool],
@@ -50,7 +51,7 @@ class PlanSearch:
 
         Args:
             problem: what is to be planned.
-            heuristic: a consistent lower bound on the time to the end (s).
+            heuristic: the name of a consistent lower bound on the time to the end.
             time_limit_s: the budget (s).
             max_expanded: the budget in states.
             should_stop: asked while searching; true ends the search as out of budget.
@@ -94,7 +95,7 @@ class PlanSearch:
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """The quickest path that is real, and what it is then."""
         is_goal, is_over = self._problem.is_goal, self._is_over
-        question = (start, self._edges.leaving, is_goal, self._heuristic, self._max_expanded, is_over)
+        question = (start, self._edges.leaving, is_goal, self._bound(start), self._max_expanded, is_over)
         while True:
             self._edges.begin()
             result = a_star(*question, limit=self._limit_s)
@@ -113,6 +114,12 @@ class PlanSearch:
             if found is not None:
                 return result, found
             self._reached.clear()
+
+    def _bound(self, start: State) -> Heuristic:
+        """The lower bound asked for; it knows of driving where there are too many orders of folds to search."""
+        if self._heuristic == "arm_time" and self._work.sequence.dag.is_loose:
+            return DrivingBound(self._work, start, self._is_out_of_budget)
+        return HEURISTICS[self._heuristic](self._work)
 
     @property
     def _limit_s(self) -> float:

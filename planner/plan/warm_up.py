@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import BoolArray, FloatArray, Point3
+from planner.plan.driving_bound import DrivingBound
 from planner.plan.plan import Plan
 from planner.primitives.base_legs import travel
 from planner.robot.tool_path import ToolPath
@@ -54,6 +55,7 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
         reach.shortfall_together(0, point[None, None], np.array([0]))
         reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
     travel(np.ones((1, 2), dtype=np.uint32), 2)
+    DrivingBound(found.work, found.problem.start)
     robot, torso_m = found.problem.robot, found.work.scene.torso_m
     left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
     robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())

@@ -151,7 +151,8 @@ class BaseMove:
         goal = self._work.station_pose(station)
         drive_s = math.dist(_place(start), _place(goal)) / scene.base_speed_m_s
         turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
-        return Later(drive_s + turn_s, state, partial(self.to, state, station))
+        after = State(state.done, state.offset, station, 0)
+        return Later(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
 
     def to(self, state: State, station: int) -> tuple[MoveStep, ...]:
         """The move to a station."""

@@ -25,6 +25,7 @@ from planner.primitives.grasping import (
 from planner.primitives.obstacle import Code, Obstacle
 from planner.primitives.reach import Following
 from planner.primitives.state import Held, State
+from planner.primitives.surroundings import Surroundings
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 
@@ -99,10 +100,8 @@ def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
 def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacle]:
     """All that speaks against a fold in a state whatever the arms can do."""
     line, label = work.sequence.folds[fold].line, work.sequence.folds[fold].label
-    top = work.table_in_article(state.offset)
-    is_on_table = work.is_on_table(line.start, state.offset) or work.is_on_table(line.end, state.offset)
-    if not is_on_table and not top.region.overlaps_with(line):
-        off = top.region.distance_to(line)
+    if not is_line_on_table(work, fold, state.offset):
+        off = work.table_in_article(state.offset).region.distance_to(line)
         text = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
         says = Message("line_off_table", text, {"off_m": float(off)})
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
@@ -119,6 +118,13 @@ def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacl
         yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
 
 
+def is_line_on_table(work: Work, fold: int, offset: Point2) -> bool:
+    """Whether a part of a fold's line is over the table top after drags by `offset`."""
+    line = work.sequence.folds[fold].line
+    is_end_on_table = work.is_on_table(line.start, offset) or work.is_on_table(line.end, offset)
+    return is_end_on_table or bool(work.table_in_article(offset).region.overlaps_with(line))
+
+
 def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
     """The grips and arms that may perform a fold in a state, with what is held or with free hands."""
     path = _path(work, state, fold)
@@ -128,7 +134,7 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
             continue
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
-        approaches = tuple(_approaches(work, state, grip) for grip in cover)
+        approaches = tuple(_approaches(work, state, fold, grip) for grip in cover)
         yield FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
 
 
@@ -230,11 +236,12 @@ def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tu
         yield tuple(h.point for h in cover), tuple(h.arm for h in cover)
 
 
-def _approaches(work: Work, state: State, grip: Point2) -> NDArray[np.int64]:
+def _approaches(work: Work, state: State, fold: int, grip: Point2) -> NDArray[np.int64]:
     if state.held:
         return work.kept(all_approaches)
     turn = work.placement.yaw_rad - work.station_pose(state.station).yaw_rad
-    return approaches_from_outside(work, state.done, turn, grip)
+    done = (1 << fold) - 1 if work.kept(Surroundings).are_same(fold, grip) else state.done
+    return approaches_from_outside(work, done, turn, grip)
 
 
 def _plain(row: FloatArray) -> Point2:

@@ -5,9 +5,10 @@ from functools import cache, partial
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_stands import FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.primitive import InTime, Later
-from planner.primitives.state import State
+from planner.primitives.state import ANYWHERE, State
 from planner.primitives.work import Work
 
 
@@ -21,7 +22,7 @@ class GFold:
         self._questions = work.kept(FoldQuestions)
         self._available = cache(work.sequence.dag.available)
         self._follows_at_once = [work.sequence.dag.follows_at_once(fold.index) for fold in work.sequence.folds]
-        self._towards = cache(lambda done: State(done, (0.0, 0.0), 0, 0))
+        self._stands = work.kept(FoldStands) if work.sequence.dag.is_loose else None
 
     def successors(self, state: State) -> Iterable[FoldStep]:
         """One step for each available fold and each end back-off that no other beats."""
@@ -34,8 +35,20 @@ class GFold:
         """What needs at least so many steps of driving, in its time."""
         motions = 2 if state.held else 3
         duration = motions * self._work.scene.arm_motion_s + self._work.drive_s(driven)
-        towards = self._towards(state.done | 1 << fold)
-        return Later(duration, towards, partial(self._steps, state, fold, driven))
+        towards = State(state.done | 1 << fold, state.offset, state.station, ANYWHERE)
+        return Later(duration, towards, partial(self._begun, state, fold, driven), is_there=True)
+
+    def _begun(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
+        """The same, put off where the fold takes more driving whatever other folds are done.
+
+        To find that out is done once for all of the many states in which loose folds may be done.
+        """
+        if self._stands is not None and not state.held:
+            least = int(self._stands.least(fold, state.offset, state.station)[state.back_off])
+            if driven < least:
+                yield self._later(state, fold, least)
+                return
+        yield from self._steps(state, fold, driven if driven < IMPOSSIBLE else 0)
 
     def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
         """The steps with so much driving or some more, and in their time those with still more."""

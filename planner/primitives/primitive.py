@@ -97,12 +97,15 @@ class Later(Generic[S]):
         steps: works them out; of some it may say once more that there is time.
         is_spare: whether they are of no use as long as all other ways to and from the grasp of `towards` are real and
             take no longer than they seem.
+        is_there: whether all of them leave the article and the robot where `towards` says; else only the folds done
+            and whether something is held count of it.
     """
 
     duration_s: float
     towards: State
     steps: "Callable[[], Iterable[S | Later[S]]]"
     is_spare: bool = False
+    is_there: bool = False
 
 
 @dataclass(frozen=True, eq=False)

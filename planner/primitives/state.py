@@ -13,6 +13,10 @@ StateKey: TypeAlias = tuple[int, int, int, int, int, tuple[HeldKey, ...], int]
 """A state to the grid: folds done, place (x, y), station, back-off, what is held, and from a drag how long."""
 
 
+ANYWHERE = -1
+"""Instead of a station or a back-off where a state stands for many: the base may stand anywhere."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Held:
     """One grip that has not been let go.

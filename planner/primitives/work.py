@@ -114,6 +114,14 @@ class Work:
             self._extents[done] = self._extent(self.sequence.cloth(done).silhouette.coordinates)
         return all(self._is_over_top(corner, offset) for corner in self._extents[done])
 
+    def may_be_on_table(self, offset: Point2) -> bool:
+        """Whether any of the cloth, folded or not, may lie on the table top after drags by `offset`."""
+        (x0, y0), (x1, y1) = (corner + offset for corner in self._extent_of_all)
+        table = self.scene.table
+        return bool(x0 < table.depth_m / 2 and -table.depth_m / 2 < x1) and bool(
+            y0 < table.width_m / 2 and -table.width_m / 2 < y1
+        )
+
     @cached_property
     def _extent_of_all(self) -> tuple[FloatArray, FloatArray]:
         """The smallest and largest coordinates of all places to which folds carry cloth; to fold it takes longer."""

@@ -103,26 +103,30 @@ class _Search(Generic[S, A]):
     numbers: Iterator[int] = field(default_factory=count)
     explored: int = 0
 
-    def push(self, state: S, cost: float, beyond: float, towards: S, promise: Promise[S, A] | None) -> bool:
+    def push(self, state: S, cost: float, beyond: float, promise: Promise[S, A] | None) -> bool:
         """Let a state wait, or a promise of one; false where no goal can be reached, or none within the limit."""
-        estimate = round(cost + beyond + self.heuristic(towards), _DIGITS)
+        estimate = round(cost + beyond, _DIGITS)
         if estimate >= self.limit:
             return False
         heapq.heappush(self.queue, (estimate, -cost, next(self.numbers), state, promise))
         return True
 
     def push_all(self, state: S, cost: float, found: Successors[S, A]) -> None:
-        """Let what leads from a state, reached at a cost, wait."""
+        """Let what leads from a state, reached at a cost, wait.
+
+        No way through a state is cheaper than its own bound, whatever is promised of where it leads.
+        """
+        least = self.heuristic(state)
         for way in found:
             if isinstance(way, Promise):
-                self.push(state, cost, way.cost, way.towards, way)
+                self.push(state, cost, max(least, way.cost + self.heuristic(way.towards)), way)
             else:
                 self._follow(state, round(cost + way.cost, _DIGITS), way)
 
     def _follow(self, state: S, cost: float, edge: Edge[S, A]) -> None:
         after = edge.after
         is_better = after not in self.closed and cost < self.costs.get(after, math.inf)
-        if is_better and self.push(after, cost, 0.0, after, None):
+        if is_better and self.push(after, cost, self.heuristic(after), None):
             self.costs[after] = cost
             self.parents[after] = (state, edge)
             self.explored += 1
@@ -156,7 +160,7 @@ def a_star(
         limit: ways that cost as much or more are as good as none.
     """
     search: _Search[S, A] = _Search(heuristic, limit, {start: 0.0})
-    search.push(start, 0.0, 0.0, start, None)
+    search.push(start, 0.0, heuristic(start), None)
     expanded = 0
     while search.queue:
         estimate, minus_cost, _, state, promise = heapq.heappop(search.queue)

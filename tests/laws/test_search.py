@@ -6,11 +6,10 @@ import pytest
 from hypothesis import given
 
 from planner.plan.alone import Alone
-from planner.plan.heuristic import HEURISTICS
 from planner.primitives.primitive_set import PRIMITIVES
 from tests.laws.exhaustive import Exhaustive
 from tests.laws.law import law
-from tests.laws.scenes import Problem, problems
+from tests.laws.scenes import BOUNDS, Problem, bound_of, problems
 
 SECOND = 1e-6
 
@@ -50,7 +49,7 @@ def test_a_plan_is_never_cheaper_than_the_cheapest_primitives_nor_is_there_one_w
 @given(problems())
 @law("planning", short=12, long=50)
 def test_every_heuristic_finds_the_same_cost(problem: Problem):
-    costs = [problem.cost_s(name) for name in HEURISTICS]
+    costs = [problem.cost_s(name) for name in BOUNDS]
     assert costs == pytest.approx([costs[0]] * len(costs), abs=SECOND)
 
 
@@ -60,7 +59,7 @@ def test_no_heuristic_falls_by_more_than_a_step_costs_and_each_is_nothing_at_the
     work = problem.work
     everything = (1 << len(problem.garment.folds)) - 1
     kinds = [kind(work) for kind in PRIMITIVES]
-    bounds = [make(work) for make in HEURISTICS.values()]
+    bounds = [bound_of(name, work, problem.first_state) for name in BOUNDS]
     front, seen = [problem.first_state], {problem.first_state}
     while front and len(seen) < 2000:
         state = front.pop()

@@ -1,0 +1,68 @@
+"""From where can a fold be begun with free hands, whatever other folds are done?
+
+For each state the search asks anew, since the cloth may have changed. But what a fold moves is the same after every set
+of folds, and so are its grips. Only from where a grip may be approached depends on what lies round it; where another
+fold may change that, every approach counts. So what is found here is a lower bound for every state, and mostly exact.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import Point2
+from planner.geometry.tolerance import grid_key
+from planner.primitives.fold_trial import FoldTrial, fold_trials, grips_obstacle, is_line_on_table
+from planner.primitives.grasping import all_approaches
+from planner.primitives.state import State
+from planner.primitives.surroundings import Surroundings
+from planner.primitives.work import Work
+
+
+class FoldStands:
+    """The least driving that each fold of a planning problem takes, by where the article lies and the base stands."""
+
+    def __init__(self, work: Work) -> None:
+        """Ask nothing yet."""
+        self._work = work
+        self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
+        self._places = np.arange(work.back_offs)
+        self._surroundings = work.kept(Surroundings)
+
+    def least(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
+        """Return for each back-off the least steps to drive in all when a fold is begun from there.
+
+        Args:
+            fold: the fold's index; a blue fold.
+            offset: how far the article has been dragged (m).
+            station: where the robot stands.
+
+        Returns:
+            Steps of the back-off grid, `IMPOSSIBLE` where free hands never can, shape (back-offs,).
+        """
+        key = (fold, grid_key(offset[0]), grid_key(offset[1]), station)
+        if key not in self._known:
+            self._known[key] = self._search(fold, offset, station)
+        return self._known[key]
+
+    def _search(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
+        work = self._work
+        state = State((1 << fold) - 1, offset, station, 0)
+        driven = np.full(work.back_offs, IMPOSSIBLE)
+        if is_line_on_table(work, fold, offset) and grips_obstacle(work, state, fold) is None:
+            for trial in fold_trials(work, state, fold):
+                np.minimum(driven, self._driven(trial, station), out=driven)
+        away = np.abs(self._places[:, None] - self._places)
+        return np.asarray(np.minimum((driven + away).min(axis=1), IMPOSSIBLE))
+
+    def _driven(self, trial: FoldTrial, station: int) -> NDArray[np.int64]:
+        """The steps driven from each back-off at which the path may be begun: those to its ends, asked backwards."""
+        work = self._work
+        approaches = tuple(
+            allowed if self._surroundings.are_same(trial.fold, grip) else work.kept(all_approaches)
+            for grip, allowed in zip(trial.cover, trial.approaches, strict=True)
+        )
+        back = replace(trial, tools=trial.tools[:, ::-1], approaches=approaches)
+        anywhere = np.zeros(work.back_offs, dtype=np.int64)
+        return np.asarray(back.following(work, station).least_driving(anywhere, wanted="every").steps)

@@ -1,0 +1,126 @@
+"""The least driving that folds still need, in a relaxed problem. Compiled; see `planner.plan.driving_bound`.
+
+A *site* is a place of the article and a station. From site to site lead drags and moves, as long as nothing but the
+table's size and the grid speaks against them; at a site the base drives along its back-offs. What lies further from the
+start than a horizon is outside: there nothing is left to be done.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import BoolArray, FloatArray
+
+OUTSIDE, NOWHERE = -1, -2
+"""Instead of the number of a site: it is beyond the horizon; there is no such site."""
+
+FREE, HELD = 0, 1
+"""Whether hands are free, or hold on to what they have dragged."""
+
+
+class Sites(NamedTuple):
+    """The sites within the horizon, and the ways between them.
+
+    Attributes:
+        drags: for each site and each drag, by one step of the grid of drags more each, where it leads; shape (sites,
+            drags).
+        moves: for each site and station where a move leads, shape (sites, stations).
+        move_s: how long that takes at least from each back-off (s), shape (sites, stations, back-offs).
+        may_hold: at which sites hands that hold on after a drag may be of use to a fold, shape (sites,).
+        motion_s: one arm motion (s).
+        step_s: driving one step of the back-off grid (s).
+        per_drag: steps of the back-off grid in one of the grid of drags.
+    """
+
+    drags: NDArray[np.int64]
+    moves: NDArray[np.int64]
+    move_s: FloatArray
+    may_hold: BoolArray
+    motion_s: float
+    step_s: float
+    per_drag: int
+
+
+@njit(cache=True, nogil=True)
+def to_go(sites: Sites, served: NDArray[np.int64], is_served: BoolArray) -> FloatArray:
+    """Return the least time to visit places from which some folds can be done, their arm motions not counted.
+
+    Args:
+        sites: the relaxed problem.
+        served: the steps of driving it takes to do each fold with free hands, shape (folds, sites, back-offs).
+        is_served: whether grips held from a drag may do instead, shape (folds, sites).
+
+    Returns:
+        Seconds, shape (sets of folds as bit masks, 2, sites, back-offs): `FREE` or `HELD`.
+    """
+    folds, count, back_offs = served.shape
+    found = np.full((1 << folds, 2, count, back_offs), np.inf)
+    found[0] = 0.0
+    for left in range(1, 1 << folds):
+        here = found[left]
+        for site in range(count):
+            for fold in range(folds):
+                if (left >> fold) & 1:
+                    _serve(sites, here, found[left & ~(1 << fold)], served[fold], is_served[fold], site)
+        is_settled = False
+        while not is_settled:
+            is_settled = True
+            for site in range(count - 1, -1, -1):
+                if _relax(sites, here, site):
+                    is_settled = False
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _serve(
+    sites: Sites,
+    here: FloatArray,
+    after: FloatArray,
+    served: NDArray[np.int64],
+    is_served: BoolArray,
+    site: int,
+) -> None:
+    """Do a fold at a site; wherever the base drives with it in so many steps, it may end."""
+    back_offs = here.shape[2]
+    for start in range(back_offs):
+        steps = served[site, start]
+        if steps < IMPOSSIBLE:
+            for end in range(max(0, start - steps), min(back_offs, start + steps + 1)):
+                total = steps * sites.step_s + after[FREE, site, end]
+                here[FREE, site, start] = min(here[FREE, site, start], total)
+        if is_served[site]:
+            here[HELD, site, start] = min(here[HELD, site, start], after[FREE, site, start])
+
+
+@njit(cache=True, nogil=True)
+def _relax(sites: Sites, here: FloatArray, site: int) -> bool:
+    """Look for shorter ways from a site; whether there were any."""
+    back_offs, has_changed = here.shape[2], False
+    for number in range(2 * back_offs):
+        start = number if number < back_offs else 2 * back_offs - 1 - number
+        least = here[FREE, site, start]
+        for beside in (start - 1, start + 1):
+            if 0 <= beside < back_offs:
+                least = min(least, sites.step_s + here[FREE, site, beside])
+        for count in range(sites.drags.shape[1]):
+            goal, steps = sites.drags[site, count], (count + 1) * sites.per_drag
+            if goal == NOWHERE or start + steps >= back_offs:
+                break
+            go_on = 0.0 if goal == OUTSIDE else here[FREE, goal, start + steps] + sites.motion_s
+            if goal >= 0 and sites.may_hold[goal]:
+                go_on = min(go_on, here[HELD, goal, start + steps])
+            least = min(least, steps * sites.step_s + go_on)
+        for station in range(sites.moves.shape[1]):
+            goal = sites.moves[site, station]
+            if goal != NOWHERE:
+                go_on = 0.0 if goal == OUTSIDE else here[FREE, goal, 0]
+                least = min(least, sites.move_s[site, station, start] + go_on)
+        if least < here[FREE, site, start]:
+            here[FREE, site, start] = least
+            has_changed = True
+        if here[FREE, site, start] < here[HELD, site, start]:
+            here[HELD, site, start] = here[FREE, site, start]
+    return has_changed

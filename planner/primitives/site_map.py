@@ -1,0 +1,115 @@
+"""The sites that drags and moves lead to within a horizon; see `planner.primitives.relaxed_sites`."""
+
+import heapq
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import grid_key
+from planner.primitives.base_move import BaseMove
+from planner.primitives.drag_grips import dragged, longest_drag
+from planner.primitives.drag_service import Service
+from planner.primitives.holding_drags import STEPS_PER_DRAG
+from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
+from planner.primitives.state import State
+from planner.primitives.work import Work
+
+SiteKey = tuple[int, int, int]
+"""A site to the grid: where the article lies (x, y), and the station."""
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A place of the article and a station.
+
+    Attributes:
+        offset: how far the article has been dragged (m).
+        station: where the robot stands.
+    """
+
+    offset: Point2
+    station: int
+
+    @property
+    def key(self) -> SiteKey:
+        """The site to the grid."""
+        return grid_key(self.offset[0]), grid_key(self.offset[1]), self.station
+
+
+class SiteMap:
+    """Sites and the ways between them, found from a first one on."""
+
+    def __init__(self, work: Work, start: State, service: Service) -> None:
+        """Know nothing but the start."""
+        self._work = work
+        self._service = service
+        self._start = Site(start.offset, start.station)
+        self._moves = work.kept(BaseMove)
+        self._longest = longest_drag(work)
+
+    def within(self, horizon_s: float, most: int) -> tuple[Site, ...]:
+        """Return the sites that are less than a horizon from the start (s), nearest first, at most so many."""
+        found: dict[SiteKey, Site] = {}
+        queue: list[tuple[float, int, Site]] = [(0.0, 0, self._start)]
+        count = 0
+        while queue and len(found) < most:
+            away_s, _, site = heapq.heappop(queue)
+            if away_s >= horizon_s:
+                break
+            if site.key in found:
+                continue
+            found[site.key] = site
+            for other, cost_s in self._beside(site):
+                count += 1
+                heapq.heappush(queue, (away_s + cost_s, count, other))
+        return tuple(found.values())
+
+    def sites(self, within: tuple[Site, ...], is_service_over: bool) -> Sites:
+        """Return the relaxed problem of some sites; to others lead ways, and beyond those is nothing to be done.
+
+        Args:
+            within: the sites.
+            is_service_over: whether all folds that grips left by a drag might serve are done.
+        """
+        work = self._work
+        numbers = {site.key: number for number, site in enumerate(within)}
+        stations = len(work.scene.stations)
+        drags = np.full((len(within), self._longest), NOWHERE)
+        moves = np.full((len(within), stations), NOWHERE)
+        move_s = np.zeros((len(within), stations, work.back_offs))
+        may_hold = np.zeros(len(within), dtype=bool)
+        for number, site in enumerate(within):
+            may_hold[number] = not is_service_over and self._service.is_possible(site.offset, site.station)
+            for count, goal in enumerate(self._dragged(site)):
+                drags[number, count] = numbers.get(goal.key, OUTSIDE)
+            for station in range(stations):
+                if station != site.station:
+                    moves[number, station] = numbers.get(Site(site.offset, station).key, OUTSIDE)
+                    move_s[number, station] = self._move_s(site.station, station)
+        step_s = work.drive_s(1)
+        return Sites(drags, moves, move_s, may_hold, work.scene.arm_motion_s, step_s, STEPS_PER_DRAG)
+
+    def _beside(self, site: Site) -> Iterator[tuple[Site, float]]:
+        """The sites next to one, with what it takes to get there at least (s)."""
+        work = self._work
+        for count, goal in enumerate(self._dragged(site), start=1):
+            is_held = self._service.is_possible(goal.offset, goal.station)
+            yield goal, work.drive_s(count * STEPS_PER_DRAG) + (0.0 if is_held else work.scene.arm_motion_s)
+        for station in range(len(work.scene.stations)):
+            if station != site.station:
+                yield Site(site.offset, station), float(self._move_s(site.station, station).min())
+
+    def _dragged(self, site: Site) -> Iterator[Site]:
+        """Where drags lead, as long as some of the cloth may still lie on the table."""
+        for count in range(1, self._longest + 1):
+            offset = dragged(self._work, site.offset, site.station, count)
+            if not self._work.may_be_on_table(offset):
+                return
+            yield Site(offset, site.station)
+
+    def _move_s(self, station: int, goal: int) -> FloatArray:
+        """How long a move takes from each back-off (s)."""
+        starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._work.back_offs))
+        return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])
