@@ -71,6 +71,7 @@ class _Greedy:
                 lambda state: _WEIGHT * self._remaining(state),
                 expanded_max,
                 lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
+                is_consistent=False,
             )
             self._effort.expanded += result.expanded
             self._effort.explored += result.explored

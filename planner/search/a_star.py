@@ -96,6 +96,7 @@ class _Search(Generic[S, A]):
 
     heuristic: Callable[[S], float]
     limit: float
+    is_consistent: bool
     costs: dict[S, float] = field(default_factory=dict)
     parents: dict[S, tuple[S, Edge[S, A]]] = field(default_factory=dict)
     closed: set[S] = field(default_factory=set)
@@ -114,9 +115,10 @@ class _Search(Generic[S, A]):
     def push_all(self, state: S, cost: float, found: Successors[S, A]) -> None:
         """Let what leads from a state, reached at a cost, wait.
 
-        No way through a state is cheaper than its own bound, whatever is promised of where it leads.
+        With a consistent heuristic no way through a state is cheaper than its own bound, whatever is promised of where
+        it leads.
         """
-        least = self.heuristic(state)
+        least = self.heuristic(state) if self.is_consistent else 0.0
         for way in found:
             if isinstance(way, Promise):
                 self.push(state, cost, max(least, way.cost + self.heuristic(way.towards)), way)
@@ -147,6 +149,8 @@ def a_star(
     max_expanded: int,
     should_stop: Callable[[], bool],
     limit: float = math.inf,
+    *,
+    is_consistent: bool = True,
 ) -> SearchResult[S, A]:
     """The cheapest way from a state to a goal.
 
@@ -158,8 +162,9 @@ def a_star(
         max_expanded: the budget in expansions.
         should_stop: asked before each expansion and each promise; true ends the search as out of budget.
         limit: ways that cost as much or more are as good as none.
+        is_consistent: whether the heuristic is one; a weighted one is not, and the way found may not be the cheapest.
     """
-    search: _Search[S, A] = _Search(heuristic, limit, {start: 0.0})
+    search: _Search[S, A] = _Search(heuristic, limit, is_consistent, {start: 0.0})
     search.push(start, 0.0, heuristic(start), None)
     expanded = 0
     while search.queue:
