@@ -12,7 +12,7 @@ from app.api.answers import GarmentFile, Point
 from app.api.body import read_model
 from app.api.described import problems, takes
 from app.templates.catalogue import TEMPLATES, find_template
-from app.templates.measure import MeasureError
+from app.templates.measure import MeasureError, Measures
 from planner.cloth.garment import TITLE_MAX
 from planner.strict_model import StrictModel
 
@@ -50,14 +50,15 @@ class TemplateAnswer(BaseModel):
 
 
 class MadeAnswer(BaseModel):
-    """What a template has made."""
+    """What a template has made, and of which measures (m)."""
 
     garment: GarmentFile
+    measures: dict[str, float]
     notes: list[str]
 
 
 class MadeRequest(StrictModel):
-    """Measures (m), those left out having their defaults, and what to call the garment."""
+    """Measures (m), those left out in proportion to these or at their defaults, and what to call the garment."""
 
     measures: dict[str, float] = Field(default_factory=dict)
     title: Annotated[str, Field(max_length=TITLE_MAX)] | None = None
@@ -81,7 +82,8 @@ async def post_template(request: Request, name: str) -> JSONResponse:
     if template is None:
         raise HTTPException(404)
     try:
-        garment = await run_in_threadpool(template.garment, wanted.measures, wanted.title)
+        measures = Measures(template.measures, wanted.measures)
+        garment = await run_in_threadpool(template.made, measures, wanted.title)
     except MeasureError as error:
         raise error.within("measures") from None
-    return JSONResponse({"garment": garment.to_dict(), "notes": []})
+    return JSONResponse({"garment": garment.to_dict(), "measures": measures.to_dict(), "notes": []})

@@ -2,12 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
+from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import FieldError
+from planner.message import Message
+from planner.strict_model import LARGEST_M
 
 
 class MeasureError(FieldError):
-    """A measure that is out of range, or does not go with another; the field is its name."""
+    """A measure that is no length of a garment, or does not go with another; the field is its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +23,7 @@ class Measure:
         label: what people call it.
         text: from where to where it is taken.
         default_m: what it is unless somebody says otherwise (m).
+        follows: the measures with the smaller of which it keeps its proportion unless somebody says otherwise.
         min_m: the least that it may be (m).
         max_m: the most (m).
     """
@@ -27,45 +32,73 @@ class Measure:
     label: str
     text: str
     default_m: float
-    min_m: float
-    max_m: float
+    follows: tuple[str, ...] = ()
+    min_m: float = EDGE_MIN_M
+    max_m: float = LARGEST_M
 
     def require(self, value_m: float) -> None:
         """Refuse a value out of range; raises `MeasureError`."""
         if not self.min_m <= value_m <= self.max_m:
-            message = f"{self.label.lower()} is {value_m:g} m, not between {self.min_m:g} and {self.max_m:g} m"
-            raise MeasureError(self.name, message)
+            text = f"{self.label.lower()} is {value_m:g} m, not between {self.min_m:g} and {self.max_m:g} m"
+            values = {"label": self.label.lower(), "value_m": value_m, "least_m": self.min_m, "most_m": self.max_m}
+            raise MeasureError(self.name, Message("measure_out_of_range", text, values))
 
 
 class Measures:
     """All the measures of one garment."""
 
     def __init__(self, asked: tuple[Measure, ...], given: Mapping[str, float]) -> None:
-        """What was given, and the defaults of the rest.
+        """What was given, and the rest in proportion to what it follows.
 
         Raises:
             MeasureError: something is out of range, or was not asked for.
         """
-        unknown = next((name for name in given if name not in {measure.name for measure in asked}), None)
+        self._asked = {measure.name: measure for measure in asked}
+        unknown = next((name for name in given if name not in self._asked), None)
         if unknown is not None:
             raise MeasureError(unknown, "is not a measure of this template")
-        self._labels = {measure.name: measure.label.lower() for measure in asked}
-        self._values = {measure.name: given.get(measure.name, measure.default_m) for measure in asked}
+        self._values = {name: self._value(name, given, frozenset()) for name in self._asked}
         for measure in asked:
             measure.require(self._values[measure.name])
+
+    def _value(self, name: str, given: Mapping[str, float], below: frozenset[str]) -> float:
+        """What a measure is; `below` are those that follow it, which it cannot follow in turn."""
+        if name in given:
+            return given[name]
+        measure = self._asked[name]
+        followed = [self._asked[other] for other in measure.follows if other not in below]
+        shares = [self._value(other.name, given, below | {name}) / other.default_m for other in followed]
+        return measure.default_m * min(shares, default=1.0)
 
     def __getitem__(self, name: str) -> float:
         """One of them (m)."""
         return self._values[name]
 
-    def require_less(self, name: str, than: float, what: str) -> None:
-        """Refuse a measure that is not less than something else (m); raises `MeasureError`."""
-        if self._values[name] >= than:
-            message = f"{self._labels[name]} ({self._values[name]:g} m) must be less than {what} ({than:g} m)"
-            raise MeasureError(name, message)
+    def to_dict(self) -> dict[str, float]:
+        """All of them by name, as JSON (m)."""
+        return dict(self._values)
 
-    def require_at_least(self, name: str, least: float, what: str) -> None:
+    def require_less(self, name: str, than_m: float, what: str, by_m: float = 0.0) -> None:
+        """Refuse a measure that is not less than something else; raises `MeasureError`.
+
+        Args:
+            name: the measure.
+            than_m: what it must be less than (m).
+            what: that in words; ``{}`` stands for the length `by_m`.
+            by_m: a length that the words name (m).
+        """
+        if self._values[name] >= than_m:
+            told = self._told("must be less than", name, than_m, what, by_m)
+            raise MeasureError(name, Message("measure_not_less", *told))
+
+    def require_at_least(self, name: str, least_m: float, what: str) -> None:
         """Refuse a measure that is less than something else (m); raises `MeasureError`."""
-        if self._values[name] < least:
-            message = f"{self._labels[name]} ({self._values[name]:g} m) must be at least {what} ({least:.4g} m)"
-            raise MeasureError(name, message)
+        if self._values[name] < least_m:
+            told = self._told("must be at least", name, least_m, what, 0.0)
+            raise MeasureError(name, Message("measure_too_small", *told))
+
+    def _told(self, must: str, name: str, than_m: float, what: str, by_m: float) -> tuple[str, dict[str, Any]]:
+        """A sentence on a measure, and its values."""
+        label, value_m = self._asked[name].label.lower(), self._values[name]
+        text = f"{label} ({value_m:g} m) {must} {what.format(f'{by_m:g} m')} ({than_m:.4g} m)"
+        return text, {"label": label, "value_m": value_m, "than_m": than_m, "what": what, "by_m": by_m}

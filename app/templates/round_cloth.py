@@ -1,7 +1,7 @@
 """A round cloth: half, then a quarter.
 
-Every corner of its edge must be held, so it can be no larger than what two grips hold between them: half of a circle's
-edge of radius R lies within 0.77 R of two points on it, and a grip holds what is within 0.127 m.
+Every corner of its edge must be held. So one is folded by two hands only up to a diameter of about 0.34 m: half of a
+circle's edge of radius R lies within 0.77 R of two points on it, and a grip holds what is within 0.127 m.
 """
 
 import math
@@ -10,7 +10,7 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 CORNERS = 48
-MEASURES = (Measure("diameter_m", "Diameter", "straight across", 0.32, 0.12, 0.34),)
+MEASURES = (Measure("diameter_m", "Diameter", "straight across", 0.32),)
 
 
 def cut(given: Measures) -> Cut:

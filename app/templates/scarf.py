@@ -7,15 +7,14 @@ INSIDE_M, BESIDE_M = 0.03, 0.2
 """A strip lies to the left of the table's middle, where one arm does not have to reach across the other (m)."""
 
 MEASURES = (
-    Measure("width_m", "Width", "across", 0.254, 0.05, 0.6),
-    Measure("length_m", "Length", "from end to end", 1.524, 0.4, 2.2),
+    Measure("width_m", "Width", "across", 0.254),
+    Measure("length_m", "Length", "from end to end", 1.524),
 )
 
 
 def cut(given: Measures) -> Cut:
     """Folds: the near quarter over, and what lies double then over the middle."""
     width, length = given["width_m"], given["length_m"]
-    given.require_less("width_m", length / 2, "half of the length")
     outline = ((0.0, 0.0), (width, 0.0), (width, length), (0.0, length))
     folds = (
         fold("near end up a quarter", (width, length / 4), (0.0, length / 4)),

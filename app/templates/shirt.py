@@ -15,13 +15,13 @@ from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
 
 MEASURES = (
-    Measure("width_m", "Width", "from armpit to armpit", 0.279, 0.2, 0.8),
-    Measure("length_m", "Length", "from the hem to the shoulder", 0.381, 0.25, 1.0),
-    Measure("armhole_m", "Armhole", "from the armpit straight up to the shoulder", 0.127, 0.06, 0.4),
-    Measure("sleeve_m", "Sleeve", "along its upper edge, from the shoulder to the cuff", 0.322, 0.1, 0.8),
-    Measure("slope_m", "Slope", "how far the sleeve's upper edge falls", 0.102, 0.0, 0.6),
-    Measure("cuff_m", "Cuff", "the sleeve's opening, laid flat", 0.08, 0.04, 0.25),
-    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.139, 0.08, 0.6),
+    Measure("width_m", "Width", "from armpit to armpit", 0.279),
+    Measure("length_m", "Length", "from the hem to the shoulder", 0.381),
+    Measure("armhole_m", "Armhole", "from the armpit straight up to the shoulder", 0.127, ("length_m",)),
+    Measure("sleeve_m", "Sleeve", "along its upper edge, from the shoulder to the cuff", 0.322, ("width_m",)),
+    Measure("slope_m", "Slope", "how far the sleeve's upper edge falls", 0.102, ("sleeve_m", "length_m"), min_m=0.0),
+    Measure("cuff_m", "Cuff", "the sleeve's opening, laid flat", 0.08, ("armhole_m", "width_m")),
+    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.139, ("width_m",)),
 )
 
 _STEEPEST = 0.7

@@ -7,16 +7,16 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 MEASURES = (
-    Measure("length_m", "Length", "from the waist to the hem", 0.432, 0.2, 0.8),
-    Measure("waist_m", "Waist", "from side to side, laid flat", 0.33, 0.15, 0.7),
-    Measure("hem_m", "Hem", "from side to side, laid flat", 0.775, 0.2, 1.2),
+    Measure("length_m", "Length", "from the waist to the hem", 0.432),
+    Measure("waist_m", "Waist", "from side to side, laid flat", 0.33, ("hem_m",)),
+    Measure("hem_m", "Hem", "from side to side, laid flat", 0.775, ("waist_m",)),
 )
 
 
 def cut(given: Measures) -> Cut:
     """Folds: half onto half along its axis, half of that back, the waist onto the hem."""
     length, waist, hem = (given[name] for name in ("length_m", "waist_m", "hem_m"))
-    given.require_less("waist_m", hem + 1e-3, "the hem and 1 mm more")
+    given.require_less("waist_m", hem + 1e-3, "the hem and {} more", 1e-3)
     low, high, axis, back = (hem - waist) / 2, (hem + waist) / 2, hem / 2, 0.75 * hem
     outline = ((0.0, low), (length, 0.0), (length, hem), (0.0, high))
     begin = max(0.0, (back - high) / (hem - high) * length) if hem > high else 0.0

@@ -5,13 +5,13 @@ from app.templates.mirrored import both_folds, both_halves
 from app.templates.template import Cut, Template, fold, lying_across
 
 MEASURES = (
-    Measure("width_m", "Width", "from armpit to armpit", 0.457, 0.2, 0.8),
-    Measure("length_m", "Length", "from the hem to the shoulder", 0.61, 0.25, 1.0),
-    Measure("armhole_m", "Armhole", "from the armpit straight up to the shoulder", 0.191, 0.06, 0.4),
-    Measure("sleeve_m", "Sleeve", "how far its upper corner stands out beside the body", 0.152, 0.04, 0.5),
-    Measure("underside_m", "Underside of the sleeve", "from the armpit straight out to the cuff", 0.102, 0.02, 0.45),
-    Measure("slope_m", "Slope", "how far the sleeve's upper edge falls", 0.038, 0.0, 0.3),
-    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.257, 0.08, 0.6),
+    Measure("width_m", "Width", "from armpit to armpit", 0.457),
+    Measure("length_m", "Length", "from the hem to the shoulder", 0.61),
+    Measure("armhole_m", "Armhole", "from the armpit straight up to the shoulder", 0.191, ("length_m",)),
+    Measure("sleeve_m", "Sleeve", "how far its upper corner stands out beside the body", 0.152, ("width_m",)),
+    Measure("underside_m", "Underside of the sleeve", "from the armpit straight out to the cuff", 0.102, ("sleeve_m",)),
+    Measure("slope_m", "Slope", "how far the sleeve's upper edge falls", 0.038, ("armhole_m",), min_m=0.0),
+    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.257, ("width_m",)),
 )
 
 

@@ -7,8 +7,11 @@ from typing import Any
 
 from app.templates.measure import Measure, Measures
 from planner.cloth.garment import DEFAULT_GRIP_RADIUS_M, DrawnFold, Garment
+from planner.errors import GarmentError
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
+from planner.message import Message
+from planner.strict_model import LARGEST_M
 
 NEAR_EDGE_X_M = -Table().depth_m / 2
 """Where the near edge of the default table is, table frame (m)."""
@@ -57,9 +60,14 @@ class Template:
 
         Raises:
             MeasureError: a measure is out of range, or does not go with another.
-            GarmentError: the title is too long.
+            GarmentError: they make no outline, or the title is too long.
         """
-        cut = self.cut(Measures(self.measures, given))
+        return self.made(Measures(self.measures, given), title)
+
+    def made(self, measures: Measures, title: str | None = None) -> Garment:
+        """The garment with all its measures; raises what `garment` does, out of range apart."""
+        cut = self.cut(measures)
+        _require_within_bounds(cut.outline)
         return Garment(
             self.name,
             self.title if title is None else title,
@@ -84,6 +92,14 @@ class Template:
             "outline": [list(point) for point in garment.outline],
             "folds": [{"kind": fold.kind, "start": list(fold.start), "end": list(fold.end)} for fold in garment.folds],
         }
+
+
+def _require_within_bounds(outline: tuple[Point2, ...]) -> None:
+    """Refuse an outline that reaches further than any file may have it; raises `GarmentError`."""
+    far_m = max(abs(coordinate) for point in outline for coordinate in point)
+    if far_m > LARGEST_M:
+        text = f"reaches {far_m:.3g} m from where it begins, at most {LARGEST_M:g} m"
+        raise GarmentError("outline", Message("outline_too_large", text, {"far_m": far_m, "most_m": LARGEST_M}))
 
 
 def fold(name: str, start: Point2, end: Point2) -> DrawnFold:

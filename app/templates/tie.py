@@ -6,18 +6,18 @@ from app.templates.template import Cut, Template, fold, lying_away
 INSIDE_M, BESIDE_M = 0.03, 0.1
 NAMES = ("narrow end up a quarter", "on at the half", "on again")
 MEASURES = (
-    Measure("length_m", "Length", "from tip to tip", 1.498, 0.8, 2.0),
-    Measure("wide_m", "Wide end", "across its corners", 0.102, 0.04, 0.15),
-    Measure("narrow_m", "Narrow end", "across its corners", 0.038, 0.015, 0.15),
-    Measure("wide_tip_m", "Wide tip", "from the corners to the tip", 0.051, 0.005, 0.1),
-    Measure("narrow_tip_m", "Narrow tip", "from the corners to the tip", 0.025, 0.005, 0.1),
+    Measure("length_m", "Length", "from tip to tip", 1.498),
+    Measure("wide_m", "Wide end", "across its corners", 0.102),
+    Measure("narrow_m", "Narrow end", "across its corners", 0.038, ("wide_m",)),
+    Measure("wide_tip_m", "Wide tip", "from the corners to the tip", 0.051, ("length_m",)),
+    Measure("narrow_tip_m", "Narrow tip", "from the corners to the tip", 0.025, ("length_m",)),
 )
 
 
 def cut(given: Measures) -> Cut:
     """Folds: at each quarter of its length, from the narrow end on."""
     length, wide, narrow = given["length_m"], given["wide_m"], given["narrow_m"]
-    given.require_less("narrow_m", wide + 1e-3, "the wide end and 1 mm more")
+    given.require_less("narrow_m", wide + 1e-3, "the wide end and {} more", 1e-3)
     low, middle = -given["narrow_tip_m"], narrow / 2
     high = low + length
     shoulder = high - given["wide_tip_m"]

@@ -4,16 +4,16 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 MEASURES = (
-    Measure("width_m", "Width", "the side along which the robot stands", 0.686, 0.2, 1.2),
-    Measure("length_m", "Length", "the other side", 0.419, 0.15, 1.2),
-    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.298, 0.08, 0.8),
+    Measure("width_m", "Width", "the side along which the robot stands", 0.686),
+    Measure("length_m", "Length", "the other side", 0.419),
+    Measure("folded_width_m", "Folded width", "how wide it is when its sides are folded in", 0.298, ("width_m",)),
 )
 
 
 def cut(given: Measures) -> Cut:
     """Folds: the near half over, the left and the right side in."""
     width, length, folded = given["width_m"], given["length_m"], given["folded_width_m"]
-    given.require_less("folded_width_m", width - 0.02, "the width less 2 cm")
+    given.require_less("folded_width_m", width - 0.02, "the width less {}", 0.02)
     given.require_at_least("folded_width_m", width / 3, "a third of the width, or the sides would stick out")
     half, side = length / 2, (width - folded) / 2
     outline = ((0.0, 0.0), (width, 0.0), (width, length), (0.0, length))

@@ -4,18 +4,18 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_towards
 
 MEASURES = (
-    Measure("waist_m", "Waist", "from side to side, laid flat", 0.305, 0.2, 0.7),
-    Measure("length_m", "Length", "along the side, from the hem to the waist", 0.864, 0.3, 1.3),
-    Measure("inseam_m", "Inseam height", "from the hem straight up to the crotch", 0.61, 0.05, 1.0),
-    Measure("hem_m", "Hem", "a leg's opening, laid flat", 0.102, 0.05, 0.3),
+    Measure("waist_m", "Waist", "from side to side, laid flat", 0.305),
+    Measure("length_m", "Length", "along the side, from the hem to the waist", 0.864),
+    Measure("inseam_m", "Inseam height", "from the hem straight up to the crotch", 0.61, ("length_m",)),
+    Measure("hem_m", "Hem", "a leg's opening, laid flat", 0.102, ("waist_m",)),
 )
 
 
 def cut(given: Measures) -> Cut:
     """Folds: the left leg onto the right, then the hems onto the waist."""
     waist, length, inseam, hem = (given[name] for name in ("waist_m", "length_m", "inseam_m", "hem_m"))
-    given.require_less("inseam_m", length - 0.05, "the length less 5 cm")
-    given.require_less("hem_m", waist / 2 - 0.005, "half of the waist less 5 mm")
+    given.require_less("inseam_m", length - 0.05, "the length less {}", 0.05)
+    given.require_less("hem_m", waist / 2 - 0.005, "half of the waist less {}", 0.005)
     middle = waist / 2
     outline = (
         (0.0, 0.0),

@@ -8,12 +8,12 @@ from app.templates.mirrored import both_halves
 from app.templates.template import Cut, Template, fold, lying_across
 
 MEASURES = (
-    Measure("width_m", "Width", "from armpit to armpit", 0.508, 0.2, 0.8),
-    Measure("length_m", "Length", "from the hem to the straps", 0.61, 0.25, 1.0),
-    Measure("armhole_m", "Armhole", "from the armpit straight up to the straps' height", 0.204, 0.06, 0.4),
-    Measure("shoulder_m", "Shoulder", "how far a strap is in from the side", 0.051, 0.01, 0.2),
-    Measure("strap_m", "Strap", "how wide a strap is", 0.051, 0.02, 0.2),
-    Measure("neck_m", "Neck", "how deep the neck is, from the straps' height", 0.204, 0.03, 0.6),
+    Measure("width_m", "Width", "from armpit to armpit", 0.508),
+    Measure("length_m", "Length", "from the hem to the straps", 0.61),
+    Measure("armhole_m", "Armhole", "from the armpit straight up to the straps' height", 0.204, ("length_m",)),
+    Measure("shoulder_m", "Shoulder", "how far a strap is in from the side", 0.051, ("width_m",)),
+    Measure("strap_m", "Strap", "how wide a strap is", 0.051, ("width_m",)),
+    Measure("neck_m", "Neck", "how deep the neck is, from the straps' height", 0.204, ("length_m",)),
 )
 
 
@@ -24,7 +24,7 @@ def cut(given: Measures) -> Cut:
     given.require_less("armhole_m", length / 2, "half of the length")
     given.require_less("neck_m", length / 2, "half of the length")
     given.require_less(
-        "strap_m", width / 2 - given["shoulder_m"] - 0.01, "half of the width less the shoulder and 1 cm"
+        "strap_m", width / 2 - given["shoulder_m"] - 0.01, "half of the width less the shoulder and {}", 0.01
     )
     left = ((0.0, 0.0), (0.0, length - given["armhole_m"]), (given["shoulder_m"], length), (inner, length))
     half = both_halves(left, width)

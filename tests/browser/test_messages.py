@@ -39,9 +39,14 @@ REACH: dict[str, Any] = {
 LOOSE = {"code": "hangs_loose", "layer": 0, "edge": "near", "at": [0.1, -0.2], "beyond_m": 0.05}
 RADII = {"grip_radius_m": 0.127, "needed_grip_radius_m": 0.1502}
 COLLISION = {"station": "front_left", "drag": [-0.1, 0.05], "dragged": [0.0, 0.0], "is_held": False}
+FOLDED: dict[str, Any] = {"label": "folded width", "value_m": 0.7, "than_m": 0.666}
 TOLD: list[dict[str, Any]] = [
     {"code": "outline_points", "points": 401, "most": 400},
     {"code": "outline_area", "area_m2": 0.00005, "least_m2": 0.0001},
+    {"code": "outline_too_large", "far_m": 12.5, "most_m": 10.0},
+    {"code": "measure_out_of_range", "label": "width", "value_m": 12.0, "least_m": 0.001, "most_m": 10.0},
+    {"code": "measure_not_less", **FOLDED, "what": "the width less {}", "by_m": 0.02},
+    {"code": "measure_too_small", **FOLDED, "what": "a third of the width", "by_m": 0.0},
     {"code": "edge_too_short", "edge": 3, "from": 3, "to": 0, "length_m": 0.000012, "least_m": 0.001},
     {"code": "edges_cross", "edges": [0, 2], "at": [0.25, 0.25]},
     {"code": "line_too_short", "length_m": 0.0005, "least_m": 0.001},
@@ -158,6 +163,10 @@ def test_a_message_is_told_in_the_pages_unit_from_its_numbers_alone(page: Page, 
 
 TOLD_EXACTLY = [
     ({"code": "edges_cross", "edges": [0, 2], "at": [0.25, 0.25]}, "edges 1 and 3 cross at (25, 25) cm of the garment"),
+    (
+        {"code": "measure_not_less", **FOLDED, "what": "the width less {}", "by_m": 0.02},
+        "folded width (70 cm) must be less than the width less 2 cm (66.6 cm)",
+    ),
     (
         {"code": "end_off_boundary", "at": [0.42, 0.75], "off_m": 0.1047, "most_m": 0.005},
         "its end at (42, 75) cm of the garment is 10.5 cm from the cloth\u2019s edge; ends within 0.5 cm snap to it",

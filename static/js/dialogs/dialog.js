@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
+import { inWords } from "../messages/in_words.js";
 
 /**
  * @param {string} title
@@ -28,7 +29,7 @@ export function openDialog(title, className, ...children) {
 /** What a server's problem says, as a sentence. @param {any} problem */
 export function sentenceOf(problem) {
   const [first] = problem.errors ?? [];
-  const text = String(first?.message ?? problem.detail ?? problem.title ?? "The server refused this.");
+  const text = first ? inWords(first, []) : String(problem.detail ?? problem.title ?? "The server refused this.");
   return text[0].toUpperCase() + text.slice(1);
 }
 

@@ -1,7 +1,7 @@
 /** `New`: a garment from a few measures, seen while they are written, or a blank board. */
 
 import { button, element } from "../dom.js";
-import { length, number, parsed, unit } from "../board/units.js";
+import { number, parsed, problemOf, unit } from "../board/units.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
@@ -77,16 +77,17 @@ function measures(template) {
   let turn = 0;
   const ask = async () => {
     const mine = (turn += 1);
-    const wanted = Object.fromEntries(fields.map(({ name, value }) => [name, value()]));
-    if (Object.values(wanted).includes(null)) {
-      said.textContent = "Write a length: 30, 18in or 91.4/2.";
-      return;
-    }
-    const made = await garmentOf(template.name, wanted);
+    garment = null;
+    said.textContent = fields.map(({ problem }) => problem()).find(Boolean) ?? "";
+    if (said.textContent) return;
+    const written = fields.filter(({ isWritten }) => isWritten());
+    const made = await garmentOf(template.name, Object.fromEntries(written.map(({ name, value }) => [name, value()])));
     if (mine !== turn) return;
     garment = made.garment ?? null;
     said.textContent = made.problem ?? "";
-    if (garment) shown.replaceChildren(picture(garment.outline, garment.folds));
+    if (!garment) return;
+    shown.replaceChildren(picture(garment.outline, garment.folds));
+    for (const { name, follow } of fields) follow(made.measures[name]);
   };
   let timer;
   const soon = () => {
@@ -110,11 +111,11 @@ function measures(template) {
   ];
 }
 
-function field({ name, label, text, default_m: first, min_m: least, max_m: most }) {
+/** One measure: what nobody has written keeps its proportion to what somebody has. */
+function field({ name, label, text, default_m: first, min_m: least }) {
   const input = /** @type {HTMLInputElement} */ (element("input", "field"));
   input.value = number(first);
   input.autocomplete = "off";
-  input.title = `${text} (${number(least)} to ${length(most)})`;
   const row = element(
     "label",
     "measure",
@@ -122,8 +123,12 @@ function field({ name, label, text, default_m: first, min_m: least, max_m: most 
     input,
     element("span", "measure-unit", unit.name),
   );
-  const value = () => (input.value === number(first) ? first : parsed(input.value));
-  return { name, row, value };
+  let shown = input.value;
+  const isWritten = () => input.value !== shown;
+  const follow = (metres) => {
+    if (!isWritten()) input.value = shown = number(metres);
+  };
+  return { name, row, follow, isWritten, value: () => parsed(input.value), problem: () => problemOf(input.value, least) };
 }
 
 async function garmentOf(name, measures) {
@@ -134,7 +139,7 @@ async function garmentOf(name, measures) {
   }).catch(() => null);
   if (!answer) return { problem: OFFLINE };
   const told = await answer.json();
-  return answer.ok ? { garment: told.garment } : { problem: sentenceOf(told) };
+  return answer.ok ? told : { problem: sentenceOf(told) };
 }
 
 async function create(wanted, said, tool = "") {

@@ -7,6 +7,7 @@ import { counted, place } from "./names.js";
 export const DRAWING = {
   outline_points: ({ points, most }) => `it has ${points} points; it needs 3 to ${most}`,
   outline_area: ({ area_m2: has, least_m2: least }) => `it covers ${area(has)}, less than ${area(least)}`,
+  outline_too_large: ({ far_m: far, most_m: most }) => `it reaches ${length(far)} from where it begins, at most ${length(most)}`,
   edge_too_short: ({ edge, from, to, length_m: has, least_m: least }) =>
     `edge ${counted(edge)}, from point ${counted(from)} to point ${counted(to)}, is ${length(has)} long, ` +
     `less than ${length(least)}`,
@@ -24,5 +25,12 @@ export const DRAWING = {
   not_on_flap: ({ at }) => `at ${onGarment(at)} is cloth that a red fold leaves where it is`,
   no_cloth_there: ({ at }) => `there is no cloth at ${onGarment(at)}`,
   line_misses_cloth: () => "it does not cross the cloth",
+  measure_out_of_range: ({ label, value_m: value, least_m: least, most_m: most }) =>
+    `${label} is ${length(value)}, not between ${length(least)} and ${length(most)}`,
+  measure_not_less: (says) => `${measured(says)} must be less than ${than(says)}`,
+  measure_too_small: (says) => `${measured(says)} must be at least ${than(says)}`,
   fewer_folds: ({ asked, legal }) => `it comes after ${asked} folds, but only ${legal} are drawn and legal`,
 };
+
+const measured = ({ label, value_m: value }) => `${label} (${length(value)})`;
+const than = ({ what, than_m: limit, by_m: by }) => `${what.replace("{}", length(by))} (${length(limit)})`;

@@ -19,8 +19,8 @@ async def test_the_templates_are_listed_with_their_measures_and_what_they_make(c
         "label": "Width",
         "text": "from armpit to armpit",
         "default_m": 0.457,
-        "min_m": 0.2,
-        "max_m": 0.8,
+        "min_m": 0.001,
+        "max_m": 10.0,
     }
     assert len(shirt["outline"]) == 10
     assert [fold["kind"] for fold in shirt["folds"]] == ["blue"] * 5
@@ -34,6 +34,23 @@ async def test_what_a_template_makes_can_be_opened(client: httpx.AsyncClient, na
     assert len(state["steps"]) == len(made["garment"]["folds"]) + 1
 
 
+async def test_what_follows_a_measure_is_told_and_what_does_not_go_together_has_its_numbers(
+    client: httpx.AsyncClient,
+) -> None:
+    made = (await client.post("/api/templates/towel", json={"measures": {"width_m": 1.372}})).json()
+    assert made["measures"] == pytest.approx({"width_m": 1.372, "length_m": 0.419, "folded_width_m": 0.596})
+    wanted = {"measures": {"width_m": 0.9, "folded_width_m": 0.25}}
+    (error,) = assert_problem(await client.post("/api/templates/towel", json=wanted), 422)["errors"]
+    assert error["says"] == {
+        "code": "measure_too_small",
+        "label": "folded width",
+        "value_m": 0.25,
+        "than_m": 0.9 / 3,
+        "what": "a third of the width, or the sides would stick out",
+        "by_m": 0.0,
+    }
+
+
 async def test_measures_and_a_title_are_taken(client: httpx.AsyncClient) -> None:
     wanted = {"measures": {"width_m": 0.3, "length_m": 1}, "title": "Mine"}
     garment = (await client.post("/api/templates/scarf", json=wanted)).json()["garment"]
@@ -45,11 +62,11 @@ async def test_measures_and_a_title_are_taken(client: httpx.AsyncClient) -> None
 @pytest.mark.parametrize(
     ("body", "field"),
     [
-        ({"measures": {"width_m": 3}}, "measures.width_m"),
+        ({"measures": {"width_m": 12}}, "measures.width_m"),
         ({"measures": {"width_m": "0.3"}}, "measures.width_m"),
         ({"measures": {"width_m": None}}, "measures.width_m"),
         ({"measures": {"sleeve_m": 0.3}}, "measures.sleeve_m"),
-        ({"measures": {"width_m": 0.5, "length_m": 0.6}}, "measures.width_m"),
+        ({"measures": {"width_m": 0.0}}, "measures.width_m"),
         ({"measures": 3}, "measures"),
         ({"sizes": {}}, "sizes"),
         ({"title": "x" * 201}, "title"),

@@ -9,6 +9,8 @@ from app.templates.measure import Measure, MeasureError, Measures
 from app.templates.template import Template
 from planner import load_garment, make_plan
 from planner.cloth.garment import Garment
+from planner.errors import GarmentError
+from planner.primitives.obstacle import Code
 
 # The shipped garments whose values are the defaults of a template.
 SHIPPED = {
@@ -68,9 +70,11 @@ def test_defaults_are_within_their_ranges_and_named(template: Template):
 @each
 @settings(max_examples=60, derandomize=True, deadline=None)
 @given(data=st.data())
-def test_any_measures_are_refused_by_name_or_make_folds_that_are_all_legal(template: Template, data: st.DataObject):
+def test_any_likely_measures_are_refused_by_name_or_make_folds_that_are_all_legal(
+    template: Template, data: st.DataObject
+):
     measures = {
-        measure.name: data.draw(st.floats(measure.min_m, measure.max_m), label=measure.name)
+        measure.name: measure.default_m * data.draw(st.floats(0.6, 1.6), label=measure.name)
         for measure in template.measures
     }
     try:
@@ -93,6 +97,52 @@ def test_a_little_more_or_less_of_everything_still_makes_legal_folds(template: T
     assert solve(drawing_of(garment)).problems == ()
 
 
+@each
+@settings(max_examples=60, derandomize=True, deadline=None)
+@given(data=st.data())
+def test_measures_of_any_size_make_a_drawing_or_are_refused_because_there_is_no_such_garment(
+    template: Template, data: st.DataObject
+):
+    measures = {
+        measure.name: data.draw(st.floats(measure.min_m, measure.max_m), label=measure.name)
+        for measure in template.measures
+    }
+    try:
+        garment = template.garment(measures)
+    except MeasureError as error:
+        assert error.field in measures
+    except GarmentError as error:
+        assert error.field.startswith(("outline", "end"))
+    else:
+        assert Garment.from_dict(garment.to_dict()) == garment
+        assert all(problem.fold is not None for problem in solve(drawing_of(garment)).problems)
+
+
+@each
+@pytest.mark.parametrize("times", [0.25, 0.5, 2.0, 4.0])
+def test_one_measure_alone_is_taken_in_any_size_and_what_hangs_on_it_follows(template: Template, times: float):
+    for measure in template.measures:
+        if not measure.follows:
+            garment = template.garment({measure.name: times * measure.default_m})
+            assert solve(drawing_of(garment)).problems == ()
+
+
+def test_a_towel_wider_than_the_table_and_a_large_round_cloth_are_drawings_with_reasons():
+    towel, cloth = made("towel", width_m=1.5), made("round", diameter_m=0.5)
+    assert (max(x for x, _ in towel.outline), towel.folds[1].start[0]) == pytest.approx(
+        (1.5, (1.5 - 1.5 / 0.686 * 0.298) / 2)
+    )
+    plan = make_plan(cloth)
+    assert plan.status == "infeasible"
+    assert [reason.code for reason in plan.reasons][:1] == [Code.TOO_MANY_GRIPS]
+
+
+def test_a_garment_larger_than_files_may_have_is_refused_with_how_far_it_reaches():
+    with pytest.raises(GarmentError) as caught:
+        made("t-shirt", width_m=9.0)
+    assert caught.value.message == "reaches 12 m from where it begins, at most 10 m"
+
+
 def test_a_measure_changes_what_it_says():
     # A T-shirt 5 cm longer: the hem stays at y = 0, the collar is at 0.66 m, the lower half is folded up at 0.33 m.
     longer = made("t-shirt", length_m=0.66)
@@ -108,8 +158,8 @@ def test_the_cuff_of_a_shirt_is_square_to_its_sleeve_and_as_wide_as_it_says():
 
 
 def test_what_is_out_of_range_is_refused_with_the_range():
-    error = refusal("t-shirt", width_m=3.0)
-    assert (error.field, error.message) == ("width_m", "width is 3 m, not between 0.2 and 0.8 m")
+    error = refusal("t-shirt", width_m=12.0)
+    assert (error.field, error.message) == ("width_m", "width is 12 m, not between 0.001 and 10 m")
 
 
 def test_what_does_not_go_together_is_refused_with_both_numbers():
@@ -126,6 +176,6 @@ def test_a_measure_that_nobody_asked_for_is_refused():
 
 
 def test_measures_not_a_number_are_out_of_range():
-    asked = (Measure("width_m", "Width", "across", 0.5, 0.1, 1.0),)
+    asked = (Measure("width_m", "Width", "across", 0.5),)
     with pytest.raises(MeasureError):
         Measures(asked, {"width_m": float("nan")})

@@ -53,10 +53,28 @@ def test_a_template_with_other_measures_becomes_a_new_document(page: Page, shirt
 def test_a_measure_out_of_range_is_refused_in_words(page: Page, shirt: Desk) -> None:
     page.get_by_role("button", name="New", exact=True).click()
     dialog = page.get_by_role("dialog", name="New garment")
-    dialog.locator(".measure .field").nth(0).fill("9 m")
+    dialog.locator(".measure .field").nth(0).fill("11 m")
     expect(dialog.get_by_role("alert")).not_to_be_empty()
     page.keyboard.press("Escape")
     expect(dialog).to_have_count(0)
+
+
+def test_a_towel_wider_than_the_table_is_made_and_explained_on_the_board(page: Page, shirt: Desk) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    dialog = page.get_by_role("dialog", name="New garment")
+    dialog.get_by_role("option", name="Towel").click()
+    dialog.locator(".measure .field").first.fill("150")
+    folded = dialog.locator(".measure .field").nth(2)
+    expect(folded).to_have_value("65.2")  # 150 / 68.6 of the 29.8 that it is at first
+    folded.fill("30")
+    expect(dialog.get_by_role("alert")).to_have_text(
+        "Folded width (30 cm) must be at least a third of the width, or the sides would stick out (50 cm)"
+    )
+    folded.fill("70")
+    dialog.get_by_role("button", name="Create").click()
+    page.wait_for_url(lambda url: url != shirt.page_url)
+    expect(page.get_by_role("status")).to_have_attribute("data-status", "infeasible")
+    expect(page.locator(".reason")).not_to_be_empty()
 
 
 def test_templates_are_gone_through_with_the_keys(page: Page, shirt: Desk) -> None:
