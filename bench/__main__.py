@@ -7,6 +7,7 @@ from typing import Final
 
 from rich.console import Console
 
+from bench.crowd import crowd
 from bench.environment import environment
 from bench.first_plan import first_plan
 from bench.frames import frames
@@ -34,9 +35,10 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "growth": growth,
     "frames": frames,
     "hand": hand,
+    "crowd": crowd,
 }
-APART: Final = frozenset({"reach", "growth", "hand"})
-"""Left out if garments are named and these are not: they are of no garment, or want a browser."""
+APART: Final = frozenset({"reach", "growth", "hand", "crowd"})
+"""Left out if garments are named and these are not: they are of no garment, or want a browser or a server."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
 OUT: Final = Path(__file__).parent / "out"

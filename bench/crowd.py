@@ -14,7 +14,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from math import cos, sin, tau
@@ -118,28 +118,26 @@ def _followed(url: str, document: str) -> Iterator[None]:
 
 def _drag(url: str, document: dict[str, Any], until_s: float, heard: Heard) -> None:
     """Lead corner after corner round in a circle."""
-    wire, path = (
-        http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S),
-        f"/api/documents/{document['id']}",
-    )
     drawing, version = document["drawing"], document["version"]
-    began_s = time.monotonic()
-    for number in itertools.count():
-        due_s = began_s + number / EDITS_PER_S
-        if due_s > until_s or time.monotonic() > until_s:
-            return
-        time.sleep(max(0.0, due_s - time.monotonic()))
-        stroke, step = divmod(number, STROKE)
-        moved = _moved(drawing, stroke, tau * step / STROKE)
-        phase = "commit" if step == STROKE - 1 else "preview"
-        edit = {"base_version": version, "label": "Drag", "phase": phase, "drawing": moved, "gesture": str(stroke)}
-        due_s = max(due_s, time.monotonic() - 1.0 / EDITS_PER_S)  # previews that were overtaken are never sent
-        wire.request("PUT", f"{path}/drawing", json.dumps(edit), {"content-type": "application/json"})
-        answer = wire.getresponse()
-        told = json.loads(answer.read())
-        version = told["version"] if answer.status == http.client.OK else told["state"]["version"]
-        heard.edits_ms.append(1e3 * (time.monotonic() - due_s))
-        began_s += max(0.0, (time.monotonic() - due_s) - 1.0 / EDITS_PER_S)
+    next_s = time.monotonic()
+    with closing(http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S)) as wire:
+        for number in itertools.count():
+            due_s = max(next_s, time.monotonic() - 1.0 / EDITS_PER_S)  # drawings that were overtaken are never sent
+            if due_s > until_s:
+                return
+            time.sleep(max(0.0, due_s - time.monotonic()))
+            stroke, step = divmod(number, STROKE)
+            edit = {
+                "base_version": version,
+                "label": "Drag",
+                "phase": "commit" if step == STROKE - 1 else "preview",
+                "drawing": _moved(drawing, stroke, tau * step / STROKE),
+                "gesture": str(stroke),
+            }
+            status, told = _sent(wire, "PUT", f"/api/documents/{document['id']}/drawing", edit)
+            version = told["version"] if status == http.client.OK else told["state"]["version"]
+            heard.edits_ms.append(1e3 * (time.monotonic() - due_s))
+            next_s = due_s + 1.0 / EDITS_PER_S
 
 
 def _moved(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, Any]:
@@ -162,13 +160,18 @@ def _ask_for_plans(url: str, articles: Sequence[str], plans_per_s: float, until_
 
 
 def _plan(url: str, article: str, heard: Heard) -> None:
-    wire, began_s = http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S), time.monotonic()
-    body = json.dumps({"garment": article, "time_limit_s": PLAN_LIMIT_S})
-    wire.request("POST", "/api/plans", body, {"content-type": "application/json"})
-    answer = wire.getresponse()
-    answer.read()
+    began_s, wanted = time.monotonic(), {"garment": article, "time_limit_s": PLAN_LIMIT_S}
+    with closing(http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S)) as wire:
+        status, _ = _sent(wire, "POST", "/api/plans", wanted)
     heard.plans_s.append(time.monotonic() - began_s)
-    heard.statuses[answer.status] += 1
+    heard.statuses[status] += 1
+
+
+def _sent(wire: http.client.HTTPConnection, method: str, path: str, body: object) -> tuple[int, dict[str, Any]]:
+    """Send JSON; return the status and the JSON that is answered."""
+    wire.request(method, path, json.dumps(body), {"content-type": "application/json"})
+    answer = wire.getresponse()
+    return answer.status, json.loads(answer.read())
 
 
 def _row(plans_per_s: float, heard: Heard, duration_s: float) -> Row:

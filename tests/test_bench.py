@@ -14,6 +14,7 @@ from rich.console import Console
 from app.drawing.garment_drawing import drawing_of
 from bench.__main__ import BENCHMARKS, main
 from bench.chart import Panel, Point, Series, draw
+from bench.crowd import crowd
 from bench.frames import frames_of
 from bench.growth import cases, growth
 from bench.growth_cases import crowded, ribbon, tabs, tabs_on_two_sides
@@ -289,3 +290,16 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(tmp_path: Path):
     made = {path.stem for path in tmp_path.iterdir()}
     assert {"table-1", "re-plan", "first-plan"} <= made
     assert not made & {"reach", "growth"}
+
+
+def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
+        monkeypatch.setattr(f"bench.crowd.{name}", less)
+    report = crowd(["hand-towel"], 1)
+    assert "5 plans a second" in printed(report)
+    alone, beside_plans = written(report, tmp_path)["rows"]
+    assert alone["plans"] == 0 < beside_plans["plans"]
+    for row in (alone, beside_plans):
+        assert 0 < row["edits"] <= row["edits_wanted"] + 1
+        assert 0.0 < row["edit_ms"]["median"] <= row["edit_ms"]["p99"] <= row["edit_ms"]["most"]
+    assert crowd(["scarf-halved"], 1).rows == ()
