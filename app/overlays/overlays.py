@@ -19,6 +19,9 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 from planner.robot.pr2 import load_robot
 
+NOTCH_M, FRINGE_M = 0.04, 0.1
+"""Of a region within reach notches narrower than this are filled, and what is narrower than that is left out (m)."""
+
 
 def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> dict[str, Any]:
     """Overlays at a moment, as JSON, in the article frame; those not shown are null."""
@@ -70,8 +73,13 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
 
 
 def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[dict[str, Any]]:
-    """A region of the base frame as far as it is on the table, article frame."""
-    return [region_to_dict(part) for part in region.moved(to_article).intersection(moment.table.region).pieces]
+    """A region of the base frame as far as it is on the table, article frame.
+
+    Close to the base single orientations reach in between others' limits: a fringe of teeth along the table's edge, of
+    no use to anybody, is left out.
+    """
+    even = region.evened(NOTCH_M, FRINGE_M).moved(to_article)
+    return [region_to_dict(part) for part in even.intersection(moment.table.region).pieces]
 
 
 OVERLAYS: dict[str, Callable[[Moment], Any]] = {

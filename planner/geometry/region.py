@@ -20,6 +20,9 @@ from planner.geometry.segment import Segment
 from planner.geometry.shape import half_plane, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 
+_EVENED_M = 5e-4
+"""How far an evened boundary may deviate, so that its curves have few corners (m)."""
+
 _AT_ONCE = 256
 
 
@@ -231,6 +234,15 @@ class Region:
         """The region carried by an isometry and put back onto the grid."""
         shape = shapely.transform(self.shape, isometry.apply)
         return Region(shapely.set_precision(shape, GRID_M))
+
+    def evened(self, notch_m: float, fringe_m: float) -> "Region":
+        """The region without notches, and then without what sticks out, narrower than that (m); for being drawn.
+
+        What is wider keeps its place, but corners that point inwards are rounded.
+        """
+        filled = self.shape.buffer(notch_m / 2.0).buffer(-notch_m / 2.0)
+        smooth = filled.buffer(-fringe_m / 2.0).buffer(fringe_m / 2.0)
+        return Region(shapely.set_precision(smooth.simplify(_EVENED_M), GRID_M))
 
     def parted_by(self, line: Segment) -> tuple["Region", "Region"]:
         """The parts to the left and to the right of the whole line through a segment; no area is lost."""

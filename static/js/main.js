@@ -13,6 +13,7 @@ import { notice } from "./notices.js";
 import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
 import { mountSplitter } from "./splitter.js";
+import { mountStagePlay } from "./stage_play.js";
 import { mountStage } from "./stage.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
@@ -39,6 +40,7 @@ const verbs = {
 };
 mountHistory(store, verbs);
 mountOffline(store);
+mountStagePlay(store, togglePlay);
 mountStage(store, keyHandler(verbs)); // letters move the camera there
 
 document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board) }));

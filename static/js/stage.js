@@ -1,6 +1,16 @@
-/** The framed stage. Its own socket only looks for a lost server while it has the focus, so it is loaded anew. */
+/**
+ * The framed stage. Its own socket only looks for a lost server while it has the focus, so it is loaded anew. Until it
+ * says that it is ready a quiet picture covers it.
+ */
 
-import { byId } from "./dom.js";
+import { svg } from "./board/sheet.js";
+import { byId, element } from "./dom.js";
+
+/** What the frame says when it is ready, see app/api/stage_routes.py. */
+const SEATED = "pleat-seated";
+/** A table, and cloth on it. */
+const TABLE = "M18 54L60 40L102 54L60 70ZM24 58V84M60 72V98M96 58V84";
+const CLOTH = "M48 52L64 46L78 52L62 58Z";
 
 const BY_SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
@@ -21,7 +31,13 @@ function isDrawnBySoftware() {
 export function mountStage(store, onKey) {
   const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
   const pace = isDrawnBySoftware() ? "by-software/" : "";
+  const cover = picture();
+  frame.after(cover);
+  addEventListener("message", ({ source, data }) => {
+    if (source === frame.contentWindow && data === SEATED) cover.hidden = true;
+  });
   const load = () => {
+    cover.hidden = false;
     frame.src = `../viser/${store.id}/${pace}`;
   };
   frame.addEventListener("load", () => frame.contentDocument?.addEventListener("keydown", onKey));
@@ -31,4 +47,10 @@ export function mountStage(store, onKey) {
     wasLost = !store.isLive;
   });
   load();
+}
+
+function picture() {
+  const drawn = svg("svg", { viewBox: "0 0 120 104", "aria-hidden": "true" });
+  drawn.append(svg("path", { d: TABLE }), svg("path", { d: CLOTH, class: "stage-cover-cloth" }));
+  return element("div", "stage-cover", drawn, element("p", "", "The stage is being set\u2026"));
 }

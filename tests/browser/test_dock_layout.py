@@ -92,3 +92,28 @@ def test_with_reduced_motion_nothing_eases(wide: Page) -> None:
         }).length"""
     )
     assert moving == 0
+
+
+def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(phone: Page) -> None:
+    play = phone.get_by_role("button", name="Play on the stage")
+    expect(play).to_be_hidden()
+    phone.locator("#sheet").tap()
+    phone.get_by_role("button", name="Show the stage large").tap()
+    expect(play).to_be_enabled()
+    play.tap()
+    pause = phone.get_by_role("button", name="Pause on the stage")
+    expect(pause).to_be_visible()
+    pause.tap()
+    expect(play).to_be_visible()
+    phone.get_by_role("button", name="Help").tap()
+    expect(phone.get_by_role("dialog", name="Help").get_by_role("heading", level=3).first).to_have_text("With a finger")
+    phone.keyboard.press("Escape")
+
+
+def test_until_the_stage_is_there_a_quiet_picture_lies_over_it(phone: Page) -> None:
+    expect(phone.locator(".stage-cover")).to_have_text("The stage is being set\N{HORIZONTAL ELLIPSIS}")
+    phone.evaluate("dispatchEvent(new MessageEvent('message', { data: 'pleat-seated' }))")  # from no stage
+    expect(phone.locator(".stage-cover")).not_to_have_attribute("hidden", "")
+    told = "{ data: 'pleat-seated', source: document.getElementById('stage').contentWindow }"
+    phone.evaluate(f"dispatchEvent(new MessageEvent('message', {told}))")
+    expect(phone.locator(".stage-cover")).to_have_attribute("hidden", "")

@@ -106,6 +106,17 @@ def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
     page.wait_for_function(RENDERED)
 
 
+def test_the_picture_over_the_stage_goes_once_the_stage_has_its_panel(page: Page) -> None:
+    expect(page.locator(".stage-cover")).to_be_hidden()
+    stage = page.frame_locator("#stage")
+    expect(stage.get_by_text("Table", exact=True).first).to_be_visible()
+
+
+def test_labels_on_the_stage_are_light_on_dark(page: Page) -> None:
+    """Their shaders are viser's with other colours, those of the ground and of the letters."""
+    expect(page.frame_locator("#stage").locator(":root")).to_have_attribute("data-recoloured", "2")
+
+
 def test_the_server_knows_that_the_processor_draws_the_stage(page: Page) -> None:
     # As it does in these tests, see the browser's flags.
     assert page.locator("#stage").get_attribute("src").endswith("/by-software/")

@@ -224,3 +224,14 @@ def test_a_segment_touches_a_region_if_any_point_of_it_is_there():
     ]
     found = rectangle(1.0, 1.0).touches(np.array(segments))
     assert found.tolist() == [True, True, True, True, True, False, False]
+
+
+def test_an_evened_region_has_no_narrow_teeth_and_no_narrow_notches_and_keeps_its_wide_parts():
+    comb = Region.union([rectangle(1.0, 0.5), *(rectangle(0.03, 0.04, 0.1 * n, 0.5) for n in range(9))])
+    even = comb.difference(rectangle(0.01, 0.2, 0.5, 0.0)).evened(notch_m=0.04, fringe_m=0.1)
+    # The teeth were 4 cm high; what is left of them are the fillets at their feet. Outer corners are rounded by 5 cm.
+    assert even.bounds == pytest.approx((0.0, 0.0, 1.0, 0.5), abs=0.01)
+    assert even.area == pytest.approx(0.5 - (4.0 - math.pi) * 0.05**2, abs=0.005)
+    assert even.contains((0.505, 0.1))  # the notch
+    wide = Region.union([rectangle(1.0, 0.5), rectangle(0.3, 0.2, 0.2, 0.5)]).evened(notch_m=0.04, fringe_m=0.1)
+    assert wide.contains((0.35, 0.69))

@@ -70,7 +70,7 @@ export function drawAll(board) {
   board.rail?.draw();
   board.blank?.draw();
   board.callout.draw();
-  board.legend.draw();
   board.numbers.draw();
+  board.legend.draw();
   board.typed.place();
 }

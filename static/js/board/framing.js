@@ -25,6 +25,9 @@ export class Framing {
     this.fitted = null;
     /** The view of the large board while it is an inset. @type {any} */
     this.full = null;
+    /** What was seen before the robot's way was to be seen as well. @type {any} */
+    this.narrow = null;
+    this.wide = "";
   }
 
   fit() {
@@ -63,6 +66,29 @@ export class Framing {
     if (!isBack) this.before = { scale: view.scale, origin: view.origin };
     view.lay(isBack ? null : drawing.placement);
     if (!isBack) this.fit();
+  }
+
+  /**
+   * See the robot's way as well, which mostly is beside the cloth; without one, what was seen before unless the view has
+   * been moved since.
+   * @param {[number, number][]|null} points article frame
+   */
+  showAlso(points) {
+    const { view, svg } = this.board;
+    if (points && !this.narrow && !this.board.isPlacing) {
+      const isSeen = (px) => px[0] > 0 && px[1] > 0 && px[0] < svg.clientWidth && px[1] < svg.clientHeight;
+      if (points.every((point) => isSeen(view.toPx(point)))) return;
+      const { low, high } = this.clothBox() ?? BLANK;
+      this.narrow = { scale: view.scale, origin: view.origin };
+      const box = boxOf([low, high, ...points]);
+      view.fit(/** @type {NonNullable<typeof box>} */ (box), { top: 0, bottom: HINT_PX });
+      this.wide = this.seen();
+      this.board.render();
+    } else if (!points && this.narrow) {
+      if (this.seen() === this.wide) Object.assign(view, this.narrow);
+      this.narrow = null;
+      this.board.render();
+    }
   }
 
   clothBox() {

@@ -30,19 +30,27 @@ export class Legend {
     const rows = legendRows(this.board);
     const { width, height } = this.board.place;
     const wanted = JSON.stringify([rows, width, height]);
-    if (wanted === this.shown) return;
+    if (wanted === this.shown && !this.isUnder()) return;
     this.shown = wanted;
     this.root.hidden = !rows.length;
     this.root.replaceChildren(...rows.map(drawn));
     if (rows.length) this.settle();
   }
 
-  /** In the corner with the least cloth; it stays there while the same is shown. */
+  /** Whether the fields of what is selected lie over it. */
+  isUnder() {
+    const fields = this.board.numbers.root;
+    if (this.root.hidden || fields.hidden) return false;
+    const [a, b] = [this.root.getBoundingClientRect(), fields.getBoundingClientRect()];
+    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  }
+
+  /** In the corner with the least cloth and no fields; it stays there while the same is shown. */
   settle() {
     const column = this.column();
     const covered = (IS_PHONE.matches ? CORNERS.slice(0, -1) : CORNERS).map((corner) => {
       this.root.className = `${column} ${corner}`;
-      return { corner, cloth: this.cloth() };
+      return { corner, cloth: this.isUnder() ? LOOKS ** 2 + 1 : this.cloth() };
     });
     const { corner } = covered.reduce((best, next) => (next.cloth < best.cloth ? next : best));
     this.root.className = `${column} ${corner}`;

@@ -47,6 +47,7 @@ export class Overlays {
   look() {
     this.lookForPlaces();
     if (!this.wanted.length) this.forget();
+    if (!this.wanted.includes("base")) this.board.framing.showAlso(null);
     const isKnown = !this.wanted.length || this.query === this.asked;
     if (!isKnown && this.timer === undefined) this.timer = setTimeout(() => this.ask(), this.found ? EVERY_MS : 0);
     this.tellPending();
@@ -71,6 +72,8 @@ export class Overlays {
     this.timer = undefined;
     this.found = found;
     this.known = found ? names : [];
+    const way = found?.base && names.includes("base") ? [...found.base.way, ...found.robot.outline] : null;
+    if (way) this.board.framing.showAlso(way);
     this.board.render();
     this.look();
   }

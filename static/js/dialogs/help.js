@@ -1,8 +1,18 @@
-/** The keys and gestures, on one page. */
+/** The keys and gestures, on one page; those of fingers first where there are fingers. */
 
 import { element } from "../dom.js";
 import { openDialog } from "./dialog.js";
 
+const TOUCH = {
+  "With a finger": [
+    ["Tap", "Set a corner, select; the first corner again closes"],
+    ["Drag", "Pull what is there, or draw with the tool in hand; a loupe shows what is below"],
+    ["Two fingers", "Pan and zoom; they drop what one finger has begun"],
+    ["Double tap", "New corner on an edge"],
+    ["Small picture", "Tap it to swap board and stage; Play is on the large stage too"],
+    ["Lower grip", "Pull it up for folds, timeline and plan"],
+  ],
+};
 const SECTIONS = {
   Tools: [
     ["V", "Select"],
@@ -56,7 +66,9 @@ const SECTIONS = {
 };
 
 export function showHelp() {
-  const sections = Object.entries(SECTIONS).map(([title, keys]) =>
+  const isTouched = matchMedia("(pointer: coarse)").matches;
+  const ordered = isTouched ? { ...TOUCH, ...SECTIONS } : { ...SECTIONS, ...TOUCH };
+  const sections = Object.entries(ordered).map(([title, keys]) =>
     element(
       "section",
       "help-section",

@@ -117,3 +117,30 @@ def test_all_of_the_legend_is_on_the_board_also_in_large_letters(
     assert board["x"] <= box["x"] and box["x"] + box["width"] <= board["x"] + board["width"]
     assert board["y"] <= box["y"] and box["y"] + box["height"] <= board["y"] + board["height"]
     assert re.fullmatch(r"[\d.]+", str(box["height"])) and box["height"] < 0.63 * board["height"]
+
+
+def test_the_legend_keeps_clear_of_the_placements_numbers(page: Page, legend: Locator) -> None:
+    chip(page, "Reach").click()
+    expect(legend).to_be_visible()
+    Hand(page).tool("Place")
+    fields = page.get_by_role("group", name="Numbers")
+    expect(fields).to_be_visible()
+    page.evaluate("new Promise(requestAnimationFrame)")
+    a, b = legend.bounding_box(), fields.bounding_box()
+    assert a is not None and b is not None
+    is_beside = a["x"] >= b["x"] + b["width"] or b["x"] >= a["x"] + a["width"]
+    assert is_beside or a["y"] >= b["y"] + b["height"] or b["y"] >= a["y"] + a["height"]
+    Hand(page).tool("Select")
+
+
+def test_the_bases_way_comes_into_view_and_the_view_goes_back_with_it(page: Page, legend: Locator) -> None:
+    board = page.get_by_role("application", name="Drafting board")
+    before = board.get_attribute("data-px-per-m")
+    chip(page, "Base path").click()
+    base = page.locator("path.robot-base")
+    expect(base).to_be_in_viewport(ratio=0.99)
+    whole, robot = board.bounding_box(), base.bounding_box()
+    assert whole is not None and robot is not None
+    assert whole["x"] <= robot["x"] and robot["x"] + robot["width"] <= whole["x"] + whole["width"]
+    chip(page, "Base path").click()
+    expect(board).to_have_attribute("data-px-per-m", str(before))

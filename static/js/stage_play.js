@@ -1,0 +1,19 @@
+/** On a phone the large stage has a button of its own to play and pause: the timeline is under the sheet. */
+
+import { icon } from "./dock/icons.js";
+import { byId } from "./dom.js";
+
+/** @param {import("./store.js").Store} store @param {() => void} togglePlay */
+export function mountStagePlay(store, togglePlay) {
+  const made = /** @type {HTMLButtonElement} */ (byId("stage-play"));
+  const show = () => {
+    const { playing = false, duration_s: duration = 0 } = store.playback ?? {};
+    const name = playing ? "Pause" : "Play";
+    made.replaceChildren(icon(playing ? "pause" : "play"));
+    made.setAttribute("aria-label", `${name} on the stage`);
+    made.disabled = duration <= 0 || !store.isLive;
+  };
+  made.addEventListener("click", togglePlay);
+  for (const name of ["playback", "connection"]) store.addEventListener(name, show);
+  show();
+}
