@@ -14,7 +14,7 @@ class Message:
     """A sentence, and the data it is made of.
 
     Attributes:
-        code: what is said; the names of the values follow from it.
+        code: what is said; the names of the values follow from it. Empty where the sentence has no numbers.
         text: the sentence in English: metres, indices from 0, without its full stop.
         values: the named values, as JSON: SI units, folds and edges by index.
     """
@@ -23,9 +23,14 @@ class Message:
     text: str
     values: Mapping[str, Any] = field(default_factory=dict)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The code and the values as one JSON object, without the sentence."""
-        return {"code": self.code, **self.values}
+    def to_dict(self) -> dict[str, Any] | None:
+        """The code and the values as one JSON object, without the sentence; None where that is all there is."""
+        return {"code": self.code, **self.values} if self.code else None
+
+    @staticmethod
+    def plain(text: str) -> "Message":
+        """A sentence without numbers."""
+        return Message("", text)
 
 
 def plain_points(points: Iterable[Iterable[float]]) -> list[list[float]]:

@@ -47,18 +47,20 @@ class ImportAnswer(BaseModel):
     """A garment out of a file, and what is to be said about it.
 
     `creases` says on which cloth the fold lines of a drawing were read; null where that makes no difference. `sizes`
-    says how wide and how high a drawing would be in other units (m).
+    says how wide and how high a drawing would be in other units (m). `says` has the numbers of the notes, by name, null
+    for a note without.
     """
 
     format: Literal["json", "svg", "dxf"]
     garment: GarmentFile
     notes: list[str]
+    says: list[dict[str, Any] | None]
     creases: Creases | None
     sizes: dict[str, tuple[float, float]] | None
 
 
 class FileEntry(BaseModel):
-    """A file that a document can be made into; `reason` says why it is not available now."""
+    """A file that a document can be made into; `reason` says why it is not available now, `says` with its numbers."""
 
     what: str
     title: str
@@ -67,6 +69,7 @@ class FileEntry(BaseModel):
     media_type: str
     available: bool
     reason: str | None
+    says: dict[str, Any] | None
 
 
 @router.post(
@@ -88,9 +91,8 @@ async def post_import(
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
-        return ProblemResponse(
-            422, str(error), [{"field": "units", "message": str(error)}], None, {"sizes": error.sizes}
-        )
+        field = {"field": "units", "message": str(error), "says": error.why.to_dict()}
+        return ProblemResponse(422, str(error), [field], None, {"sizes": error.sizes})
 
 
 @router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422)})
@@ -139,7 +141,8 @@ def _imported(imported: Imported) -> dict[str, Any]:
     return {
         "format": imported.format,
         "garment": imported.garment.to_dict(),
-        "notes": list(imported.notes),
+        "notes": [note.text for note in imported.notes],
+        "says": [note.to_dict() for note in imported.notes],
         "creases": imported.creases,
         "sizes": imported.sizes,
     }

@@ -26,6 +26,7 @@ from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, SNAP_M
+from planner.message import Message
 
 Creases: TypeAlias = Literal["folded", "flat"]
 """On which cloth the lines are drawn: as the folds before leave it, or flat."""
@@ -42,13 +43,13 @@ class ReadCreases:
         folds: all folds, article frame; those that are legal lie on the cloth, the others stay as drawn.
         legal: how many of them are legal, up to the first that is not.
         cut_m: by the index of a fold, how much of its line was cut off or added (m); not told where that is little.
-        problem: what is wrong with the first fold that is not legal; empty if all are.
+        problem: what is wrong with the first fold that is not legal; None if all are.
     """
 
     folds: tuple[DrawnFold, ...]
     legal: int
     cut_m: dict[int, float]
-    problem: str
+    problem: Message | None
 
 
 def read_creases(outline: Sequence[Point2], folds: Sequence[DrawnFold], creases: Creases) -> ReadCreases:
@@ -68,12 +69,12 @@ def read_creases(outline: Sequence[Point2], folds: Sequence[DrawnFold], creases:
         try:
             placed = _placed(fold, pattern, cloth, before, creases)
         except (FoldError, GarmentError) as error:
-            return ReadCreases((*found, *folds[index:]), index, cut_m, error.message)
+            return ReadCreases((*found, *folds[index:]), index, cut_m, error.says or Message.plain(error.message))
         if placed.cut_m > SNAP_M:
             cut_m[index] = placed.cut_m
         found.append(replace(fold, start=placed.drawn.start, end=placed.drawn.end))
         cloth, before = placed.folded.cloth, placed.line
-    return ReadCreases(tuple(found), len(found), cut_m, "")
+    return ReadCreases(tuple(found), len(found), cut_m, None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from app.files.svg_drawing import svg_drawing
 from app.jobs.job_pool import ShouldStop
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError, GarmentError
+from planner.message import Message
 from planner.plan.plan import Plan
 
 Make = Callable[[DocumentState, float, ShouldStop], bytes]
@@ -43,7 +44,7 @@ class Export:
     text: str
     ending: str
     media_type: str
-    why_not: Callable[[DocumentState], str | None]
+    why_not: Callable[[DocumentState], Message | None]
     make: Make
 
     def filename(self, state: DocumentState) -> str:
@@ -54,7 +55,7 @@ class Export:
         """The file; raises `UnavailableFileError`."""
         reason = self.why_not(state)
         if reason is not None:
-            raise UnavailableFileError(reason)
+            raise UnavailableFileError(reason.text)
         return self.make(state, rate_hz, should_stop)
 
     def to_dict(self, state: DocumentState) -> dict[str, Any]:
@@ -67,7 +68,8 @@ class Export:
             "filename": self.filename(state),
             "media_type": self.media_type,
             "available": reason is None,
-            "reason": reason,
+            "reason": None if reason is None else reason.text,
+            "says": None if reason is None else reason.to_dict(),
         }
 
 
@@ -76,37 +78,47 @@ def find_export(what: str) -> Export | None:
     return next((export for export in EXPORTS if export.what == what), None)
 
 
-def _no_outline(state: DocumentState) -> str | None:
+def _no_outline(state: DocumentState) -> Message | None:
     """Why there is no garment file: its outline must be good, its folds may be wrong."""
     try:
         _as_drawn(state)
     except GarmentError as error:
-        return f"The drawing is not finished: {error}."
+        return _not_finished(error.says or Message.plain(error.message), error.field)
     return None
 
 
-def _not_legal(state: DocumentState) -> str | None:
+def _not_legal(state: DocumentState) -> Message | None:
     if not state.solution.problems:
         return None
-    return f"The drawing is not finished: {state.solution.problems[0].message}."
+    first = state.solution.problems[0]
+    return _not_finished(first.says or Message.plain(first.message), "")
 
 
-def _no_answer(state: DocumentState) -> str | None:
+def _not_finished(why: Message, field: str) -> Message:
+    """That there is no garment as long as something is wrong with the drawing."""
+    text = f"The drawing is not finished: {f'{field}: ' if field else ''}{why.text}."
+    return Message("not_finished", text, {"message": why.text, "says": why.to_dict()})
+
+
+def _no_answer(state: DocumentState) -> Message | None:
     if (unfinished := _not_legal(state)) is not None:
         return unfinished
     if state.failure is not None:
-        return f"There is no plan: {state.failure}."
-    return None if state.is_answered else "It is still being planned; try again in a moment."
+        return Message.plain(f"There is no plan: {state.failure}.")
+    return None if state.is_answered else Message.plain("It is still being planned; try again in a moment.")
 
 
-def _no_plan(state: DocumentState) -> str | None:
+def _no_plan(state: DocumentState) -> Message | None:
     if (unanswered := _no_answer(state)) is not None:
         return unanswered
     plan = _plan(state)
     if plan.is_solved:
         return None
-    why = plan.reasons[0].message if plan.reasons else "the planner ran out of time"
-    return f"There is no plan: {why}."
+    if not plan.reasons:
+        return Message.plain("There is no plan: the planner ran out of time.")
+    first = plan.reasons[0]
+    values = {"fold": first.fold, "message": first.message, "says": first.says.to_dict()}
+    return Message("no_plan", f"There is no plan: {first.message}.", values)
 
 
 def _as_drawn(state: DocumentState) -> Garment:

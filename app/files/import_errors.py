@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from planner.errors import FieldError, FoldingError
+from planner.message import Message
 
 
 class ImportedFileError(FieldError):
@@ -13,11 +14,13 @@ class UnitsNeededError(FoldingError):
     """The file does not say how long a unit of it is.
 
     Attributes:
+        why: what is wrong with what the file says.
         sizes: for each unit that could be meant, how wide and how high the garment would be (m).
     """
 
-    def __init__(self, why: str, sizes: Mapping[str, tuple[float, float]]) -> None:
-        super().__init__(f"{why}: say whether a unit of the drawing is {', '.join(sizes)}")
+    def __init__(self, why: Message, sizes: Mapping[str, tuple[float, float]]) -> None:
+        super().__init__(f"{why.text}: say whether a unit of the drawing is {', '.join(sizes)}")
+        self.why = why
         self.sizes = dict(sizes)
 
 

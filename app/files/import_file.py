@@ -12,6 +12,7 @@ from app.files.sketch import Sketch
 from app.files.sketch_garment import UNITS_M, Sizes, garment_of
 from app.files.svg_sketch import read_svg
 from planner.cloth.garment import Garment
+from planner.message import Message
 
 LARGEST_FILE = 2 << 20
 """No file may have more bytes."""
@@ -36,7 +37,7 @@ class Imported:
 
     format: str
     garment: Garment
-    notes: tuple[str, ...]
+    notes: tuple[Message, ...]
     creases: Creases | None = None
     sizes: Sizes | None = None
 

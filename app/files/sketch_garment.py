@@ -18,6 +18,7 @@ from planner.errors import GarmentError
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import SNAP_M
+from planner.message import Message
 from planner.strict_model import LARGEST_M
 
 UNITS_M: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
@@ -55,7 +56,7 @@ class SketchedGarment:
     """
 
     garment: Garment
-    notes: tuple[str, ...]
+    notes: tuple[Message, ...]
     creases: Creases | None
     sizes: Sizes
 
@@ -79,10 +80,11 @@ def garment_of(
     """
     unit_m = UNITS_M[units] if units is not None else sketch.unit_m
     if unit_m is None:
-        raise UnitsNeededError(sketch.why_no_unit, _sizes(sketch, scale))
+        raise UnitsNeededError(Message.plain(sketch.why_no_unit), _sizes(sketch, scale))
     unit_m *= scale
     if not UNITS_MIN_MAX_M[0] <= unit_m <= UNITS_MIN_MAX_M[1]:
-        raise ImportedFileError("scale", f"one unit of the drawing would be {unit_m:.3g} m; give another scale")
+        text = f"one unit of the drawing would be {unit_m:.3g} m; give another scale"
+        raise ImportedFileError("scale", Message("unit_out_of_range", text, {"unit_m": unit_m}))
     if units is None and scale == 1.0:
         _require_likely(sketch, unit_m)
     with np.errstate(all="ignore"):
@@ -92,7 +94,7 @@ def garment_of(
     _require_size(found.points, LARGEST_M, "the outline")
     origin = found.points.min(axis=0) if sketch.kept is None else np.zeros(2)
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
-    notes = [*_outline_notes(found, units, unit_m), *sketch.notes]
+    notes = [*_outline_notes(found, units, unit_m), *map(Message.plain, sketch.notes)]
     drawn = {
         "name": plain_name(title),
         "title": title,
@@ -105,7 +107,7 @@ def garment_of(
     return SketchedGarment(garment, tuple(notes), read, sizes)
 
 
-def _read(garment: Garment, creases: Creases | None, notes: list[str]) -> tuple[Garment, Creases | None]:
+def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:
     """A garment with its fold lines on the cloth, and on which cloth they were read; adds to the notes."""
     ways: dict[Creases, ReadCreases] = {
         "folded": read_creases(garment.outline, garment.folds, "folded"),
@@ -116,15 +118,20 @@ def _read(garment: Garment, creases: Creases | None, notes: list[str]) -> tuple[
     used = "folded" if is_alike else creases or best
     read = ways[used]
     if creases is None and used == "flat":
-        notes.append(
+        text = (
             "The fold lines were read on the flat cloth: on the cloth as the folds before leave it "
             f"{ways['folded'].legal} of {len(garment.folds)} would fit."
         )
+        notes.append(Message.plain(text))
     if read.cut_m:
         told = (f"{garment.folds[index].name!r} by {1000 * by:.0f} mm" for index, by in read.cut_m.items())
-        notes.append(f"Fold lines were made to end at the edge of the cloth: {', '.join(told)}.")
+        text = f"Fold lines were made to end at the edge of the cloth: {', '.join(told)}."
+        lines = [{"fold": index, "by_m": by_m} for index, by_m in read.cut_m.items()]
+        notes.append(Message("lines_cut", text, {"lines": lines}))
     if read.problem:
-        notes.append(f"The line {garment.folds[read.legal].name!r} does not fit: {read.problem}.")
+        text = f"The line {garment.folds[read.legal].name!r} does not fit: {read.problem.text}."
+        values = {"fold": read.legal, "message": read.problem.text, "says": read.problem.to_dict()}
+        notes.append(Message("line_does_not_fit", text, values))
     return replace(garment, folds=read.folds), None if is_alike else used
 
 
@@ -136,7 +143,7 @@ def _is_alike(one: ReadCreases, other: ReadCreases) -> bool:
     )
 
 
-def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[str]) -> Garment:
+def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[Message]) -> Garment:
     """The garment that is drawn, with what an exported drawing keeps beside its lines if that is any good."""
     beside = {name: kept[name] for name in KEPT_FIELDS if name in kept}
     try:
@@ -145,7 +152,7 @@ def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[str]
         if not beside:
             raise
     garment = Garment.from_dict(drawn)
-    notes.append(f"What the drawing says of its {', '.join(beside)} could not be read and was left out.")
+    notes.append(Message.plain(f"What the drawing says of its {', '.join(beside)} could not be read and was left out."))
     return garment
 
 
@@ -163,7 +170,8 @@ def _require_likely(sketch: Sketch, unit_m: float) -> None:
     longest_m = max(sizes["m"]) * unit_m
     if not LIKELY_M[0] <= longest_m <= LIKELY_M[1]:
         said = f"the unit that it names, {1000 * unit_m:.6g} mm, would make the garment {longest_m:.3g} m long"
-        raise UnitsNeededError(said, sizes)
+        values = {"unit_m": unit_m, "longest_m": longest_m}
+        raise UnitsNeededError(Message("unit_unlikely", said, values), sizes)
 
 
 def _sizes(sketch: Sketch, scale: float) -> Sizes:
@@ -183,8 +191,12 @@ def _require_size(points: FloatArray, most_m: float, what: str) -> None:
     with np.errstate(all="ignore"):
         width, height = points.max(axis=0) - points.min(axis=0)
     if not max(width, height) <= most_m:
-        message = f"{what} is {width:.3g} m wide and {height:.3g} m high, more than {most_m:g} m"
-        raise ImportedFileError("scale", f"{message}; say what its units are, or give a scale")
+        text = (
+            f"{what} is {width:.3g} m wide and {height:.3g} m high, more than {most_m:g} m; say what its units are, or "
+            "give a scale"
+        )
+        values = {"what": what, "size": [float(width), float(height)], "most_m": most_m}
+        raise ImportedFileError("scale", Message("drawing_too_large", text, values))
 
 
 def _extent(sketch: Sketch) -> FloatArray:
@@ -195,43 +207,50 @@ def _extent(sketch: Sketch) -> FloatArray:
 
 
 def _folds(
-    sketch: Sketch, found: FoundOutline, unit_m: float, origin: FloatArray, notes: list[str]
+    sketch: Sketch, found: FoundOutline, unit_m: float, origin: FloatArray, notes: list[Message]
 ) -> Iterator[dict[str, Any]]:
     """The folds in the file's order, as in a garment file; adds to the notes what is to be said about them."""
     near = [line for line in sketch.folds if found.is_about(line.curve.extent * unit_m)]
     if len(near) < len(sketch.folds):
-        notes.append(f"Fold lines away from the outline were left out: {len(sketch.folds) - len(near)}.")
+        notes.append(Message.plain(f"Fold lines away from the outline were left out: {len(sketch.folds) - len(near)}."))
     long = [line for line in near if math.dist(*(line.curve.extent[[0, -1]] * unit_m)) >= EDGE_MIN_M]
     if len(long) < len(near):
-        notes.append(f"Fold lines shorter than {1000 * EDGE_MIN_M:g} mm were left out: {len(near) - len(long)}.")
+        count = len(near) - len(long)
+        text = f"Fold lines shorter than {1000 * EDGE_MIN_M:g} mm were left out: {count}."
+        notes.append(Message("short_lines", text, {"shorter_m": EDGE_MIN_M, "lines": count}))
     if len(long) > FOLDS_MAX:
-        notes.append(f"There are {len(long)} fold lines; the first {FOLDS_MAX} were taken.")
+        notes.append(Message.plain(f"There are {len(long)} fold lines; the first {FOLDS_MAX} were taken."))
     for number, line in enumerate(long[:FOLDS_MAX]):
         points = line.curve.flattened(TOLERANCE_M / unit_m) * unit_m - origin
         name = (line.name or f"fold {number + 1}")[:TITLE_MAX]
         start, end = points[0].tolist(), points[-1].tolist()
         if Segment(tuple(start), tuple(end)).distances(points).max() > EDGE_MIN_M:
-            notes.append(f"The line {name!r} is not straight; the fold goes straight from its start to its end.")
+            text = f"The line {name!r} is not straight; the fold goes straight from its start to its end."
+            notes.append(Message.plain(text))
         kind = line.kind
         if kind == "red" and number == 0:
             kind = "blue"
-            notes.append(f"The line {name!r} is red, but no fold comes before it, so it was made blue.")
+            notes.append(Message.plain(f"The line {name!r} is red, but no fold comes before it, so it was made blue."))
         yield {"name": name, "kind": kind, "start": start, "end": end, "grip_radius_m": line.grip_radius_m}
 
 
-def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Iterator[str]:
+def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Iterator[Message]:
     if len(found.others):
         lines = "another closed line" if len(found.others) == 1 else f"{len(found.others)} other closed lines"
-        yield f"The largest closed line was taken as the outline; {lines} in the file left out."
-    off = f"at most {1000 * found.tolerance_m:g} mm off"
+        yield Message.plain(f"The largest closed line was taken as the outline; {lines} in the file left out.")
+    corners, off = len(found.points), f"at most {1000 * found.tolerance_m:g} mm off"
+    values: dict[str, Any] = {"corners": corners, "off_m": found.tolerance_m}
     if found.is_bent:
-        yield f"The outline has {len(found.points)} corners; curves were replaced by straight edges that are {off}."
+        text = f"The outline has {corners} corners; curves were replaced by straight edges that are {off}."
+        yield Message("curves_replaced", text, values)
     elif found.is_simplified:
-        yield f"The outline has {len(found.points)} corners; others were left out, so that its edges are {off}."
+        text = f"The outline has {corners} corners; others were left out, so that its edges are {off}."
+        yield Message("corners_left_out", text, values)
     else:
-        yield f"The outline has {len(found.points)} corners."
-    width, height = found.points.max(axis=0) - found.points.min(axis=0)
+        yield Message.plain(f"The outline has {corners} corners.")
+    width, height = (found.points.max(axis=0) - found.points.min(axis=0)).tolist()
     said = "" if units is None else ", as you said"
-    yield f"One unit of the drawing was taken as {1000 * unit_m:.6g} mm{said}: {width:.3f} m by {height:.3f} m."
+    text = f"One unit of the drawing was taken as {1000 * unit_m:.6g} mm{said}: {width:.3f} m by {height:.3f} m."
+    yield Message("unit_taken", text, {"unit_m": unit_m, "is_said": units is not None, "size": [width, height]})
     if max(width, height) < ODD_SIZES_M[0] or max(width, height) > ODD_SIZES_M[1]:
-        yield "That is an odd size for a garment; look whether the units are right."
+        yield Message.plain("That is an odd size for a garment; look whether the units are right.")

@@ -6,6 +6,8 @@
  * no server is kept, and sent again when there is one.
  */
 
+import { inWords } from "./messages/in_words.js";
+
 const TRIES = 3;
 const RETRY_MS = 1000;
 const OFFLINE = "The server cannot be reached; nothing was changed.";
@@ -167,7 +169,7 @@ export class EditQueue {
   }
 
   taken({ ok, told }) {
-    if (!ok) throw new Error(sentence(told));
+    if (!ok) throw new Error(sentence(told, this.store.state?.drawing.folds ?? []));
     this.store.take(told);
     return told;
   }
@@ -191,7 +193,8 @@ function body({ label, change, phase, coalesce = null, gesture }, base) {
   return { ...common, drawing: change(copy) ?? copy };
 }
 
-function sentence(problem) {
+function sentence(problem, folds) {
   const first = problem.errors?.[0];
+  if (first?.says) return `${inWords(first, folds)}.`;
   return first ? `${first.field}: ${first.message}` : (problem.detail ?? problem.title ?? "This was refused.");
 }

@@ -8,6 +8,7 @@ import pytest
 from app.files.import_errors import UnitsNeededError
 from app.jobs.apart import LostProcessError, StoppedError, ignore, run_apart
 from planner.errors import FoldError, FoldingError, GarmentError, UnknownGarmentError
+from planner.message import Message
 from tests.app.processes import descendants, wait_until
 
 
@@ -60,7 +61,7 @@ def test_work_that_would_never_end_is_ended_when_it_is_stopped() -> None:
         GarmentError("outline[3]", "edges cross"),
         FoldError("folds[0].start", "is beside the cloth").within("garment"),
         UnknownGarmentError("nothing"),
-        UnitsNeededError("nobody says", {"mm": (0.1, 0.2)}),
+        UnitsNeededError(Message("unit_unlikely", "nobody says", {"unit_m": 1.0}), {"mm": (0.1, 0.2)}),
         FoldingError("no"),
     ],
 )

@@ -1,6 +1,7 @@
 /** `Export`: every format in which the document can be taken along. */
 
 import { button, element } from "../dom.js";
+import { inWords } from "../messages/in_words.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 
 /** Files that take a while to be made. */
@@ -43,9 +44,15 @@ async function filesOf(store) {
 
 function row(store, file, signal) {
   const url = `${store.path}/files/${file.what}`;
-  const said = element("small", "", file.available ? file.text : file.reason);
+  const said = element("small", "", file.available ? file.text : whyNot(store, file));
   const name = element("span", "export-name", file.title, said);
   return element("li", "export", name, verb(url, file, said, signal));
+}
+
+/** Why a file is not there now, as a sentence. */
+function whyNot(store, { reason, says }) {
+  const text = inWords({ says, message: reason }, store.state?.drawing.folds ?? []);
+  return text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
 }
 
 function verb(url, file, said, signal) {

@@ -4,6 +4,7 @@ import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
+import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
 
@@ -74,7 +75,7 @@ async function read(store, body, file, how) {
   const answer = await fetch(`../api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
   const told = answer ? await answer.json() : null;
   if (answer?.ok) found(store, body, file, how, told);
-  else if (told?.sizes) askSize(store, body, file, how, told.sizes, told.detail);
+  else if (told?.sizes) askSize(store, body, file, how, told.sizes, inWords(told.errors[0], []));
   else ask(store, body, told ? `${file.name}: ${sentenceOf(told)}` : OFFLINE);
 }
 
@@ -115,7 +116,7 @@ function scaledTo(width_m, sizes, scale) {
 }
 
 /** @param {How} how */
-function found(store, body, file, how, { garment, notes, creases, sizes }) {
+function found(store, body, file, how, { garment, notes, says, creases, sizes }) {
   const said = element("p", "dialog-problem");
   const here = button("main-button", () => open(store, body, file, garment), "Open here");
   const anew = button("plain-button", () => create(garment, said), "As a new document");
@@ -131,7 +132,7 @@ function found(store, body, file, how, { garment, notes, creases, sizes }) {
         "",
         element("h3", "", garment.title),
         element("p", "dialog-text", counted(garment)),
-        element("ul", "notes", ...notes.map((note) => element("li", "", note))),
+        element("ul", "notes", ...notes.map((message, n) => note({ says: says[n], message }, garment.folds))),
       ),
     ),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
@@ -169,6 +170,12 @@ function onWhichCloth(creases, onChoice) {
 function sizeOf({ outline }) {
   const box = boxOf(outline);
   return box ? `${length(box.high[0] - box.low[0])} by ${length(box.high[1] - box.low[1])}` : "";
+}
+
+/** What is to be said of how the garment was read. */
+function note(told, folds) {
+  const text = inWords(told, folds);
+  return element("li", "", text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : "."));
 }
 
 const counted = ({ outline, folds }) =>

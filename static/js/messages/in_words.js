@@ -5,13 +5,14 @@
 
 import { CHANGES } from "./changes.js";
 import { DRAWING } from "./drawing.js";
+import { files } from "./files.js";
 import { REASONS } from "./reasons.js";
 
 /** @typedef {{code: string, [name: string]: any}} Says */
 /** @typedef {{[code: string]: (says: any, folds: {name?: string}[]) => string}} Catalogue */
 
 /** @type {Catalogue} */
-const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES };
+const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES, ...files(inWords) };
 
 /**
  * A message without a capital in front and a full stop behind. One that has no numbers comes as its sentence alone.

@@ -94,7 +94,7 @@ def test_arcs_are_said_to_be_replaced_and_straight_lines_are_not(is_bent: bool, 
     made = drawing()
     corners = [(0, 0, 0.2 if is_bent else 0.0), (600, 0, 0), (600, 400, 0), (0, 400, 0)]
     made.modelspace().add_lwpolyline(corners, format="xyb", close=True)
-    assert any(note.startswith("The outline has") and note.endswith(told) for note in read(made).notes)
+    assert any(note.text.startswith("The outline has") and note.text.endswith(told) for note in read(made).notes)
 
 
 def test_blue_and_red_lines_are_folds_by_their_colour_that_of_their_layer_or_its_name():
@@ -121,8 +121,8 @@ def test_of_a_sewing_pattern_layer_1_is_the_outline_and_only_layer_8_carries_fol
     found = read(made)
     assert sorted(outline(found)) == [(0.0, 0.0), (0.0, 0.4), (0.6, 0.0), (0.6, 0.4)]
     assert lines(found) == [("blue", [0.0, 0.2], [0.6, 0.2])]
-    assert any("sewing pattern" in note for note in found.notes)
-    assert any(note.startswith("2 lines on its other layers") for note in found.notes)
+    assert any("sewing pattern" in note.text for note in found.notes)
+    assert any(note.text.startswith("2 lines on its other layers") for note in found.notes)
 
 
 def test_of_several_pieces_the_largest_is_taken():
@@ -132,8 +132,8 @@ def test_of_several_pieces_the_largest_is_taken():
     found = read(made)
     assert sorted(outline(found))[-1] == (0.6, 0.4)
     assert len(found.garment.folds) == 1
-    assert any("another closed line" in note for note in found.notes)
-    assert "Fold lines away from the outline were left out: 1." in found.notes
+    assert any("another closed line" in note.text for note in found.notes)
+    assert "Fold lines away from the outline were left out: 1." in [note.text for note in found.notes]
 
 
 @pytest.mark.parametrize(("word", "unit_m"), [("METRIC", 0.001), ("ENGLISH", 0.0254)])

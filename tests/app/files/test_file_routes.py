@@ -48,6 +48,9 @@ async def test_a_drawing_becomes_a_garment_that_can_be_opened(client: httpx.Asyn
     assert answer["format"] == "svg"
     assert answer["garment"]["folds"][0]["name"] == "fold 1"
     assert all(note.endswith(".") for note in answer["notes"])
+    (taken,) = (says for says in answer["says"] if says and says["code"] == "unit_taken")
+    assert (taken["unit_m"], taken["is_said"]) == (pytest.approx(0.01), False)
+    assert len(answer["says"]) == len(answer["notes"])
     state = await client.post("/api/documents", json={"garment": answer["garment"]})
     assert state.status_code == 201
     assert state.json()["problems"] == []

@@ -74,4 +74,4 @@ def test_what_a_drawing_keeps_beside_its_lines_is_left_out_when_it_makes_no_sens
     text = svg_drawing(load_garment("t-shirt")).replace('"areal_density_kg_m2": 0.16', '"areal_density_kg_m2": -1')
     found = import_file("drawing.svg", text.encode())
     assert found.garment.areal_density_kg_m2 == 0.2
-    assert any("could not be read" in note for note in found.notes)
+    assert any("could not be read" in note.text for note in found.notes)

@@ -52,7 +52,7 @@ def test_the_name_comes_from_the_file_and_the_title_from_the_drawing():
 def test_the_largest_closed_path_is_taken_and_said_to_be():
     found = read(svg('<rect x="1" y="1" width="5" height="5"/>', SQUARE, '<circle cx="20" cy="20" r="3"/>'))
     assert outline(found) == [(0.0, 0.4), (0.6, 0.4), (0.6, 0.0), (0.0, 0.0)]
-    assert any("2 other closed lines" in note for note in found.notes)
+    assert any("2 other closed lines" in note.text for note in found.notes)
 
 
 def test_lines_are_folds_by_the_colour_of_their_stroke_however_it_is_given_in_the_direction_of_the_line():
@@ -102,7 +102,7 @@ def test_lines_of_other_colours_and_what_is_hidden_are_no_folds():
         )
     )
     assert found.garment.folds == ()
-    assert any("neither blue nor red" in note for note in found.notes)
+    assert any("neither blue nor red" in note.text for note in found.notes)
 
 
 def test_transforms_of_groups_shapes_and_references_are_all_made():
@@ -144,7 +144,7 @@ def test_an_outline_of_many_points_is_simplified_to_400_and_the_deviation_is_sai
     assert len(found.garment.outline) <= 400
     assert area(found) == pytest.approx(math.pi * 0.19**2, rel=0.01)
     # Half a millimetre for curves, one for points nearer than that to each other, half of one for simplifying.
-    assert any("at most 2 mm off" in note for note in found.notes)
+    assert any("at most 2 mm off" in note.text for note in found.notes)
     away = np.hypot(*(np.array(found.garment.outline) - [0.19, 0.19]).T)
     assert np.abs(away - 0.19).max() < 0.002
 
@@ -193,13 +193,13 @@ def test_lines_that_meet_at_their_ends_make_an_outline_together():
 def test_a_bent_fold_line_is_straightened_and_said_to_be():
     found = read(svg(SQUARE, '<path stroke="blue" d="M 0 20 Q 30 30 60 20"/>'))
     assert np.allclose([found.garment.folds[0].start, found.garment.folds[0].end], [(0.0, 0.2), (0.6, 0.2)])
-    assert any("not straight" in note for note in found.notes)
+    assert any("not straight" in note.text for note in found.notes)
 
 
 def test_a_red_line_that_comes_first_becomes_blue_and_is_said_to():
     found = read(svg(SQUARE, '<path stroke="red" d="M 0 20 H 60"/>'))
     assert found.garment.folds[0].kind == "blue"
-    assert any("made blue" in note for note in found.notes)
+    assert any("made blue" in note.text for note in found.notes)
 
 
 def test_entities_are_refused_and_none_is_expanded():
@@ -315,8 +315,8 @@ def test_the_sizes_in_other_units_are_told_with_the_garment():
 )
 def test_curves_are_said_to_be_replaced_only_where_there_are_some(shape: str, told: str):
     notes = read(svg(shape)).notes
-    assert next(note for note in notes if note.startswith("The outline has")).endswith(told)
+    assert next(note.text for note in notes if note.text.startswith("The outline has")).endswith(told)
 
 
 def test_an_odd_size_is_pointed_out():
-    assert any("odd size" in note for note in read(svg(SQUARE), "mm", 0.5).notes)
+    assert any("odd size" in note.text for note in read(svg(SQUARE), "mm", 0.5).notes)
