@@ -1,0 +1,87 @@
+"""With every sentence of the server that has numbers replaced by rubbish the page still says everything."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, Route, WebSocketRoute, expect
+
+from tests.browser.conftest import Garment, Sheet
+
+NewSheet = Callable[[Garment], Sheet]
+
+RUBBISH = "RUBBISH 0 at (0.25, 0.75) m"
+APRON: dict[str, Any] = {
+    "name": "apron",
+    "outline": [[0.0, 0.0], [0.6, 0.0], [0.6, 0.4], [0.42, 0.75], [0.18, 0.75], [0.0, 0.4]],
+    "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0.0], "end": [0.3, 0.75]}],
+}
+
+
+def spoilt(told: Any) -> Any:
+    """What is told, with rubbish for every sentence that there is data for."""
+    if isinstance(told, list):
+        return [spoilt(one) for one in told]
+    if not isinstance(told, dict):
+        return told
+    made = {name: spoilt(value) for name, value in told.items()}
+    if told.get("says"):
+        made |= {name: RUBBISH for name in ("message", "label", "reason") if name in told}
+    return made
+
+
+def spoil(page: Page) -> None:
+    """From now on the page hears rubbish, over REST and the websocket."""
+
+    def socket(there: WebSocketRoute) -> None:
+        server = there.connect_to_server()
+        server.on_message(lambda text: there.send(json.dumps(spoilt(json.loads(text)))))
+
+    def answer(route: Route) -> None:
+        fetched = route.fetch()
+        route.fulfill(response=fetched, json=spoilt(fetched.json()))
+
+    page.route_web_socket("**/live", socket)
+    page.route("**/mends", answer)
+    page.route("**/files", answer)
+    page.route("**/crease", answer)
+
+
+@pytest.fixture
+def apron(page: Page, new_sheet: NewSheet) -> Sheet:
+    sheet = new_sheet(APRON)
+    spoil(page)
+    page.goto(sheet.page_url)
+    expect(page.get_by_role("status")).to_have_attribute("data-status", "infeasible")
+    return sheet
+
+
+def test_a_reason_is_told_from_its_numbers(page: Page, apron: Sheet) -> None:
+    expect(page.get_by_role("status")).to_have_text(
+        "No plan: Half: needs more hands than there are, unless one holds all within 19.7 cm"
+    )
+    page.get_by_role("button", name="Why?").click()
+    reason = page.get_by_role("list", name="Reasons").get_by_role("listitem").first
+    expect(reason).to_contain_text("must be held, at (0, 0) cm, (0, 40) cm and (18, 75) cm of the garment")
+    page.get_by_role("button", name="Unit: cm").click()
+    expect(reason).to_contain_text("must be held, at (0, 0) in, (0, 15.75) in and (7.09, 29.53) in of the garment")
+    page.get_by_role("button", name="Export", exact=True).click()
+    row = page.get_by_role("listitem").filter(has_text="Plan (CSV)")
+    expect(row).to_contain_text("There is no plan: \u201chalf\u201d: 3 points of its edge must be held")
+    assert "RUBBISH" not in page.locator("body").inner_text()
+
+
+def test_what_is_wrong_with_a_drawing_and_mends_it_is_told_in_one_way_everywhere(page: Page, apron: Sheet) -> None:
+    def crossing(drawing: dict[str, Any]) -> None:
+        points = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]]
+        drawing["outline"] = [{"id": f"v{number}", "point": point} for number, point in enumerate(points)]
+        drawing["folds"] = []
+
+    apron.edit(crossing)
+    told = "dges 1 and 3 cross at (25, 25) cm of the garment"
+    for place in (page.get_by_role("status"), page.locator(".reason"), page.locator(".callout")):
+        expect(place).to_contain_text(told)
+    mends = page.get_by_role("group", name="Suggestions").get_by_role("button")
+    expect(mends.first).to_have_text("Exchange the two corners")
+    assert "RUBBISH" not in page.locator("body").inner_text()
