@@ -21,6 +21,7 @@ from app.ui.editor.ground import Ground, in_article, on_table
 from app.ui.editor.mode import FoldKind
 from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.cloth.garment import FOLDS_MAX
 from planner.folds.fold_cloth import flap_silhouette
@@ -132,7 +133,8 @@ class DrawFold(Tool):
             raise RefusedError("There is no cloth yet: draw an outline first.")
         legal = len(solution.cloths) - 1
         if legal < len(state.drawing.folds):
-            why = next((problem.message for problem in solution.problems if problem.fold == legal), "it is not legal")
+            told = (spoken(problem.says, problem.message) for problem in solution.problems if problem.fold == legal)
+            why = next(told, "it is not legal")
             raise RefusedError(as_sentence(f"mend fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
         if legal == FOLDS_MAX:
             raise RefusedError(f"There are {FOLDS_MAX} folds already, and there may be no more.")

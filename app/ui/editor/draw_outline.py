@@ -11,6 +11,7 @@ from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article
 from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
@@ -87,7 +88,7 @@ class DrawOutline(Tool):
         def change(state: DocumentState) -> Drawing:
             points = [in_article(state.drawing, point) for point in self._points]
             for problem in outline_problems(points):
-                raise RefusedError(as_sentence(problem.message))
+                raise RefusedError(as_sentence(spoken(problem.says, problem.message)))
             corners = tuple(Corner(f"v{i}", point) for i, point in enumerate(points))
             return replace(state.drawing, outline=corners, folds=())
 

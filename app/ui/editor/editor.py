@@ -14,6 +14,7 @@ from app.ui.editor.mode import FoldKind, Mode
 from app.ui.editor.move_points import MovePoints
 from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError, as_sentence, sentence
+from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.errors import FoldingError
 
@@ -66,7 +67,7 @@ class Editor:
             return _LOOKING
         problems = self._document.state.solution.problems
         is_mending = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
-        return as_sentence(problems[0].message) if problems and is_mending else tool.hint()
+        return as_sentence(spoken(problems[0].says, problems[0].message)) if problems and is_mending else tool.hint()
 
     @property
     def undo_label(self) -> str:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from app.ui.editor.spoken import spoken
 from planner.errors import FieldError, FoldingError
 
 _SUBJECTS = {"line": "The line", "end": "The fold", "start": "The fold"}
@@ -27,6 +28,7 @@ def sentence(error: FoldingError) -> str:
     if isinstance(error, FieldError):
         subject = _SUBJECTS.get(error.field.rpartition(".")[2])
         text = f"{subject} {error.message}" if subject and error.message.startswith("does not") else error.message
+        text = spoken(error.says, text)
     return as_sentence(text)
 
 
