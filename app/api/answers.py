@@ -77,6 +77,7 @@ class SceneFile(BaseModel):
     back_off_max_m: float = 0.8
     edge_clear_m: float = 0.03
     arm_motion_s: float = 3.0
+    grip_dwell_s: float = 0.5
     base_speed_m_s: float = 0.25
     base_turn_rad_s: float = 0.5
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray
-from planner.plan.leads import Lines
+from planner.geometry.pose import FloatArray
+from planner.plan.leads import Cloths, Lines
 from planner.plan.moments import Moments
 
 
@@ -15,20 +15,23 @@ class Carried:
 
     Attributes:
         moments: the moments while cloth is held.
+        cloths: the cloth that lies before and after.
         bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
         joints: every arm's joints (rad), shape (steps, arms, 7). Arms that do nothing are at home, those that have let
             go wait where they withdrew to.
         first: the step at which the grips are reached: the first of the moments.
-        is_used: which arms do something, shape (arms,).
         lines: how the hands come and leave.
+        half_turns: by which angle each hand is turned about its approach axis beside that (rad), 0 or pi: to a gripper
+            it is all one which finger is which, so it is turned as is nearer to home, shape (arms,).
     """
 
     moments: Moments
+    cloths: Cloths
     bases: FloatArray
     joints: FloatArray
     first: int
-    is_used: BoolArray
     lines: Lines
+    half_turns: FloatArray
 
     @property
     def last(self) -> int:
@@ -51,4 +54,6 @@ class Carried:
         before = np.minimum(places.astype(np.int64), len(self.joints) - 1)
         along = (places - before)[:, None, None]
         after = np.minimum(before + 1, len(self.joints) - 1)
-        return np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
+        found = np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
+        found[:, :, -1] -= self.half_turns
+        return found

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.tolerance import ANGLE_RAD
 from planner.plan.carried import Carried
-from planner.plan.leads import BESIDE, FAR, NEAR, OVER, Leads, Lines
+from planner.plan.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Leads, Lines
+from planner.plan.lying_cloth import LyingCloth
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, about_x
 from planner.robot.tool_path import IsFree, NoPath
@@ -30,12 +32,13 @@ class _Asked:
     """A run, known by all that its joints depend on."""
 
     key: tuple[bytes, ...]
+    cloths: Cloths
     moments: Moments = field(compare=False)
 
     @staticmethod
-    def of(moments: Moments) -> "_Asked":
+    def of(moments: Moments, cloths: Cloths) -> "_Asked":
         parts = (moments.positions, moments.rotations, moments.bases, moments.nominal_s, moments.is_driving)
-        return _Asked(tuple(part.tobytes() for part in parts), moments)
+        return _Asked(tuple(part.tobytes() for part in parts), cloths, moments)
 
 
 class Carrier:
@@ -50,12 +53,13 @@ class Carrier:
         self._collisions = collisions
         self._torso_m = torso_m
         self._height_m = height_m
+        self._arms = len(machine.card.arms)
         self._searched = lru_cache(_RUNS_KEPT)(self._search)
         self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
 
-    def carried(self, moments: Moments) -> Carried | NoPath:
+    def carried(self, moments: Moments, cloths: Cloths) -> Carried | NoPath:
         """The joints of a run; or that the arms cannot be led through it, and at which moments not. Remembered."""
-        return self._searched(_Asked.of(moments))
+        return self._searched(_Asked.of(moments, cloths))
 
     def can_hold(self, moments: Moments, first: Iterable[int] = ()) -> bool:
         """Whether the arms can be where they are at a few moments of a run; mostly if not, it cannot be carried.
@@ -72,30 +76,32 @@ class Carrier:
         return all(any(self._can_hold(arms, moments, moment, roll) for roll in rolls) for moment in which)
 
     def _search(self, asked: "_Asked") -> Carried | NoPath:
-        moments = asked.moments
-        over = self._rolled(moments, OVER) if OVER in _rolls(moments) else None
-        return over if isinstance(over, Carried) else self._rolled(moments, BESIDE)
+        over = self._rolled(asked, OVER) if OVER in _rolls(asked.moments) else None
+        return over if isinstance(over, Carried) else self._rolled(asked, BESIDE)
 
-    def _rolled(self, moments: Moments, roll_rad: float) -> Carried | NoPath:
+    def _rolled(self, asked: "_Asked", roll_rad: float) -> Carried | NoPath:
         """The joints of a run whose hands have rolled so far."""
-        found = self._with_lines(moments, Lines(roll_rad, FAR))
-        is_settled = isinstance(found, Carried) or found.is_hopeless
-        return found if is_settled else self._with_lines(moments, Lines(roll_rad, NEAR))
+        found = self._with_lines(asked, Lines(roll_rad, FAR))
+        for shares in (UP, NEAR):
+            if isinstance(found, Carried) or found.is_hopeless:
+                break
+            found = self._with_lines(asked, Lines(roll_rad, shares))
+        return found
 
-    def adapted(self, moments: Moments, like: Carried) -> Carried | NoPath:
+    def adapted(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | NoPath:
         """The joints of a run that differs a little from one that is known, near to those if they can be."""
-        near = self._near(moments, like)
-        return self.carried(moments) if near is None else near
+        near = self._near(moments, cloths, like)
+        return self.carried(moments, cloths) if near is None else near
 
-    def _near(self, moments: Moments, like: Carried) -> Carried | None:
-        if _Asked.of(moments) == _Asked.of(like.moments):
+    def _near(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | None:
+        if _Asked.of(moments, cloths) == _Asked.of(like.moments, like.cloths):
             return like
-        are_same_arms = np.array_equal(moments.is_held.any(axis=1), like.is_used)
+        are_same_arms = np.array_equal(moments.is_used, like.moments.is_used)
         if not are_same_arms or like.lines.roll_rad not in _rolls(moments):
             return None
-        leads = Leads.of(moments, like.lines, self._height_m, self._has_room)
+        leads = Leads.of(moments, like.lines, self._height_m, self._has_room, cloths)
         joints, guides = self._at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
-        for lead, is_free in zip(leads.each, self._are_free(leads), strict=True):
+        for lead, is_free in zip(leads.each, self._are_free(leads, cloths), strict=True):
             known = guides[:, lead.arm]
             found = self._machine.arm_path_near(lead.arm, lead.path, self._torso_m, is_free, known)
             if found is None:
@@ -103,24 +109,41 @@ class Carrier:
             joints[:, lead.arm] = found
         if len(leads.each) > 1 and not self._collisions.arms_apart(joints).all():
             return None
-        return Carried(moments, leads.bases, joints, leads.first, like.is_used, like.lines)
+        return self._half_turned(leads, moments, cloths, joints, like.lines)
 
-    def _with_lines(self, moments: Moments, lines: Lines) -> Carried | NoPath:
+    def _with_lines(self, asked: "_Asked", lines: Lines) -> Carried | NoPath:
         """The joints of a run whose hands come and leave along the first of some lines that there is room for.
 
         Where there are none, the moments are told at which an arm collides whatever it does, or cannot pass the other.
         """
-        leads = Leads.of(moments, lines, self._height_m, self._has_room)
-        found = self._arm_paths(leads)
+        moments, cloths = asked.moments, asked.cloths
+        leads = Leads.of(moments, lines, self._height_m, self._has_room, cloths)
+        found = self._arm_paths(leads, cloths)
         if isinstance(found, NoPath):
             return found
         joints = self._at_home(len(leads.bases))
         joints[:, [lead.arm for lead in leads.each]] = found
-        return Carried(moments, leads.bases, joints, leads.first, np.asarray(moments.is_held.any(axis=1)), lines)
+        return self._half_turned(leads, moments, cloths, joints, lines)
 
-    def _arm_paths(self, leads: Leads) -> FloatArray | NoPath:
+    def _half_turned(self, leads: Leads, moments: Moments, cloths: Cloths, joints: FloatArray, lines: Lines) -> Carried:
+        """A run whose hands are turned by half a turn where they are nearer to home then, and nothing touches."""
+        half_turns, turned = np.zeros(self._arms), joints.copy()
+        for lead, is_free in zip(leads.each, self._are_free(leads, cloths), strict=True):
+            away = joints[[0, -1], lead.arm, -1] - self._machine.home(lead.arm)[-1]
+            as_is, half = (np.abs(np.remainder(away + turn, 2.0 * np.pi) - np.pi).max() for turn in (np.pi, 0.0))
+            if half < as_is - ANGLE_RAD:
+                turned[:, lead.arm, -1] += np.pi
+                if is_free(np.arange(len(turned)), turned[:, lead.arm], False).all():
+                    half_turns[lead.arm] = np.pi
+                else:
+                    turned[:, lead.arm] = joints[:, lead.arm]
+        if len(leads.each) > 1 and half_turns.any() and not self._collisions.arms_apart(turned).all():
+            half_turns, turned = np.zeros(self._arms), joints
+        return Carried(moments, cloths, leads.bases, turned, leads.first, lines, half_turns)
+
+    def _arm_paths(self, leads: Leads, cloths: Cloths) -> FloatArray | NoPath:
         """The joints of the arms that do something, shape (steps, arms, 7)."""
-        are_free = self._are_free(leads)
+        are_free = self._are_free(leads, cloths)
         if len(leads.each) > 1:
             left, right = (lead.path for lead in leads.each)
             return self._machine.arm_pair_path(
@@ -130,26 +153,35 @@ class Carrier:
         found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, is_free)
         return found if isinstance(found, NoPath) else found[:, None]
 
-    def _are_free(self, leads: Leads) -> list[IsFree]:
-        """Of each arm that does something where it collides: with body and table, and an arm that stays at home."""
-        arms, is_alone = [lead.arm for lead in leads.each], len(leads.each) == 1
+    def _are_free(self, leads: Leads, cloths: Cloths) -> list[IsFree]:
+        """Of each arm that does something where it collides: with body and table, and an arm that stays at home.
 
-        def is_free(arm: int, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+        A hand that holds nothing may not be low over cloth either, but near its grip.
+        """
+        is_alone = len(leads.each) == 1
+
+        def is_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+            arm = lead.arm
             answers = self._collisions.arm_free(arm, leads.bases[steps], joints, is_certain=is_certain)
+            for cloth, must_clear in zip(cloths, lead.must_clear(steps), strict=True):
+                asked = np.flatnonzero(answers & must_clear)
+                if len(asked):
+                    bases = leads.bases[steps[asked]]
+                    answers[asked] = cloth.arm_clear(arm, bases, joints[asked], is_certain=is_certain)
             if is_alone:
                 both = self._at_home(len(joints))
                 both[:, arm] = joints
                 answers &= self._collisions.arms_apart(both, is_certain=is_certain)
             return answers
 
-        return [partial(is_free, arm) for arm in arms]
+        return [partial(is_free, lead) for lead in leads.each]
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int, roll_rad: float) -> bool:
         """Whether the arms, rolled so far, can be where they are at a moment, each by itself and all of them together.
 
         One that does nothing in the whole run is at home.
         """
-        able = [self._machine.home(arm)[None] for arm in range(len(self._machine.card.arms))]
+        able = [self._machine.home(arm)[None] for arm in range(self._arms)]
         held = [arm for arm in arms if moments.is_held[arm, moment]]
         for arm in held:
             rotation = moments.rotations[arm, moment] @ about_x(np.array([roll_rad]))[0]
@@ -174,11 +206,15 @@ class Carrier:
         )
 
     def _at_home(self, steps: int) -> FloatArray:
-        homes = np.array([self._machine.home(arm) for arm in range(len(self._machine.card.arms))])
+        homes = np.array([self._machine.home(arm) for arm in range(self._arms)])
         return np.broadcast_to(homes, (steps, *homes.shape)).copy()
 
-    def _has_room(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> bool:
-        return len(self._postures(arm, base, position, rotation)) > 0
+    def _has_room(
+        self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray, cloth: LyingCloth | None
+    ) -> bool:
+        able = self._postures(arm, base, position, rotation)
+        is_clear = cloth is None or cloth.arm_clear(arm, base[None], able, is_certain=True).any()
+        return len(able) > 0 and bool(is_clear)
 
 
 def _rolls(moments: Moments) -> tuple[float, ...]:

@@ -21,9 +21,6 @@ from planner.plan.real_run import RealRun
 from planner.plan.transits import Transits
 from planner.primitives.phase import Phase
 
-_HELD_S = 0.1
-"""How long hands rest at their grips, shut, before the cloth moves (s)."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Film:
@@ -43,10 +40,11 @@ class Film:
 class FilmMaker:
     """Puts runs and moves together."""
 
-    def __init__(self, transits: Transits, collisions: Collisions) -> None:
-        """A maker for one robot, who knows its ways."""
+    def __init__(self, transits: Transits, collisions: Collisions, dwell_s: float) -> None:
+        """A maker for one robot, who knows its ways and how long its fingers take to close and to open (s)."""
         self._transits = transits
-        self._hands = FreeHands(transits, collisions)
+        self._dwell_s = dwell_s
+        self._hands = FreeHands(transits, collisions, dwell_s)
         self._track = JointTrack.at_rest(transits.home)
         self._cues: list[Cue] = []
         self._free: list[Cue] = []
@@ -71,18 +69,20 @@ class FilmMaker:
 
     def _run(self, primitive: int, run: RealRun) -> None:
         for phase in run.free_phases:
-            extra = run.late_s[0] if any(phase.hands) else 0.0
+            extra = run.reach_late_s if any(phase.hands) else 0.0
             self._free.append(Cue.even(primitive, phase, phase.duration_s + extra))
         self._reach(run)
         held = self._now
-        for cue in run.cues:
+        timing = run.timing
+        for cue in timing.cues:
             self._cues.append(Cue(primitive + cue.primitive, cue.phase, cue.times_s, cue.fractions))
-        self._track.add(held + run.times_s, run.carried.joints[run.carried.first : run.carried.last + 1] + self._turns)
-        is_held = run.carried.moments.is_held
-        for arm in np.flatnonzero(run.carried.is_used):
-            self._track.close(int(arm), held - _HELD_S)
-            self._track.open(int(arm), held + float(run.times_s[np.flatnonzero(is_held[arm])[-1]]))
-        self._now = held + float(run.times_s[-1])
+        self._track.add(held + timing.times_s, run.carried.joints[run.carried.first + timing.moments] + self._turns)
+        is_last = run.carried.moments.is_last_held
+        for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
+            opens = held + timing.first_s(int(np.argmax(is_last[arm])))
+            self._track.close(arm, held - self._dwell_s, held)
+            self._track.open(arm, opens, opens + self._dwell_s)
+        self._now = held + float(timing.times_s[-1])
         self._before = run
         self._free = [self._still(run.late_s[1])] if run.late_s[1] > 0.0 else []
 
@@ -96,8 +96,9 @@ class FilmMaker:
         tail, start = self._tail(), run.carried.joints[0]
         self._turns = self._transits.unwound(start, tail.joints[-1]) - start
         lead = Line(run.carried.joints[: run.carried.first + 1] + self._turns, run.lead_s)
-        free, keyframes = self._hands.keyframes(FreeTime(self._free, self._now), tail, lead)
-        self._track.add(*keyframes)
+        between = FreeTime(self._free, self._now, run.carried.cloths[0])
+        free, keyframes = self._hands.keyframes(between, tail, lead)
+        self._track.add(keyframes.times_s, keyframes.joints)
         self._cues += free.cues
         self._now = free.end_s
 

@@ -6,8 +6,8 @@ that will not do either, the base waits until they are there.
 """
 
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TypeAlias
+from itertools import pairwise, product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,13 +16,10 @@ from planner.plan.free_time import FreeTime
 from planner.plan.joint_track import JointTrack
 from planner.plan.machine import Collisions
 from planner.plan.pacing import eased
-from planner.plan.transits import Transits
+from planner.plan.transits import AT_GRIPS, Transits
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
 """How long hands take to come straight to their grips and to withdraw, if there is time (s)."""
-
-_GRASP_S = 0.3
-"""How long hands rest at their grips before the cloth moves, if there is time (s)."""
 
 _CHECK_S = 0.04
 """How far apart moments are at which free hands beside a moving base are checked (s)."""
@@ -32,8 +29,17 @@ _KEYFRAMES = 12
 
 _EASING = 0.3
 
-Keyframes: TypeAlias = tuple[FloatArray, FloatArray]
-"""Times (s), shape (n,), and all arms' joints then (rad), shape (n, arms, 7)."""
+
+class Keyframes(NamedTuple):
+    """Where all arms are when.
+
+    Attributes:
+        times_s: rising, shape (n,).
+        joints: all arms' joints then (rad), shape (n, arms, 7).
+    """
+
+    times_s: FloatArray
+    joints: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,8 +63,12 @@ class Line:
 class FreeHands:
     """Leads free hands from run to run."""
 
-    def __init__(self, transits: Transits, collisions: Collisions) -> None:
-        """The hands of one robot, whose ways are known, among what they may collide with."""
+    def __init__(self, transits: Transits, collisions: Collisions, dwell_s: float) -> None:
+        """The hands of one robot, whose ways are known, among what they may collide with.
+
+        They rest at their grips for so long until their fingers have closed (s).
+        """
+        self._dwell_s = dwell_s
         self._transits = transits
         self._collisions = collisions
 
@@ -72,39 +82,42 @@ class FreeHands:
         start, goal = tail.joints[-1], lead.joints[0]
         ways = [np.array([start, goal])]
         home = self._transits.unwound(self._transits.home, start)
-        found = self._transits.way(Pose2.of(free.base_at(free.end_s)), start, goal)
+        spared = self._transits.spared(tail.joints, lead.joints)
+        found = self._transits.way(Pose2.of(free.base_at(free.end_s)), start, goal, free.cloth, spared)
         if found is not None:
             ways.append(found)
         ways.append(np.array([start, home, goal]))
-        for way in ways:
-            keyframes = self._timed(free, tail, way, lead)
-            if keyframes is not None and self._is_clear(free, tail.joints[0], *keyframes):
+        # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
+        for way, tail_s in product(ways, (_TAIL_S, 0.0)):
+            keyframes = self._timed(free, tail, way, lead, tail_s)
+            if keyframes is not None and self._is_clear(free, tail, keyframes):
                 return keyframes
         return None
 
-    def _timed(self, free: FreeTime, tail: Line, way: FloatArray, lead: Line) -> Keyframes | None:
+    def _timed(self, free: FreeTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
         """Keyframes that withdraw, go a way and come to the grips within a free time; None if that is too short."""
         needed = self._transits.needed_s(way)
-        spare = free.end_s - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum()))
+        arrives = free.end_s - self._dwell_s
+        spare = arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum()))
         if spare < 0.0:
             return None
-        out = _stretched(tail.least_s, min(_TAIL_S, tail.shortest_s + spare / 4))
+        out = _stretched(tail.least_s, min(tail_s, tail.shortest_s + spare / 4))
         down = _stretched(lead.least_s, min(_LEAD_S, lead.shortest_s + spare / 4))
-        arrives = free.end_s - min(_GRASP_S, spare / 4)
         leaves, comes = free.start_s + float(out.sum()), arrives - float(down.sum())
         travel_t, travel = _travel(way, needed, leaves, comes)
         times = [free.start_s + np.cumsum(out), travel_t, comes + np.cumsum(down), np.array([free.end_s])]
-        return np.concatenate(times), np.concatenate([tail.joints[1:], travel, lead.joints[1:], lead.joints[-1:]])
+        return _keyframes(times, tail, [travel], lead)
 
-    def _is_clear(self, free: FreeTime, start: FloatArray, times: FloatArray, joints: FloatArray) -> bool:
-        """Whether keyframes after a start are clear of collisions, the base where it is then."""
-        track = JointTrack([free.start_s], [start])
-        track.add(times, joints)
+    def _is_clear(self, free: FreeTime, tail: Line, keyframes: Keyframes) -> bool:
+        """Whether hands that go on from a tail touch nothing, the base where it is then, nor pass low over cloth."""
+        track = JointTrack([free.start_s], [tail.joints[0]])
+        track.add(keyframes.times_s, keyframes.joints)
         count = int(np.ceil((free.end_s - free.start_s) / _CHECK_S))
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases = np.array([free.base_at(t) for t in moments])
         there = np.array([track.joints_at(t) for t in moments])
-        return self._collisions.are_all_free(bases, there)
+        is_free = self._collisions.are_all_free(bases, there)
+        return is_free and self._transits.are_clear(free.cloth, bases, there, AT_GRIPS)
 
     def _waiting(self, free: FreeTime, tail: Line, lead: Line) -> tuple[FreeTime, Keyframes]:
         """The base waits until the hands are home; they set out again when it has arrived.
@@ -113,25 +126,31 @@ class FreeHands:
         """
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
-        away = self._transits.way(first, tail.joints[-1], home)
-        back = self._transits.way(last, home, lead.joints[0])
+        away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
+        back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
         assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
         wait_s = tail.shortest_s + float(leave_s.sum())
         waited = free.after_waiting(wait_s)
-        begins = waited.end_s - (lead.shortest_s + float(back_s.sum()))
+        arrives = waited.end_s - self._dwell_s
+        begins = arrives - (lead.shortest_s + float(back_s.sum()))
         travel = [
             _travel(away, leave_s, waited.start_s + tail.shortest_s, waited.start_s + wait_s),
             (np.array([begins]), home[None]),
-            _travel(back, back_s, begins, waited.end_s - lead.shortest_s),
+            _travel(back, back_s, begins, arrives - lead.shortest_s),
         ]
         come = travel[-1][0][-1] + np.cumsum(lead.least_s)
-        times = [waited.start_s + np.cumsum(tail.least_s), *(t for t, _ in travel), come]
-        joints = [tail.joints[1:], *(j for _, j in travel), lead.joints[1:]]
-        return waited, (np.concatenate(times), np.concatenate(joints))
+        times = [waited.start_s + np.cumsum(tail.least_s), *(t for t, _ in travel), come, np.array([waited.end_s])]
+        return waited, _keyframes(times, tail, [joints for _, joints in travel], lead)
 
 
-def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> Keyframes:
+def _keyframes(times: list[FloatArray], tail: Line, travel: list[FloatArray], lead: Line) -> Keyframes:
+    """Keyframes on a tail, on the way from it to a lead, on that, and once more where that ends."""
+    joints = np.concatenate([tail.joints[1:], *travel, lead.joints[1:], lead.joints[-1:]])
+    return Keyframes(np.concatenate(times), joints)
+
+
+def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tuple[FloatArray, FloatArray]:
     """Keyframes along a way, each of its lines eased."""
     total = float(needed.sum())
     if total <= 0.0:

@@ -6,6 +6,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.plan.cue import Cue
+from planner.plan.lying_cloth import LyingCloth
 from planner.primitives.phase import Phase
 
 
@@ -16,10 +17,12 @@ class FreeTime:
     Attributes:
         cues: what base and cloth do then, one after the other.
         start_s: when it begins (s).
+        cloth: what lies on the table meanwhile.
     """
 
     cues: list[Cue]
     start_s: float
+    cloth: LyingCloth
 
     @property
     def end_s(self) -> float:
@@ -43,7 +46,7 @@ class FreeTime:
         *driving, reach = self.cues
         waiting = Cue(reach.primitive, _resting(self.cues[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0]))
         shorter = Cue.even(reach.primitive, reach.phase, reach.duration_s - wait_s)
-        return FreeTime([waiting, *driving, shorter], self.start_s)
+        return FreeTime([waiting, *driving, shorter], self.start_s, self.cloth)
 
 
 def _resting(phase: Phase) -> Phase:

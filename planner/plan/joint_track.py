@@ -6,11 +6,8 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 
-OPEN_M, CLOSED_M = 0.06, 0.004
+OPEN_M, CLOSED_M = 0.04, 0.004
 """The gripper's opening when it is free and when it holds cloth (m)."""
-
-_GRASP_S = 0.2
-"""How long the fingers take to close, and to open (s)."""
 
 
 @dataclass(slots=True)
@@ -58,15 +55,14 @@ class JointTrack:
                 self.times_s.append(t)
                 self.joints.append(here)
 
-    def close(self, arm: int, t_s: float) -> None:
-        """Close a gripper so that it holds from a time on."""
-        self._grip(arm, t_s, CLOSED_M)
+    def close(self, arm: int, start_s: float, end_s: float) -> None:
+        """Close a gripper from one time to another."""
+        self._grip(arm, start_s, end_s, CLOSED_M)
 
-    def open(self, arm: int, t_s: float) -> None:
-        """Open a gripper so that it is open from a time on."""
-        self._grip(arm, t_s, OPEN_M)
+    def open(self, arm: int, start_s: float, end_s: float) -> None:
+        """Open a gripper from one time to another."""
+        self._grip(arm, start_s, end_s, OPEN_M)
 
-    def _grip(self, arm: int, t_s: float, opening_m: float) -> None:
-        times, openings = self._grip_times_s[arm], self._openings_m[arm]
-        times += [max(t_s - _GRASP_S, times[-1]), t_s]
-        openings += [openings[-1], opening_m]
+    def _grip(self, arm: int, start_s: float, end_s: float, opening_m: float) -> None:
+        self._grip_times_s[arm] += [start_s, end_s]
+        self._openings_m[arm] += [self._openings_m[arm][-1], opening_m]

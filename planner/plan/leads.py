@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.plan.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.plan.moments import Moments, about_x
 from planner.robot.tool_path import ToolPath
 
@@ -26,14 +28,21 @@ _STEP_M = 0.01
 Shares = tuple[tuple[float, float], ...]
 
 NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
+UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
 FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
-"""How much of the straight line and of the rise is tried: what must do, and what had better."""
+"""How much of the straight line and of the rise is tried: what must do, what takes hands clear of cloth, and what had
+better."""
 
 OVER, BESIDE = 0.5 * np.pi, 0.0
 """The roll of a hand with one finger over the other, and side by side (rad)."""
 
-HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray], bool]
-"""Asked with an arm, the base (x, y, yaw; table frame), a tool's place (m) and axes (base frame): can it be there?"""
+HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray, LyingCloth | None], bool]
+"""Asked with an arm, the base (x, y, yaw; table frame), a tool's place (m) and axes (base frame), and cloth that lies:
+can it be there, clear of the cloth?"""
+
+
+Cloths = tuple[LyingCloth, LyingCloth]
+"""The cloth as it lies before a run, and after it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +65,20 @@ class Lead:
     Attributes:
         arm: which arm.
         path: where its tool must be at each step of the run; where it has withdrawn to it stays.
+        from_grip_m: how far it has to go to its grip as it comes, and has gone since it let go (m); 0 while it holds,
+            shape (steps,).
+        let_go: the first step at which it holds no more.
     """
 
     arm: int
     path: ToolPath
+    from_grip_m: FloatArray
+    let_go: int
+
+    def must_clear(self, steps: NDArray[np.int64]) -> tuple[BoolArray, BoolArray]:
+        """At which of some steps it must be clear of the cloth that lies before, and of that which lies after."""
+        is_far = self.from_grip_m[steps] > NEAR_GRIP_M
+        return is_far & (steps < self.let_go), is_far & (steps >= self.let_go)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,7 +96,7 @@ class Leads:
     first: int
 
     @staticmethod
-    def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom) -> "Leads":
+    def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> "Leads":
         """The parts of the arms that hold cloth at some of the moments.
 
         Args:
@@ -85,9 +104,10 @@ class Leads:
             lines: how hands come and leave.
             height_m: the table top's height over the floor.
             has_room: where a hand can be.
+            cloths: the cloth that lies before and after.
         """
         arms = np.flatnonzero(moments.is_held.any(axis=1))
-        ways = [_way(int(arm), moments, lines, height_m, has_room) for arm in arms]
+        ways = [_way(int(arm), moments, lines, height_m, has_room, cloths) for arm in arms]
         before = max(len(_stepped(way.approach)) for way in ways) - 1
         after = max(len(_stepped(way.retreat)) for way in ways) - 1
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
@@ -118,10 +138,18 @@ class _Way:
             np.concatenate([np.full(before, np.inf), self.spans_s, np.full(rest, np.inf)]),
             (before, before + len(self.positions)),
         )
-        return Lead(self.arm, path)
+        from_grip = np.zeros(steps)
+        from_grip[:before] = _gone_m(self.positions[0], coming[::-1])[::-1]
+        from_grip[steps - rest :] = _gone_m(self.positions[-1], path.positions[steps - rest :])
+        return Lead(self.arm, path, from_grip, steps - rest)
 
 
-def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom) -> _Way:
+def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
+    """How far each of some points is from a start, along the way through all of them (m)."""
+    return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
+
+
+def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> _Way:
     held = np.flatnonzero(moments.is_held[arm])
     positions = moments.positions[arm, held]
     rotations = moments.rotations[arm, held] @ about_x(np.array([lines.roll_rad]))[0]
@@ -129,12 +157,18 @@ def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: Ha
     coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
     leaving *= RETREAT_M / np.linalg.norm(leaving)
     ends = []
-    for number, line in ((0, APPROACH_M * coming), (-1, leaving)):
+    for number, line, cloth in ((0, APPROACH_M * coming, cloths[0]), (-1, leaving, cloths[1])):
         base, rotation = moments.bases[held[number]], rotations[number]
         corners = _corners(positions[number], line, lines.shares, height_m)
-        ends.append(next((c for c in corners if has_room(arm, base, c[-1], rotation)), positions[[number] * 3]))
+        able = (c for c in corners if has_room(arm, base, c[-1], rotation, cloth if _is_far(c) else None))
+        ends.append(next(able, positions[[number] * 3]))
     spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
     return _Way(arm, positions, rotations, spans, *ends)
+
+
+def _is_far(corners: FloatArray) -> bool:
+    """Whether a way leads so far from its grip that a hand at its end must be clear of cloth."""
+    return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum()) > NEAR_GRIP_M
 
 
 def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: float) -> list[FloatArray]:

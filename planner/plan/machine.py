@@ -1,6 +1,6 @@
 """What planning asks of a robot besides its reach; `planner.robot` answers it."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from typing import Protocol
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -10,6 +10,16 @@ from planner.robot.arm_pair_path import BothArms
 from planner.robot.card import RobotCard
 from planner.robot.collision.contact import Contact
 from planner.robot.tool_path import IsFree, NoPath, ToolPath
+
+
+class Clearance(Protocol):
+    """What of a robot's arms is too low over cloth that lies somewhere."""
+
+    def arm_clear(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
+        """At which joints of one arm, shape (n, 7), it is high enough, shape (n,); see `Collisions.arm_free`."""
+        ...
 
 
 class Collisions(Protocol):
@@ -44,6 +54,10 @@ class Collisions(Protocol):
 
     def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
         """Whether some posture of the left arm and some of the right certainly do not touch; see `postures_apart`."""
+        ...
+
+    def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
+        """What is lower than so high (m) over convex pieces of cloth, table frame, each of shape (n, 2), m."""
         ...
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
@@ -138,4 +152,8 @@ class Machine(Hashable, Protocol):
 
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
+        ...
+
+    def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
+        """The tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
         ...

@@ -47,6 +47,18 @@ class Moments:
         return ~np.isnan(self.positions[:, :, 0])
 
     @property
+    def is_used(self) -> BoolArray:
+        """Which arms hold cloth at some of the moments, shape (arms,)."""
+        return np.asarray(self.is_held.any(axis=1))
+
+    @property
+    def is_last_held(self) -> BoolArray:
+        """At which moment each hand lets go, shape (arms, n)."""
+        return np.asarray(
+            self.is_held & ~np.append(self.is_held[:, 1:], np.zeros((len(self.is_held), 1), bool), axis=1)
+        )
+
+    @property
     def progress(self) -> FloatArray:
         """How far the whole is at each, 0 to 1, every phase counting the same, shape (n,)."""
         done = self.phases + self.fractions

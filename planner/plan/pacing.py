@@ -25,18 +25,19 @@ def needed_s(joints: FloatArray, speeds_rad_s: FloatArray) -> FloatArray:
     return np.asarray(steps.max(axis=tuple(range(1, steps.ndim)), initial=0.0))
 
 
-def paced_s(nominal_s: FloatArray, least_s: FloatArray) -> FloatArray:
+def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> FloatArray:
     """How long each step takes: no less than it needs, as near to its even share of the whole as that allows.
 
     Args:
         nominal_s: each step's duration at an even pace, shape (n,).
         least_s: the least that each needs, shape (n,).
+        rest_s: how much of the whole is not for them, but for resting.
 
     Returns:
-        Shape (n,); the sum is that of the nominal durations, or of the least ones if that is longer.
+        Shape (n,); the sum is that of the nominal durations less the rest, or of the least ones if that is longer.
     """
-    total = float(nominal_s.sum())
-    if np.all(least_s <= nominal_s):
+    total = float(nominal_s.sum()) - rest_s
+    if rest_s == 0.0 and np.all(least_s <= nominal_s):
         return nominal_s
     if float(least_s.sum()) >= total:
         return least_s

@@ -195,7 +195,7 @@ class Plan:
     @cached_property
     def _timeline(self) -> Timeline:
         maker, before = self.problem.maker, standing(self.work, self.problem.start)
-        film = FilmMaker(maker.transits, maker.collisions).film(self.acts, before)
+        film = FilmMaker(maker.transits, maker.collisions, maker.dwell_s).film(self.acts, before)
         return Timeline.of(film, self.cost_s or 0.0, self.work, self.problem.robot.card)
 
     def timeline(self) -> Timeline:

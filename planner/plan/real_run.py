@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.plan.carried import Carried
-from planner.plan.cue import Cue
+from planner.plan.run_timing import RunTiming
 from planner.primitives.phase import Phase
 from planner.primitives.primitive import Step
 
@@ -22,18 +22,16 @@ class RealRun:
     Attributes:
         steps: the primitives, as they are performed.
         carried: the joints.
-        cues: the phases in which cloth is held; their primitives are counted within the run.
-        times_s: when each moment is, from the first grip (s), shape (moments,).
+        timing: when what happens while cloth is held.
         lead_s: the least time for each step that leads to the grips, shape (steps before the moments,).
         tail_s: the least time for each step away from them, shape (steps after the moments,).
-        late_s: how much more than their shares of a reach's time it takes to come from home to the grips, and to go
-            home afterwards (s).
+        late_s: how much more than their shares of a reach's time it takes to come from home to the grips and close
+            the fingers, and to go home afterwards (s).
     """
 
     steps: tuple[Step, ...]
     carried: Carried
-    cues: tuple[Cue, ...]
-    times_s: FloatArray
+    timing: RunTiming
     lead_s: FloatArray
     tail_s: FloatArray
     late_s: tuple[float, float]
@@ -44,6 +42,11 @@ class RealRun:
         return tuple(p for p in self.steps[0].phases() if p.duration_s > 0.0 and not is_carrying(p))
 
     @property
+    def reach_late_s(self) -> float:
+        """How much longer its reach takes than it seems to (s); negative where rests that follow are part of it."""
+        return self.late_s[0] - self.timing.borrowed_s
+
+    @property
     def is_late(self) -> bool:
         """Whether it takes longer than its steps seem to."""
         return sum(self.durations_s()) > sum(step.duration_s for step in self.steps)
@@ -51,9 +54,9 @@ class RealRun:
     def durations_s(self) -> tuple[float, ...]:
         """How long each step really takes (s)."""
         late = [0.0] * len(self.steps)
-        for cue in self.cues:
+        for cue in self.timing.cues:
             late[cue.primitive] += cue.duration_s - cue.phase.duration_s
-        late[0] += self.late_s[0]
+        late[0] += self.reach_late_s
         late[-1] += self.late_s[1]
         exact = (excess if excess > TIME_S else 0.0 for excess in late)
         return tuple(step.duration_s + excess for step, excess in zip(self.steps, exact, strict=True))

@@ -9,13 +9,17 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.geometry.tolerance import grid_key
 from planner.plan.carried import Carried
 from planner.plan.carrying import Carrier
-from planner.plan.cue import Cue
+from planner.plan.joint_track import CLOSED_M, OPEN_M
+from planner.plan.leads import Cloths
+from planner.plan.lying_cloth import LyingCloth, LyingCloths
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, moments_of
-from planner.plan.pacing import needed_s, paced_s
+from planner.plan.pacing import needed_s
 from planner.plan.real_run import RealRun, is_carrying
+from planner.plan.run_timing import RunTiming
 from planner.plan.snags import Snags
 from planner.plan.transits import Transits
 from planner.primitives.obstacle import Snag
@@ -40,7 +44,11 @@ _VARIANTS_MAX = 6
 """So many choices of each step are combined with those of the others in its run."""
 
 _HALF = 0.5
-"""The share of a reach's time in which hands must be able to come from home, and to go home after the run before."""
+"""The share of a reach's time, fingers closed, in which hands must be able to go home after the run before."""
+
+
+Lines = tuple[FloatArray | None, FloatArray | None]
+"""The straight ways from grips and to grips between which a way leads, each of shape (n, arms, 7); None at home."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,11 +59,13 @@ class Candidate:
         steps: the primitives, none but the last of which lets go.
         carrying: the phases in which cloth is held, each with its primitive's number.
         moments: the same, moment by moment.
+        cloths: the cloth that lies before and after.
     """
 
     steps: tuple[Step, ...]
     carrying: tuple[tuple[int, Phase], ...]
     moments: Moments
+    cloths: Cloths
 
     @property
     def kind(self) -> tuple[object, ...]:
@@ -91,6 +101,7 @@ class RunMaker:
 
     Attributes:
         transits: the ways of free hands.
+        dwell_s: how long hands rest while fingers close, and while they open (s).
         collisions: what is in whose way.
     """
 
@@ -103,7 +114,9 @@ class RunMaker:
         self._carrier = carrier
         self._stuck = _Stuck()
         self._snags = Snags(machine, collisions, scene.torso_m, scene.table.height_m)
-        self.transits = Transits(machine, collisions)
+        self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
+        self.transits = Transits(machine, collisions, scene.torso_m)
+        self._cloths = LyingCloths(work, collisions)
         self.collisions = collisions
 
     def real(self, steps: Sequence[Step], ways: int = _WAYS_MAX, late_max: int = _LATE_MAX) -> RealRun | None:
@@ -152,29 +165,27 @@ class RunMaker:
         """Steps as they are to be performed, moment by moment, whether they may be real or not."""
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
-        return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]))
+        cloths = (self._cloths.of(steps[0].before), self._cloths.of(steps[-1].after))
+        return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> RealRun | None:
         """A candidate made real; None without a way."""
-        return self._run(candidate, self._carrier.carried(candidate.moments))
+        return self._run(candidate, self._carrier.carried(candidate.moments, candidate.cloths))
 
     def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
         """A candidate made real, its joints near to those of another run if they can be; None without a way."""
-        return self._run(candidate, self._carrier.adapted(candidate.moments, like.carried))
+        return self._run(candidate, self._carrier.adapted(candidate.moments, candidate.cloths, like.carried))
 
     def _run(self, candidate: "Candidate", carried: Carried | NoPath) -> RealRun | None:
         if isinstance(carried, NoPath):
             self._stuck.note(candidate, carried)
             return None
-        late = self._late(carried)
+        least, first, last = needed_s(carried.joints, self._speeds), carried.first, carried.last
+        timing = RunTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
+        late = self._late(candidate.steps, carried, timing.borrowed_s)
         if late is None:
             return None
-        carrying, moments = candidate.carrying, candidate.moments
-        least = needed_s(carried.joints, self._speeds)
-        first, last = carried.first, carried.last
-        times = np.append(0.0, np.cumsum(_paced(carrying, moments, least[first:last])))
-        cues = tuple(_cues(carrying, moments, times))
-        return RealRun(candidate.steps, carried, cues, times, least[:first], least[last:], late)
+        return RealRun(candidate.steps, carried, timing, least[:first], least[last:], late)
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._work.scene.table.height_m)
@@ -184,18 +195,33 @@ class RunMaker:
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._snags.of(self._moments(phases))
 
-    def _late(self, carried: Carried) -> tuple[float, float] | None:
-        """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way."""
-        home, joints, bases = self.transits.home, carried.joints, carried.bases
-        late = []
-        ends = ((bases[0], joints[0], joints[: carried.first + 1]), (bases[-1], joints[-1], joints[carried.last :]))
-        for base, away, line in ends:
-            way = self.transits.way(Pose2.of(base), home, away)
-            if way is None:
-                return None
-            needed = float(self.transits.needed_s(way).sum() + self.transits.needed_s(line).sum())
-            late.append(max(0.0, needed - _HALF * self._work.scene.arm_motion_s))
-        return late[0], late[1]
+    def _late(self, steps: Sequence[Step], carried: Carried, borrowed_s: float) -> tuple[float, float] | None:
+        """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way.
+
+        What is left when fingers have closed is shared evenly between going home from the run before and coming. Where
+        nothing has been done before, hands wait at home, and after the last fold they need not go there.
+        """
+        home, motion_s = self.transits.home, self._work.scene.arm_motion_s
+        lead, tail = carried.joints[: carried.first + 1], carried.joints[carried.last :]
+        leaving_s = _HALF * max(motion_s - self.dwell_s, 0.0)
+        is_first = steps[0].before.done == 0 and grid_key(max(map(abs, steps[0].before.offset))) == 0
+        coming_s = motion_s - self.dwell_s - borrowed_s - (0.0 if is_first else leaving_s)
+        came = self._exceeding(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0], coming_s)
+        is_last = steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1
+        left = self._exceeding(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1], leaving_s)
+        if came is None or (left is None and not is_last):
+            return None
+        return came, 0.0 if is_last or left is None else left
+
+    def _exceeding(
+        self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth, share_s: float
+    ) -> float | None:
+        """How much longer than its share it takes to go along a way and the lines it leads from or to (s)."""
+        way = self.transits.way(Pose2.of(base), *ends, cloth, self.transits.spared(*lines))
+        if way is None:
+            return None
+        needed = sum(float(self.transits.needed_s(one).sum()) for one in (way, *lines) if one is not None)
+        return max(0.0, needed - share_s)
 
 
 def _ways(steps: Sequence[Step]) -> Iterator[tuple[Step, ...]]:
@@ -209,30 +235,3 @@ def _carrier(machine: Machine, table: Table, torso_m: float) -> tuple[Carrier, C
     """What finds joint paths at a table, and what is in the way there: kept from plan to plan."""
     collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
     return Carrier(machine, collisions, torso_m, table.height_m), collisions
-
-
-def _paced(carrying: Sequence[tuple[int, Phase]], moments: Moments, least_s: FloatArray) -> FloatArray:
-    """How long each step from moment to moment takes (s), shape (moments - 1,).
-
-    The phases of one arm motion share its time; a drive is no quicker than it is, even in parts.
-    """
-    phases, nominal = moments.phases[1:], moments.nominal_s[1:]
-    found = np.maximum(least_s, nominal)
-    motions = [(primitive, phase.motion) for primitive, phase in carrying]
-    for motion in dict.fromkeys(motions):
-        if motion[1] is not None:
-            rows = np.flatnonzero(np.isin(phases, [i for i, other in enumerate(motions) if other == motion]))
-            found[rows] = paced_s(nominal[rows], least_s[rows])
-    return found
-
-
-def _cues(carrying: Sequence[tuple[int, Phase]], moments: Moments, times: FloatArray) -> Iterator[Cue]:
-    start = 0.0
-    for number, (primitive, phase) in enumerate(carrying):
-        rows = np.flatnonzero((moments.phases == number) & (times > start))
-        if len(rows) == 0:
-            # In a motion slower than it should be, a phase through which the hands rest takes no time at all.
-            yield Cue.even(primitive, phase, 0.0)
-            continue
-        yield Cue(primitive, phase, np.append(start, times[rows]) - start, np.append(0.0, moments.fractions[rows]))
-        start = float(times[rows[-1]])

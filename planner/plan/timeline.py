@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import TIME_S
 from planner.plan.cloth_surface import ClothSurfaces
 from planner.plan.film import Film
 from planner.plan.frame import Frame
@@ -89,7 +90,7 @@ class Timeline:
         if not RATE_HZ[0] <= rate_hz <= RATE_HZ[1]:
             raise RequestError("rate_hz", f"{rate_hz} is not between {RATE_HZ[0]:g} and {RATE_HZ[1]:g}")
         count = 0
-        while count / rate_hz < self.duration_s:
+        while count / rate_hz < self.duration_s - TIME_S:
             yield self.at(count / rate_hz)
             count += 1
         yield self.at(self.duration_s)

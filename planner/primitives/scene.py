@@ -53,6 +53,8 @@ class Scene:
         back_off_max_m: the furthest that the base may back off from a station (m).
         edge_clear_m: how far outside a table edge's plane a tool holds cloth that hangs there (m).
         arm_motion_s: the time of one arm motion (s).
+        grip_dwell_s: how long a hand rests while its fingers close, and again while they open, within an arm
+            motion (s).
         base_speed_m_s: the base's speed (m/s).
         base_turn_rad_s: the base's turning speed (rad/s).
     """
@@ -66,6 +68,7 @@ class Scene:
     back_off_max_m: float = 0.8
     edge_clear_m: float = 0.03
     arm_motion_s: float = 3.0
+    grip_dwell_s: float = 0.5
     base_speed_m_s: float = 0.25
     base_turn_rad_s: float = 0.5
 
@@ -81,6 +84,7 @@ class Scene:
         _require_between("approach_cone_rad", self.approach_cone_rad, 0.0, math.pi)
         _require_between("back_off_max_m", self.back_off_max_m, 0.0, 1.5)
         _require_between("edge_clear_m", self.edge_clear_m, 0.0, 0.1)
+        _require_between("grip_dwell_s", self.grip_dwell_s, 0.0, 60.0)
         for name in ("arm_motion_s", "base_speed_m_s", "base_turn_rad_s"):
             _require_between(name, getattr(self, name), 1e-3, 1e3)
 
@@ -132,6 +136,7 @@ class _SceneModel(StrictModel):
     back_off_max_m: float | None = None
     edge_clear_m: float | None = None
     arm_motion_s: float | None = None
+    grip_dwell_s: float | None = None
     base_speed_m_s: float | None = None
     base_turn_rad_s: float | None = None
 

@@ -18,6 +18,7 @@ class GripperCard:
         link_y_m: how far it is to the side of it (m).
         opening_max_m: the widest opening (m).
         finger_width_m: how wide a finger is across the closing direction (m).
+        speed_rad_s: how fast the driven joint may turn (rad/s).
     """
 
     joint_name: str
@@ -25,6 +26,7 @@ class GripperCard:
     link_y_m: float
     opening_max_m: float
     finger_width_m: float
+    speed_rad_s: float
 
     def angle(self, opening_m: float) -> float:
         """The driven joint (rad) at which the fingers are an opening apart (m), kept to 0..opening_max_m.
@@ -35,6 +37,14 @@ class GripperCard:
         half = 0.5 * min(max(opening_m, 0.0), self.opening_max_m)
         length = math.hypot(self.link_x_m, self.link_y_m)
         return math.asin((half + self.link_y_m) / length) - math.asin(self.link_y_m / length)
+
+    def least_s(self, wide_m: float, narrow_m: float) -> float:
+        """The least time to go evenly from one opening (m) to a narrower one, or back (s).
+
+        Per metre the driven joint turns most where the fingers are widest apart.
+        """
+        ahead = math.sqrt(self.link_x_m**2 + self.link_y_m**2 - (0.5 * wide_m + self.link_y_m) ** 2)
+        return 0.5 * (wide_m - narrow_m) / ahead / self.speed_rad_s
 
 
 @dataclass(frozen=True, slots=True)

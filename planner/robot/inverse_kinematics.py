@@ -62,6 +62,15 @@ def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 @njit(cache=True, nogil=True)
+def tool_places(shape: ArmShape, joints: FloatArray) -> FloatArray:
+    """Where the tool is at each of some joints, shape (n, 7), seen from the shoulder (m), shape (n, 3)."""
+    found = np.empty((len(joints), 3))
+    for i in range(len(joints)):
+        found[i] = tool_pose(shape, joints[i])[0]
+    return found
+
+
+@njit(cache=True, nogil=True)
 def _within(limits: Sector, angle: float) -> float:
     """The same direction as an angle within limits, or nan; what rounding put outside is put back."""
     angle += math.tau * math.ceil((limits.low - ANGLE_RAD - angle) / math.tau)

@@ -188,6 +188,10 @@ class Pr2:
         """Samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
         return free_postures(self._arms[arm], position, rotation, float(torso_m), is_free)
 
+    def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
+        """The tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
+        return self._arms[arm].tool_places(joints, float(torso_m))
+
     def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
         """How high an arm's elbow is above the floor (m) at seven joint angles."""
         return self._arms[arm].elbow_height(joints, float(torso_m))

@@ -51,6 +51,7 @@ def _arm_card(model: pin.Model, name: str, side: float) -> ArmCard:
 
 
 def _gripper_card(model: pin.Model, prefix: str) -> GripperCard:
+    finger = model.joints[model.getJointId(f"{prefix}_gripper_l_finger_joint")]
     hinge = model.jointPlacements[model.getJointId(f"{prefix}_gripper_l_finger_tip_joint")].translation
     return GripperCard(
         joint_name=f"{prefix}_gripper_l_finger_joint",
@@ -58,4 +59,5 @@ def _gripper_card(model: pin.Model, prefix: str) -> GripperCard:
         link_y_m=float(hinge[1]),
         opening_max_m=0.09,
         finger_width_m=0.022,
+        speed_rad_s=float(model.velocityLimit[finger.idx_v]),
     )

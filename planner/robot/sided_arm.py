@@ -6,7 +6,7 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robot.arm import MIRROR, ArmShape
-from planner.robot.inverse_kinematics import nearest_joints, tool_pose
+from planner.robot.inverse_kinematics import nearest_joints, tool_places, tool_pose
 from planner.robot.kernel import reachable_batch
 
 _MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
@@ -50,6 +50,10 @@ class SidedArm:
         """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
         position, rotation = tool_pose(self.shape, self.mirrored_joints(joints))
         return self.mirrored_places(position + self.shoulder(torso_m)), self.mirrored_rotations(rotation)
+
+    def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
+        """The tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
+        return self.mirrored_places(tool_places(self.shape, self.mirrored_joints(joints)) + self.shoulder(torso_m))
 
     def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
         """How high the elbow is above the floor (m)."""

@@ -16,9 +16,6 @@ from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
 
 RATE_HZ = 25.0
-OPENING_S = 0.2
-"""Fingers begin to open so long before they are open, which is when the cloth has been laid down."""
-
 ROBOT = load_robot("pr2")
 HOME = np.array([ROBOT.home(0), ROBOT.home(1)])
 NAMES = ("hand-towel", "t-shirt", "jeans")
@@ -27,7 +24,7 @@ each_name = pytest.mark.parametrize("name", NAMES)
 
 
 def film_of(plan: Plan) -> Film:
-    maker = FilmMaker(plan.problem.maker.transits, plan.problem.maker.collisions)
+    maker = FilmMaker(plan.problem.maker.transits, plan.problem.maker.collisions, plan.problem.maker.dwell_s)
     return maker.film(plan.acts, standing(plan.work, plan.problem.start))
 
 
@@ -97,7 +94,8 @@ def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_e
         for arm in (0, 1):
             if is_holding(cue, arm):
                 held += 1
-                lasts = cue.duration_s if after is not None and is_holding(after, arm) else cue.duration_s - OPENING_S
+                is_last = after is None or not is_holding(after, arm)
+                lasts = cue.duration_s - plan.scene.grip_dwell_s if is_last else cue.duration_s
                 for t in np.linspace(start, start + lasts, 5):
                     assert film.track.opening_at(arm, t) == pytest.approx(CLOSED_M)
     assert held >= len(plan.garment.folds)
@@ -123,11 +121,11 @@ def test_keyframes_that_come_too_late_are_left_out():
     assert track.joints_at(1.0) == pytest.approx(HOME + 0.4)
 
 
-def test_fingers_take_a_fifth_of_a_second_to_close_and_to_open():
+def test_fingers_close_and_open_evenly_and_when_they_are_told():
     track = JointTrack.at_rest(HOME)
-    track.close(1, 2.0)
-    track.open(1, 3.0)
-    found = [track.opening_at(1, t) for t in (1.8, 1.9, 2.0, 2.8, 2.9, 3.0)]
+    track.close(1, 1.5, 2.0)
+    track.open(1, 3.0, 3.5)
+    found = [track.opening_at(1, t) for t in (1.5, 1.75, 2.0, 3.0, 3.25, 3.5)]
     middle = (OPEN_M + CLOSED_M) / 2
     assert found == pytest.approx([OPEN_M, middle, CLOSED_M, CLOSED_M, middle, OPEN_M])
     assert track.opening_at(0, 2.5) == OPEN_M

@@ -4,7 +4,7 @@ that something stands in."""
 import heapq
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import count
 from typing import Any
 
@@ -15,7 +15,7 @@ from planner import Garment, Plan, Scene, make_plan
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.plan import plan_search, problem, realizer
-from planner.plan.machine import Collisions
+from planner.plan.machine import Clearance, Collisions
 from planner.plan.run_maker import RunMaker
 from planner.primitives.obstacle import Code
 from planner.primitives.primitive import Step
@@ -131,6 +131,9 @@ class BarredCollisions:
 
     def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
         return self._real.are_some_apart(left, right)
+
+    def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
+        return self._real.over_cloth(pieces, over_m)
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
         return self._real.deepest_contact(base_in_table, joints)

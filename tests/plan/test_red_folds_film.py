@@ -10,14 +10,13 @@ from planner import Plan, make_plan
 from planner.geometry.pose import FloatArray
 from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.frame import ClothSurface
+from planner.plan.joint_track import CLOSED_M, OPEN_M
 from planner.plan.plan import PlannedPrimitive
 from planner.primitives.fold_step import FoldStep
 from tests.plan.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
 
-OPEN_M = 0.06
-CLOSED_M = 0.004
-RELEASE_S = 0.3
+RELEASE_S = 0.5
 
 
 @cache

@@ -66,6 +66,7 @@ def test_a_table_given_in_part_keeps_the_rest():
         ({"edge_clear_m": -0.01}, "edge_clear_m"),
         ({"edge_clear_m": 0.11}, "edge_clear_m"),
         ({"arm_motion_s": 0.0}, "arm_motion_s"),
+        ({"grip_dwell_s": -0.1}, "grip_dwell_s"),
         ({"base_speed_m_s": 0.0}, "base_speed_m_s"),
         ({"base_turn_rad_s": -1.0}, "base_turn_rad_s"),
     ],

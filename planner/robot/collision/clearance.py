@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.robot.collision.bodies import Bodies, Pairs
 from planner.robot.collision.part_poses import EACH
 from planner.robot.collision.parts import ELBOW
@@ -46,12 +46,14 @@ class Clearance:
         self._bodies = Bodies(robot.arm, torso_m, parts, shapes, poses, places)
         self._of_arm = tuple(_pairs(arm, range(len(robot.names), len(shapes))) for arm in range(2))
 
-    def arm_clear(self, arm: int, bases: FloatArray, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+    def arm_clear(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
         """At which joints of one arm, shape (n, 7), it is clear of all cloth, shape (n,).
 
         Args:
             arm: which arm.
-            bases: where the base stands: x (m), y (m), yaw (rad), table frame, shape (n, 3) or, one for all, (1, 3).
+            bases: where the base stands: one pose of the table frame for all, or x (m), y (m), yaw (rad) of each.
             joints: the arm's joints (rad).
             is_certain: whether only those count that are certainly clear, which is quicker to tell.
         """

@@ -1,0 +1,81 @@
+"""Hands that hold nothing, in every film: never in the table, never low over cloth, fingers in good time."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from planner.geometry.table import Table
+from tests.laws.law import LONG
+from tests.replay.free_hands import Look, in_table, looks, too_low
+from tests.replay.hands import CLOSED_M
+from tests.replay.joints import speed_limits
+from tests.replay.planned import SOLVABLE, planned
+
+IS_LONG = settings.get_current_profile_name() == LONG
+RATE_HZ = 50.0 if IS_LONG else 4.0
+LOOKED_AT = SOLVABLE if IS_LONG else ("t-shirt", "shirt", "vest", "big-towel")
+"""Hulls are compared with the cloth: 3 ms a look."""
+
+FINGERS = {"left": "l_gripper_l_finger_joint", "right": "r_gripper_l_finger_joint"}
+
+each_solvable = pytest.mark.parametrize("name", SOLVABLE)
+each_looked_at = pytest.mark.parametrize("name", LOOKED_AT)
+
+
+@cache
+def looks_at(name: str) -> list[Look]:
+    return looks(planned(name).answer, RATE_HZ)
+
+
+@each_looked_at
+def test_no_part_of_a_free_hand_is_in_the_table(name: str):
+    for look in looks_at(name):
+        found = list(in_table(look, Table()))
+        assert not found, f"at {look.frame.t_s:.2f} s: {found}"
+
+
+@each_looked_at
+def test_no_part_of_a_free_arm_is_low_over_cloth_but_near_its_grip(name: str):
+    for look in looks_at(name):
+        found = list(too_low(look, Table()))
+        assert not found, f"at {look.frame.t_s:.2f} s: {found}"
+
+
+@each_solvable
+def test_no_finger_opens_before_the_cloth_lies(name: str):
+    plan = planned(name).answer
+    timeline, opened = plan.timeline(), 0
+    for primitive in plan.primitives:
+        end = primitive.start_s + primitive.duration_s
+        lies = timeline.at(end - 1e-6).cloth.vertices
+        times = np.arange(primitive.start_s, end, 0.02)
+        openings = np.array([[*timeline.at(float(t)).grippers_m.values()] for t in times])
+        for arm in range(openings.shape[1]):
+            is_opening = (openings[1:, arm] > openings[:-1, arm] + 1e-6) & (openings[1:, arm] > CLOSED_M)
+            for t in times[1:][is_opening]:
+                opened += 1
+                np.testing.assert_allclose(timeline.at(float(t)).cloth.vertices, lies, atol=1e-9)
+    assert opened > 0
+
+
+@each_solvable
+def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
+    frames = list(planned(name).answer.timeline().samples(50.0))
+    times = np.array([frame.t_s for frame in frames])
+    for joint, limit in zip(FINGERS.values(), speed_limits([*FINGERS.values()]), strict=True):
+        angles = np.array([frame.joints[joint] for frame in frames])
+        assert np.ptp(angles) > 0.1 or joint.startswith("l_"), f"{joint} never moves"
+        assert np.abs(np.diff(angles) / np.diff(times)).max() <= limit + 1e-6
+
+
+@pytest.mark.parametrize("rate_hz", [1.0, 10.0, 30.0, 50.0])
+@each_solvable
+def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float):
+    plan = planned(name).answer
+    times = np.array([frame.t_s for frame in plan.timeline().samples(rate_hz)])
+    assert times[-1] == plan.cost_s
+    steps = np.diff(times)
+    assert steps[:-1] == pytest.approx(np.full(len(steps) - 1, 1.0 / rate_hz), abs=1e-9)
+    assert 1e-6 < steps[-1] <= 1.0 / rate_hz + 1e-9
