@@ -166,6 +166,17 @@ class Document:
         """Want an answer to a version that has none because planning was stopped or has failed."""
         self._change(lambda state: replace(state, failure=None) if state.failure else state)
 
+    def look_longer(self) -> None:
+        """Want more work done for this version's answer, where that may come to a better one."""
+
+        def change(state: DocumentState) -> DocumentState:
+            if state.answer is None or not state.may_look_longer:
+                return state
+            kept = replace(state.answer, is_final=False) if state.answer.plan.is_solved else None
+            return replace(state, answer=kept, is_thorough=True)
+
+        self._change(change)
+
     def play(self) -> None:
         """Let time run; without a solved plan nothing happens."""
         self._change_playback(lambda playback: playback.played(self._clock()))

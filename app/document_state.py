@@ -112,6 +112,7 @@ class DocumentState:
         film: what is played; it may belong to an older version.
         checks: what the folds need.
         failure: why the planner gave no answer at all to this version.
+        is_thorough: whether more work than usual is done for this version's answer, since somebody asked for that.
         playback: the clock.
         is_dark: whether it is shown on a dark ground; of several pages, the last one to say decides.
     """
@@ -124,6 +125,7 @@ class DocumentState:
     film: Film | None = None
     checks: Checks | None = None
     failure: str | None = None
+    is_thorough: bool = False
     playback: Playback = Playback()
     is_dark: bool = False
 
@@ -151,6 +153,20 @@ class DocumentState:
         return self.answer is not None and self.answer.version == self.version
 
     @property
+    def plan_on_show(self) -> Plan | None:
+        """The solved plan on show for this version, if a quicker one is being looked for."""
+        answer = self.answer
+        is_shown = answer is not None and self.is_answered and not answer.is_final
+        return answer.plan if answer is not None and is_shown and answer.plan.is_solved else None
+
+    @property
+    def may_look_longer(self) -> bool:
+        """Whether more work than was done for the answer may come to a better one."""
+        if self.is_thorough or self.answer is None or not self.is_answered or not self.answer.is_final:
+            return False
+        return self.answer.plan.statistics.is_cut_short
+
+    @property
     def is_planning(self) -> bool:
         """Whether the answer is still being worked out."""
         return not (self.is_answered or self.failure or self.solution.problems)
@@ -161,7 +177,7 @@ class DocumentState:
         An answer to the same question is an answer to it too; the plan of a garment of another name is none of it.
         """
         version = self.version + 1
-        after = replace(self, version=version, draft=draft, failure=None)
+        after = replace(self, version=version, draft=draft, failure=None, is_thorough=False)
         if draft.drawing.name != self.drawing.name:
             after = replace(after, answer=None, committed=None, before=None)
         answer, question = after.answer, after.question

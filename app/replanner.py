@@ -24,7 +24,14 @@ from app.known_plans import KnownPlans
 from app.store.plan_store import PlanStore
 from planner import make_plan, quick_plan
 from planner.errors import FoldingError, SceneError
+from planner.plan.make_plan import TIME_LIMIT_S
 from planner.plan.plan import Plan
+
+WORK_S, LONGER_WORK_S = 10.0, 60.0
+"""How much work a search may do, and one that was asked to look longer (s of the machine of `planner.plan.budget`).
+
+Not the clock but this ends it, so that what is shown in the end does not depend on how busy the machine was.
+"""
 
 PATIENCE_S = 0.5
 """So long after it began a search for a first plan may go on although a preview has made it out of date (s)."""
@@ -47,6 +54,7 @@ class Replanner:
         self._arms = arms
         self._lock = threading.Lock()
         self._version = 0
+        self._is_thorough = False
         self._has_failed = False
         self._job: Job[None] | None = None
         self._asked: DocumentState | None = None
@@ -68,6 +76,10 @@ class Replanner:
         state = self._document.state
         with self._lock:
             is_again, self._has_failed = self._has_failed and state.failure is None, state.failure is not None
+            is_longer, self._is_thorough = state.is_thorough and not self._is_thorough, state.is_thorough
+            if is_longer and state.version == self._version:
+                self._go_on(state)
+                return
             if state.version <= self._version and not is_again:
                 return
             self._version = state.version
@@ -169,15 +181,20 @@ class Replanner:
         if question is not None and plan is None:
             show = partial(self._show_meanwhile, state.version, question, first, is_unwanted)
             like = self._plans_known()
-            known = _found_soon(question, like, show, is_unwanted)
+            known = state.plan_on_show
+            if known is not None:
+                first.append(known)
+            else:
+                known = _found_soon(question, like, show, is_unwanted)
         self._check(state)
         if question is None or is_unwanted():
             return None
         if plan is None:
-            plan = _quickest(question, known, like, show, is_unwanted)
+            work_s = LONGER_WORK_S if state.is_thorough else WORK_S
+            plan = _quickest(question, work_s, known, like, show, is_unwanted)
             if is_unwanted():
                 return None
-            if plan.is_proven:  # with more time, or on a quieter machine, there may be a better one
+            if plan.is_proven:  # with more work there may be a better one
                 self._remember(question, plan)
         self._publish(state.version, question, plan, is_final=True)
         return plan
@@ -238,12 +255,16 @@ def _found_soon(question: Question, like: list[Plan], show: Show, should_stop: S
     return plan
 
 
-def _quickest(question: Question, known: Plan | None, like: list[Plan], show: Show, should_stop: ShouldStop) -> Plan:
+def _quickest(
+    question: Question, work_s: float, known: Plan | None, like: list[Plan], show: Show, should_stop: ShouldStop
+) -> Plan:
     return make_plan(
         question.garment,
         question.scene,
         start_station=question.start_station,
         comfort_radius_m=question.comfort_radius_m,
+        time_limit_s=TIME_LIMIT_S[1],
+        work_limit_s=work_s,
         should_stop=should_stop,
         known=known,
         like=like,

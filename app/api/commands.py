@@ -5,7 +5,19 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from app.api.messages import COMMANDS, Choose, Command, Pause, PlanAgain, Play, Seek, SetSpeed, SetTheme, Stop
+from app.api.messages import (
+    COMMANDS,
+    Choose,
+    Command,
+    LookLonger,
+    Pause,
+    PlanAgain,
+    Play,
+    Seek,
+    SetSpeed,
+    SetTheme,
+    Stop,
+)
 from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.edit import Edit
@@ -41,6 +53,8 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             put_garment(document, workspace.garments.garment(name))
         case PlanAgain():
             document.plan_again()
+        case LookLonger():
+            document.look_longer()
         case Stop():
             document.stop_planning()
 

@@ -35,6 +35,7 @@ def plan_message(state: DocumentState) -> dict[str, Any]:
         "status": status_word(state),
         "text": status_text(state),
         "plan": _answer(state, state.answer) if is_shown and state.answer is not None else None,
+        "may_look_longer": state.may_look_longer,
         "before": None if state.before is None else _figures(state.before),
         "checks": None if state.checks is None else _checks(state.checks),
     }
@@ -89,11 +90,11 @@ def status_text(state: DocumentState) -> str:
 
 def _out_of_time(statistics: Statistics) -> str:
     """How far a search came, and what would let it come further."""
-    states, bound_s = statistics.expanded, statistics.bound_s
-    known = "" if bound_s is None else f", and any plan takes at least {bound_s:.1f} s"
+    ways, bound_s = statistics.ways, statistics.bound_s
+    known = "" if bound_s is None else f"; any plan takes at least {bound_s:.1f} s"
     return (
-        f"the time for searching ran out: {states:,} state{'' if states == 1 else 's'} looked at{known}. "
-        "A longer limit would help, or fewer folds that may be done in any order"
+        f"searched {ways:,} way{'' if ways == 1 else 's'} and found none{known}. "
+        "To look longer may help, or fewer folds that may be done in any order"
     )
 
 

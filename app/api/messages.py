@@ -125,5 +125,11 @@ class PlanAgain(StrictModel):
     do: Literal["plan"]
 
 
-Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain
+class LookLonger(StrictModel):
+    """Do more work for a plan, or a quicker one, where the search ended before it came to its end."""
+
+    do: Literal["look_longer"]
+
+
+Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])

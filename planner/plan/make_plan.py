@@ -17,6 +17,7 @@ from collections.abc import Callable, Sequence
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
+from planner.plan.budget import Budget
 from planner.plan.heuristic import HEURISTICS
 from planner.plan.plan import Plan
 from planner.plan.plan_search import PlanSearch
@@ -39,6 +40,7 @@ def make_plan(
     comfort_radius_m: float = 0.03,
     heuristic: str = "arm_time",
     time_limit_s: float = 10.0,
+    work_limit_s: float | None = None,
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     known: Plan | None = None,
@@ -56,6 +58,8 @@ def make_plan(
         comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m, 0..0.1).
         heuristic: "arm_time" or "zero".
         time_limit_s: the budget of the search (s, 0.01..60).
+        work_limit_s: its budget in work, in seconds of a machine of our day; None for as much as the time limit. Where
+            it ends the search, and not the time, the same request has the same answer on every machine.
         max_expanded: its budget in states (1..1,000,000).
         should_stop: asked while searching; true ends the search as out of budget.
         known: a solved plan for the same, as `quick_plan` gives; the answer is that unless a quicker one is found.
@@ -78,7 +82,8 @@ def make_plan(
     compile_kernels()
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
     is_over = should_stop or (lambda: False)
-    return PlanSearch(problem, heuristic, time_limit_s, max_expanded, is_over, known, like, on_found).plan()
+    budget = Budget.of(time_limit_s if work_limit_s is None else work_limit_s, time_limit_s, is_over)
+    return PlanSearch(problem, heuristic, budget, max_expanded, known, like, on_found).plan()
 
 
 def quick_plan(
@@ -128,4 +133,4 @@ def compile_kernels() -> None:
 
 def _plan_simply(garment: Garment) -> Plan:
     problem = Problem.of(garment, Scene(), None, "front", "pr2", 0.0)
-    return PlanSearch(problem, "arm_time", math.inf, EXPANDED_MAX, lambda: False).plan()
+    return PlanSearch(problem, "arm_time", Budget.of(math.inf, math.inf, lambda: False), EXPANDED_MAX).plan()

@@ -78,6 +78,8 @@ class Statistics:
         search_time_s: time of the whole search (s), joint paths aside.
         joint_time_s: time spent on joint paths (s).
         bound_s: no plan costs less (s); None when there is no plan at all.
+        ways: ways to go on that were looked at; the work of the search, on every machine the same.
+        is_cut_short: whether it ended for want of work, time or states; else to search on would find nothing else.
     """
 
     expanded: int
@@ -87,6 +89,8 @@ class Statistics:
     search_time_s: float
     joint_time_s: float
     bound_s: float | None
+    ways: int = 0
+    is_cut_short: bool = False
 
     def after(self, before: "Statistics") -> "Statistics":
         """Those of a search that went on from another's plan: both together, with this one's bound."""
@@ -98,6 +102,8 @@ class Statistics:
             before.search_time_s + self.search_time_s,
             before.joint_time_s + self.joint_time_s,
             self.bound_s,
+            before.ways + self.ways,
+            self.is_cut_short,
         )
 
     def to_dict(self) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from itertools import islice, zip_longest
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.alone import Alone
+from planner.plan.budget import Budget
 from planner.plan.driving_bound import DrivingBound
 from planner.plan.edges import Edges
 from planner.plan.heuristic import HEURISTICS, Heuristic
@@ -27,7 +28,7 @@ LOOK_ALONE_AFTER = 180
 """Most plans are found with so few looks at a state or at what may leave it; after them folds are looked at alone."""
 
 GREEDY_AFTER_S = 1.0
-"""A search that has found nothing for so long looks for some plan to fall back on."""
+"""A search that has found nothing after so much work looks for some plan to fall back on (s, see `Budget`)."""
 
 _COLLISIONS_MAX = 12
 """Of so many motions that the arms could not follow it is looked at what was in their way."""
@@ -40,9 +41,8 @@ class PlanSearch:
         self,
         problem: Problem,
         heuristic: str,
-        time_limit_s: float,
+        budget: Budget,
         max_expanded: int,
-        should_stop: Callable[[], bool],
         known: Plan | None = None,
         like: Sequence[Plan] = (),
         on_found: Callable[[Plan], None] | None = None,
@@ -52,9 +52,8 @@ class PlanSearch:
         Args:
             problem: what is to be planned.
             heuristic: the name of a consistent lower bound on the time to the end.
-            time_limit_s: the budget (s).
+            budget: the work and the time for it.
             max_expanded: the budget in states.
-            should_stop: asked while searching; true ends the search as out of budget.
             known: a plan for the problem; only a quicker one is looked for.
             like: plans for problems like it, for one to fall back on.
             on_found: told of a plan that was found meanwhile, while the search for the quickest goes on.
@@ -64,9 +63,8 @@ class PlanSearch:
         self._heuristic = heuristic
         self._max_expanded = max_expanded
         self._started = time.perf_counter()
-        self._deadline = self._started + time_limit_s
-        self._greedy_at = self._started + GREEDY_AFTER_S
-        self._should_stop = should_stop
+        self._budget = budget
+        self._greedy_at_s = GREEDY_AFTER_S
         self._known = known
         self._like = like
         self._on_found = on_found
@@ -74,10 +72,10 @@ class PlanSearch:
         self._reached: set[State] = set()
         self._blocking: list[int] = []
         self._realizer = Realizer(problem.maker, self._is_out_of_budget)
+        budget.watch(problem)
         self._edges = Edges(problem.work, self._possible, self._is_wanted)
         self._explored = 0
         self._joint_time_s = 0.0
-        self._looks = 0
         self._is_looked_at_alone = False
 
     def plan(self) -> Plan:
@@ -88,9 +86,11 @@ class PlanSearch:
         result, acts = self._real_path(self._problem.start)
         if self._known is not None and result.outcome is not Outcome.SOLVED:
             is_proof = result.outcome is Outcome.INFEASIBLE
-            return self._answer(Outcome.SOLVED, self._known.cost_s if is_proof else result.bound, self._known.acts, ())
+            bound_s = self._known.cost_s if is_proof else result.bound
+            return self._answer(Outcome.SOLVED, bound_s, self._known.acts, (), is_cut_short=not is_proof)
         outcome = Outcome.INFEASIBLE if self._blocking else result.outcome
-        return self._answer(outcome, result.bound, acts, self._reasons() if outcome is Outcome.INFEASIBLE else ())
+        why = self._reasons() if outcome is Outcome.INFEASIBLE else ()
+        return self._answer(outcome, result.bound, acts, why, is_cut_short=outcome is Outcome.BUDGET_EXCEEDED)
 
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """The quickest path that is real, and what it is then."""
@@ -152,19 +152,19 @@ class PlanSearch:
         return self._realizer.is_in_doubt(held)
 
     def _is_over(self) -> bool:
-        self._looks += 1
-        if self._looks > LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
+        self._budget.looks += 1
+        if self._budget.looks > LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
-        if time.perf_counter() > self._greedy_at and self._known is None and not self._blocking:
-            self._greedy_at = math.inf
+        if self._known is None and not self._blocking and self._budget.spent_s >= self._greedy_at_s:
+            self._greedy_at_s = math.inf
             self._fall_back()
         return bool(self._blocking) or self._is_out_of_budget()
 
     def _fall_back(self) -> None:
         """Look for some plan; from then on that is known."""
-        self._known = quickly_planned(self._problem.anew(), self._like, self._is_out_of_budget)
+        self._known = quickly_planned(self._budget.watch(self._problem.anew()), self._like, self._is_out_of_budget)
         if self._known is None:
             return
         self._started += self._known.statistics.search_time_s + self._known.statistics.joint_time_s
@@ -172,14 +172,22 @@ class PlanSearch:
             self._on_found(self._known)
 
     def _is_out_of_budget(self) -> bool:
-        return time.perf_counter() > self._deadline or self._should_stop()
+        return self._budget.is_over
 
     def _next_unseen(self) -> list[int]:
         """The folds that no state has done yet though nothing is left that they wait for."""
         available = self._work.sequence.dag.available(self._achieved)
         return [fold for fold in available if not self._achieved >> fold & 1]
 
-    def _answer(self, outcome: Outcome, bound_s: float | None, acts: tuple[Act, ...], why: tuple[Reason, ...]) -> Plan:
+    def _answer(
+        self,
+        outcome: Outcome,
+        bound_s: float | None,
+        acts: tuple[Act, ...],
+        why: tuple[Reason, ...],
+        *,
+        is_cut_short: bool = False,
+    ) -> Plan:
         reach = self._work.reach
         elapsed = time.perf_counter() - self._started - self._joint_time_s
         statistics = Statistics(
@@ -190,6 +198,8 @@ class PlanSearch:
             elapsed,
             self._joint_time_s,
             None if outcome is Outcome.INFEASIBLE else bound_s,
+            self._budget.ways,
+            is_cut_short,
         )
         if self._known is not None:
             statistics = statistics.after(self._known.statistics)

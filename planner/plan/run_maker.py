@@ -103,6 +103,8 @@ class RunMaker:
         transits: the ways of free hands.
         dwell_s: how long hands rest while fingers close, and while they open (s).
         collisions: what is in whose way.
+        glances: how often it was looked whether arms can be where steps begin and end, remembered or not.
+        tries: how often arms were led, remembered or not.
     """
 
     def __init__(self, work: Work, machine: Machine) -> None:
@@ -113,6 +115,7 @@ class RunMaker:
         self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
         self._carrier = carrier
         self._stuck = _Stuck()
+        self.glances = self.tries = 0
         self._snags = Snags(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
         self.transits = Transits(machine, collisions, scene.torso_m)
@@ -157,6 +160,7 @@ class RunMaker:
 
     def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
         """Whether the arms can be where they are when each of some steps takes hold, and when its motions end."""
+        self.glances += 1
         moments = self._moments([phase for step in steps for phase in step.extremes()])
         ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
         return self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
@@ -177,6 +181,7 @@ class RunMaker:
         return self._run(candidate, self._carrier.adapted(candidate.moments, candidate.cloths, like.carried))
 
     def _run(self, candidate: "Candidate", carried: Carried | NoPath) -> RealRun | None:
+        self.tries += 1
         if isinstance(carried, NoPath):
             self._stuck.note(candidate, carried)
             return None

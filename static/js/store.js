@@ -34,6 +34,7 @@ import { Live } from "./live.js";
  * @property {"planning"|"solved"|"infeasible"|"budget_exceeded"|"illegal"|"failed"} status
  * @property {string} text
  * @property {PlanOnShow|null} plan while it is being planned the one before
+ * @property {boolean} may_look_longer whether to search on may come to a better answer
  * @property {{version: number, status: string, cost_s: number|null}|null} before
  * @property {{version: number, folds: any[]}|null} checks
  */

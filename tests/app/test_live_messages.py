@@ -22,22 +22,23 @@ def answered(plan: Plan, *, is_final: bool = True) -> DocumentState:
     return document.state
 
 
-def test_when_time_ran_out_it_is_said_how_far_the_search_came_and_what_would_help() -> None:
+def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_would_help() -> None:
     plan = make_plan(T_SHIRT, max_expanded=1)
     state = answered(plan)
     # Each of five blue folds takes three arm motions of 3 s.
     assert status_text(state) == (
-        "No plan: the time for searching ran out: 1 state looked at, and any plan takes at least 45.0 s. "
-        "A longer limit would help, or fewer folds that may be done in any order"
+        "No plan: searched 2 ways and found none; any plan takes at least 45.0 s. "
+        "To look longer may help, or fewer folds that may be done in any order"
     )
     message = plan_message(state)
     assert (message["status"], message["plan"]["reasons"]) == ("budget_exceeded", [])
+    assert message["may_look_longer"] and not plan_message(answered(make_plan(T_SHIRT)))["may_look_longer"]
 
 
-def test_many_states_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -> None:
+def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -> None:
     plan = make_plan(T_SHIRT, max_expanded=1)
-    later = replace(plan, statistics=replace(plan.statistics, expanded=12345, bound_s=None))
-    assert ": 12,345 states looked at. A longer limit" in status_text(answered(later))
+    later = replace(plan, statistics=replace(plan.statistics, ways=12345, bound_s=None))
+    assert "searched 12,345 ways and found none. To look longer" in status_text(answered(later))
 
 
 def test_what_any_plan_takes_is_told_until_that_is_known_to_be_the_plans_cost() -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from app import replanner
 from app.document_state import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
@@ -110,3 +111,40 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
     assert [p.summary for p in begins] == [p.summary for p in before.primitives]
     assert last.is_proven and last.cost_s <= meanwhile.cost_s
     assert all(desk.plans.plan(answer.plan_id) is answer.plan for answer in shown)
+
+
+def test_what_was_not_found_with_little_work_is_found_by_who_looks_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.replanner.WORK_S", 1e-4)
+    with replanning() as desk:
+        desk.until(lambda: desk.is_answered)
+        state = desk.document.state
+        assert state.answer is not None and state.answer.plan.status == "budget_exceeded" and state.may_look_longer
+        desk.document.look_longer()
+        assert not desk.document.state.may_look_longer
+        desk.rest()
+        answer = desk.document.state.answer
+        assert answer is not None and answer.plan.is_proven
+        desk.document.look_longer()
+        assert desk.document.state.answer is answer, "what is proven is not looked for again"
+
+
+def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unproven(*arguments: object, work_limit_s: float, **options: object) -> object:
+        plan = make_plan(*arguments, work_limit_s=work_limit_s, **options)  # type: ignore[arg-type]
+        if work_limit_s > replanner.WORK_S:
+            return plan
+        return replace(plan, statistics=replace(plan.statistics, bound_s=1.0, is_cut_short=True))
+
+    monkeypatch.setattr("app.replanner.make_plan", unproven)
+    desk.rest()
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.rest()
+    shown = desk.document.state.answer
+    assert shown is not None and shown.plan.is_solved and desk.document.state.may_look_longer
+    noted = answers(desk)
+    desk.document.look_longer()
+    desk.rest()
+    assert [(answer.is_final, answer.plan.is_proven) for answer in noted] == [(False, False), (True, True)]
+    assert noted[0].plan is shown.plan

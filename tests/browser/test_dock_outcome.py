@@ -221,21 +221,21 @@ def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> No
     assert told == ["\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: too far."]
 
 
-def test_when_time_ran_out_the_pill_is_brief_and_the_dock_says_how_far_the_search_came(
+def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_the_search_came(
     page: Page, designer: Served
 ) -> None:
     page.goto(f"{designer.url}/static/icon.svg")
     told = page.evaluate(
         """async () => {
           const { explanation, headline } = await import("/static/js/dock/reasons.js");
-          const text = "No plan: the time for searching ran out: 7 states looked at. More time would help";
-          const message = { status: "budget_exceeded", text, plan: { reasons: [] } };
+          const text = "No plan: searched 1,207 ways and found none; any takes 9 s. To look longer may help";
+          const message = { status: "budget_exceeded", text, plan: { reasons: [], statistics: { ways: 1207 } } };
           const state = { drawing: { folds: [] }, problems: [] };
           return [headline(message, state), explanation(message, state)];
         }"""
     )
-    brief = "The time for searching ran out"
-    assert told == [f"{brief}.", f"{brief}: 7 states looked at. More time would help."]
+    brief = "Searched 1,207 ways and found none"
+    assert told == [f"{brief}.", f"{brief}; any takes 9 s. To look longer may help."]
 
 
 def test_what_is_short_at_least_is_said_to_be(page: Page, designer: Served) -> None:

@@ -114,19 +114,35 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
     page.goto(new_sheet(napkin()).page_url)
     numbers = page.get_by_role("region", name="Numbers")
     expect(numbers).to_contain_text("There may be a quicker plan; none takes less than 6.5 s.")
+    expect(numbers).to_contain_text("Searched 1,234 ways.")
+    longer = numbers.get_by_role("button", name="Look longer")
+    longer.click()
+    expect(longer).to_be_hidden()
+    expect(numbers).not_to_contain_text("There may be a quicker plan")
 
 
 def out_of_time(page: WebSocketRoute) -> None:
-    """A server that knows no more of the quickest plan than that it takes 6.5 s or more."""
+    """A server that knows no more of the quickest plan than that it takes 6.5 s or more, until it looks longer."""
     server = page.connect_to_server()
+    last: list[str] = []
 
     def tell(text: str) -> None:
         message = json.loads(text)
         if message["kind"] == "plan" and message["plan"] is not None:
+            last[:] = [text]
             message["plan"]["at_least_s"] = 6.5
+            message["plan"]["statistics"]["ways"] = 1234
+            message["may_look_longer"] = True
         page.send(json.dumps(message))
 
+    def hear(text: str) -> None:
+        if json.loads(text) == {"do": "look_longer"}:
+            page.send(last[0])
+        else:
+            server.send(text)
+
     server.on_message(tell)
+    page.on_message(hear)
 
 
 def still_looking(page: WebSocketRoute) -> None:

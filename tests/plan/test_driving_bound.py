@@ -78,4 +78,4 @@ def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done:
 def test_forty_loose_folds_on_two_sides_are_proven_to_have_no_quicker_plan():
     plan = make_plan(tabs_on_two_sides(40), time_limit_s=60.0)
     assert plan.is_proven
-    assert plan.statistics.expanded < 60, "one state for each fold, and a few for drags"
+    assert plan.statistics.expanded < 120, "a few states for each fold"

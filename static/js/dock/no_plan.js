@@ -22,6 +22,8 @@ export class NoPlan {
     this.longer = button("chip look-longer", () => this.lookLonger());
     this.longer.hidden = true;
     this.again = button("chip", () => store.command({ do: "plan" }), "Plan again");
+    this.onward = button("chip", () => store.command({ do: "look_longer" }), "Look longer for a plan");
+    this.onward.title = "Search on for a plan, six times as long";
     this.help = element("div", "suggestions");
     this.help.setAttribute("role", "group");
     this.help.setAttribute("aria-label", "Suggestions");
@@ -32,7 +34,7 @@ export class NoPlan {
     this.all.setAttribute("aria-label", "Reasons");
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
-    this.root = element("div", "no-plan", this.sentence, this.progress, this.again, this.longer, this.help, this.inFull);
+    this.root = element("div", "no-plan", this.sentence, this.progress, this.again, this.onward, this.longer, this.help, this.inFull);
     for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     addEventListener("unit", () => this.reword());
@@ -52,6 +54,7 @@ export class NoPlan {
   show(message, state) {
     this.sentence.textContent = explanation(message, state);
     this.again.hidden = message.status !== "failed";
+    this.onward.hidden = !message.may_look_longer;
     const all = details(message, state);
     this.all.replaceChildren(...all.map((text) => element("li", "", text)));
     this.why.hidden = all.length === 0;

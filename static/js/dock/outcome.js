@@ -28,6 +28,8 @@ export class Outcome {
     this.place = new BestPlace(store);
     this.none = new NoPlan(store);
     this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
+    this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), "Look longer");
+    this.longer.title = "Search on for a quicker plan, six times as long";
     this.refined = element("p", "refined hint");
     this.refined.setAttribute("aria-live", "polite");
     this.planning = new Planning(store);
@@ -54,8 +56,11 @@ export class Outcome {
   tellOfQuicker() {
     const plan = this.store.plan?.plan;
     const isOpen = plan?.status === "solved" && plan.is_final && plan.at_least_s !== null;
-    const open = isOpen ? `There may be a quicker plan; none takes less than ${seconds(plan.at_least_s)}.` : "";
+    const searched = `Searched ${(plan?.statistics?.ways ?? 0).toLocaleString("en")} ways.`;
+    const least = `There may be a quicker plan; none takes less than ${seconds(plan?.at_least_s ?? 0)}.`;
+    const open = isOpen ? `${searched} ${least}` : "";
     this.refined.textContent = this.refining.isLong ? "Looking for a quicker plan\u2026" : open;
+    this.longer.hidden = this.refining.isLong || !isOpen || !this.store.plan?.may_look_longer;
   }
 
   show() {
@@ -95,7 +100,7 @@ export class Outcome {
     this.place.button.hidden = plan.primitives.length === 0;
     this.numbers.hidden = plan.primitives.length === 0;
     const [cost, ...rest] = numbers(plan, before);
-    this.numbers.replaceChildren(cost, this.refined, ...rest);
+    this.numbers.replaceChildren(cost, this.refined, this.longer, ...rest);
     this.tellOfQuicker();
   }
 

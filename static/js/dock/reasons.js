@@ -47,7 +47,7 @@ export function sentence(reason, folds) {
  */
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
-  if (message.status === "budget_exceeded") return "The time for searching ran out.";
+  if (message.status === "budget_exceeded") return `Searched ${ways(message)} and found none.`;
   const first = firstReason(message);
   if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
   return told(message);
@@ -65,6 +65,12 @@ export function explanation(message, state) {
   const after = by_m < DRAGGED_M ? "" : `, after the cloth was dragged ${length(by_m)}`;
   return headline(message, state).replace(/\.$/, `${after}.`);
 }
+
+/** How many ways were looked at before the search was given up. */
+const ways = (message) => {
+  const count = message.plan?.statistics?.ways ?? 0;
+  return `${count.toLocaleString("en")} ${count === 1 ? "way" : "ways"}`;
+};
 
 const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
 
