@@ -13,10 +13,12 @@ import multiprocessing.connection
 import os
 import signal
 import threading
+import time
 import traceback
 from collections.abc import Callable
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from app.jobs.job_pool import ShouldStop
@@ -29,6 +31,9 @@ Tell = Callable[[Any], None]
 _TEMPLATE = "app.jobs.template"
 _LOOK_EVERY_S = 0.02
 """How often it is looked whether to stop (s)."""
+
+_STARTS_MAX = 50
+"""Attempts to start a process."""
 
 _NEWS, _ANSWER, _ERROR = "news", "answer", "error"
 _context = multiprocessing.get_context("forkserver")
@@ -93,7 +98,7 @@ def run_apart(
             raise StoppedError
     ours, theirs = _context.Pipe(duplex=False)
     process = _context.Process(target=_work, args=(theirs, work, arguments, options), daemon=True)
-    process.start()
+    _start(process)
     theirs.close()
     try:
         while True:
@@ -115,6 +120,18 @@ def run_apart(
         process.join()
         process.close()
         ours.close()
+
+
+def _start(process: ForkServerProcess) -> None:
+    """Start a process; a template that was ended from outside is replaced once the system has noticed that."""
+    for _ in range(_STARTS_MAX):
+        try:
+            process.start()
+        except (EOFError, ConnectionError):
+            time.sleep(_LOOK_EVERY_S)
+        else:
+            return
+    raise LostProcessError("the template process cannot be replaced")
 
 
 def _work(

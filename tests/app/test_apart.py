@@ -1,6 +1,8 @@
 import os
+import signal
 import threading
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -77,6 +79,15 @@ def test_a_bug_comes_with_the_place_where_it_is() -> None:
     with pytest.raises(ZeroDivisionError) as raised:
         apart(fail, ZeroDivisionError("no"))
     assert "in fail" in raised.value.__notes__[0]
+
+
+@pytest.mark.slow
+def test_a_template_that_was_ended_from_outside_is_replaced() -> None:
+    assert apart(count, 1)
+    for pid in descendants(os.getpid()):
+        if "forkserver" in Path(f"/proc/{pid}/cmdline").read_text():
+            os.kill(pid, signal.SIGKILL)
+    assert apart(count, 1)
 
 
 def test_a_process_that_crashes_is_told_from_one_that_was_stopped() -> None:
