@@ -23,6 +23,6 @@ def _pieces_of(part: Region) -> tuple[FloatArray, ...]:
     if hull.area - part.area <= AREA_M2:
         return (part.hull,)
     if len(part.triangles) > _TRIANGLES_MAX:
-        grown = part.shape.buffer(_SIMPLER_M / 2, quad_segs=2).simplify(_SIMPLER_M / 2)
+        grown = part.shape.buffer(_SIMPLER_M).simplify(0.8 * _SIMPLER_M)
         part = Region(shapely.intersection(grown, hull.shape))
     return tuple(part.triangles)

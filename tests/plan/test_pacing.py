@@ -99,3 +99,10 @@ def test_an_eased_way_never_turns_back_and_its_top_speed_is_what_is_said(easing)
     assert speeds.max() <= 1.0 / (1.0 - easing) + 1e-9
     # The steps about the middle are at top speed; with an easing of 0.5 that is a moment only.
     assert speeds[999:1001].max() == pytest.approx(1.0 / (1.0 - easing), rel=2e-3)
+
+
+@given(steps(0.001, 1.0), steps(0.0, 1.5), st.floats(0.0, 2.0))
+def test_a_rest_is_taken_from_the_steps_as_long_as_they_can_give_it(nominal, least, rest_s):
+    found = paced_s(nominal, least, rest_s)
+    assert (found >= least).all()
+    assert found.sum() == pytest.approx(max(nominal.sum() - rest_s, least.sum()), abs=1e-9)
