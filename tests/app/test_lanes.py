@@ -108,13 +108,16 @@ def only_the_template(server: Served) -> bool:
 
 async def test_a_client_that_goes_away_ends_the_process_that_works_for_it(served: Served) -> None:
     polygon = " ".join(f"{(i * 7919) % 100_003} {(i * 104_729) % 99_991}" for i in range(150_000))
-    knot = f'<svg xmlns="http://www.w3.org/2000/svg"><path d="M {polygon} Z"/></svg>'.encode()
-    for path, content in (("imports?filename=a.svg&units=mm", knot[: 2 << 20]), ("plans", None)):
-        body = {"content": content} if content else {"json": SLOW}
-        sent = asyncio.create_task(asyncio.to_thread(post_and_leave, f"{served.url}/api/{path}", body))
-        await asyncio.to_thread(wait_until, lambda: not only_the_template(served))
-        await sent
+    knot = f'<svg xmlns="http://www.w3.org/2000/svg"><path d="M {polygon} Z"/></svg>'.encode()[: 2 << 20]
+    async with httpx.AsyncClient(base_url=served.url, timeout=120.0) as client:
+        assert (await client.post("/api/plans", json={"garment": "hand-towel"})).status_code in (200, 503)
         await asyncio.to_thread(wait_until, lambda: only_the_template(served))
+        for path, body in (("imports?filename=a.svg&units=mm", {"content": knot}), ("plans", {"json": SLOW})):
+            sent = asyncio.create_task(client.post(f"/api/{path}", **body))
+            await asyncio.to_thread(wait_until, lambda: not only_the_template(served))
+            sent.cancel()
+            await asyncio.gather(sent, return_exceptions=True)
+            await asyncio.to_thread(wait_until, lambda: only_the_template(served))
 
 
 def post_and_leave(url: str, body: dict[str, Any]) -> None:
