@@ -145,7 +145,9 @@ class ReasonAnswer(BaseModel):
     """Why there is no plan.
 
     Points and directions are in the table frame (m), `approach` in that of the base. `point` is where it is with the
-    cloth dragged by `offset_m`; `short_by_m` is but a lower bound where `is_at_least` is true.
+    cloth dragged by `offset_m`; `short_by_m` is but a lower bound where `is_at_least` is true. Reasons of one `set`
+    must all be mended, `change` does it, and then there is what the set `gives`: a plan, at least the fold, or cloth
+    that stays where it lies at the start.
     """
 
     fold: int | None
@@ -168,6 +170,9 @@ class ReasonAnswer(BaseModel):
     comfort_m: float | None
     needed_friction: float | None
     needed_grip_radius_m: float | None
+    set: int | None
+    gives: Literal["plan", "fold", "start"] | None
+    change: dict[str, Any] | None
 
 
 class PlanAnswer(BaseModel):

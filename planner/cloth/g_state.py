@@ -190,20 +190,28 @@ def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad:
     return None
 
 
+def needed_friction(cloth: ClothState, top: TableInArticle) -> float:
+    """Return the least friction coefficient at which the cloth does not slip; 0 where nothing pulls at it."""
+    if top.contains(cloth.silhouette):
+        return 0.0
+    hanging = _hanging_areas(list(_hanging_parts(cloth, cloth.silhouette.difference(top.region), top)), top)
+    pull, lying = _pull(hanging, top), _lying(cloth, hanging)
+    return 0.0 if is_held(pull, lying, 0.0) else pull / max(lying, AREA_M2)
+
+
 def is_held(pull_m2: float, lying_m2: float, friction: float) -> bool:
     """Whether friction on the cloth that lies (m^2, layers counted) holds a pull (m^2) against it.
 
     A pull that is less than a sliver of cloth weighs counts as none: sums of areas that balance differ in the last
     digits, which no friction would have to hold.
     """
-    return pull_m2 <= friction * lying_m2 + AREA_M2
+    return pull_m2 <= max(friction * lying_m2 * (1.0 + LENGTH_M), AREA_M2)
 
 
 def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, friction: float) -> Unrest | None:
     """The friction law: the net pull of all hanging parts against what the weight on the table holds."""
-    hanging = [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
-    lying = max(sum(layer.region.area for layer in cloth.layers) - sum(hanging), 0.0)
-    pull = float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
+    hanging = _hanging_areas(parts, top)
+    pull, lying = _pull(hanging, top), _lying(cloth, hanging)
     if is_held(pull, lying, friction):
         return None
     needed = pull / max(lying, AREA_M2)
@@ -216,3 +224,18 @@ def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, frictio
     )
     values = {"hanging_m2": over, "lying_m2": lying, "friction": friction, "needed_friction": needed}
     return Unrest("slips", Message("slips", text, values), needed - friction, needed_friction=needed)
+
+
+def _hanging_areas(parts: list[_Hanging], top: TableInArticle) -> list[float]:
+    """What hangs over each edge, layers counted (m^2)."""
+    return [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
+
+
+def _pull(hanging: list[float], top: TableInArticle) -> float:
+    """The net pull of what hangs over the edges (m^2)."""
+    return float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
+
+
+def _lying(cloth: ClothState, hanging: list[float]) -> float:
+    """What lies on the table, layers counted (m^2)."""
+    return max(sum(layer.region.area for layer in cloth.layers) - sum(hanging), 0.0)

@@ -73,6 +73,19 @@ class FoldDag:
                 return None
         return tuple(sorted(found))
 
+    def before(self, fold: int) -> set[int]:
+        """All folds that must precede one; what a chain's fold waits for the whole chain waits for."""
+        chain_of = {f: chain for chain in self.chains for f in chain}
+        found: set[int] = set()
+        front = [fold]
+        while front:
+            chain = chain_of[front.pop()]
+            for earlier in (a for a, b in self.edges if b in chain and a not in chain and a not in found):
+                found.update(chain_of[earlier])
+                front.append(earlier)
+        own = chain_of[fold]
+        return found | set(own[: own.index(fold)])
+
     def last_of_begun_chain(self, done: int) -> int | None:
         """The last fold done of a chain that is not finished; None if there is no such chain."""
         for chain in self.chains:

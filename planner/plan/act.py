@@ -27,9 +27,12 @@ class Act:
 
 
 def runs_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
-    """Steps that follow one another without letting go, each time with the index of the first."""
+    """Steps that follow one another without letting go, each time with the index of the first.
+
+    The last ones may end with cloth in the hands, if that is all that is asked for.
+    """
     first = 0
     for number, step in enumerate(steps):
-        if not step.after.held:
+        if not step.after.held or number == len(steps) - 1:
             yield first, tuple(steps[first : number + 1])
             first = number + 1

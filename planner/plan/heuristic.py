@@ -9,8 +9,8 @@ from planner.primitives.work import Work
 Heuristic = Callable[[State], float]
 
 
-def arm_time(work: Work) -> Heuristic:
-    """The arms' time for the remaining folds, the robot's constraints ignored.
+def arm_time(work: Work, wanted: int = -1) -> Heuristic:
+    """The arms' time for those of the remaining folds that are wanted (a bit mask; -1: all), constraints ignored.
 
     Reach, apex, end for a blue fold; apex, end for a red one; the reach is saved while a drag's grips are held.
     It is consistent: a fold lowers it by at most the arms' share of what the fold costs, holding on after a drag by
@@ -21,10 +21,10 @@ def arm_time(work: Work) -> Heuristic:
 
     @cache
     def left(done: int) -> int:
-        return sum(m for i, m in enumerate(motions) if not done >> i & 1)
+        return sum(m for i, m in enumerate(motions) if wanted & ~done & 1 << i)
 
     def remaining(state: State) -> float:
-        return motion * (left(state.done) - (1 if state.is_dragged else 0))
+        return motion * max(left(state.done) - (1 if state.is_dragged else 0), 0)
 
     return remaining
 

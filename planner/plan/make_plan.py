@@ -46,6 +46,7 @@ def make_plan(
     known: Plan | None = None,
     like: Sequence[Plan] = (),
     on_found: Callable[[Plan], None] | None = None,
+    with_reasons: bool = True,
 ) -> Plan:
     """Plan how a robot folds a garment in the least time.
 
@@ -66,6 +67,7 @@ def make_plan(
         like: solved plans for garments like it, of use if the search takes long.
         on_found: told, in a search that takes long, of a plan as `quick_plan` gives; the search for the quickest then
             goes on.
+        with_reasons: whether it is of interest why there is no plan, if there is none: that takes more plans.
 
     Returns:
         The plan; that none exists, or none was found within the budget, is an answer too. Where time runs out it may be
@@ -83,7 +85,8 @@ def make_plan(
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
     is_over = should_stop or (lambda: False)
     budget = Budget.of(time_limit_s if work_limit_s is None else work_limit_s, time_limit_s, is_over)
-    return PlanSearch(problem, heuristic, budget, max_expanded, known, like, on_found).plan()
+    search = PlanSearch(problem, heuristic, budget, max_expanded, known, like, on_found)
+    return search.plan(with_reasons=with_reasons)
 
 
 def quick_plan(

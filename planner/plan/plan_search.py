@@ -10,15 +10,17 @@ from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act
 from planner.plan.alone import Alone
 from planner.plan.budget import Budget
+from planner.plan.correction_sets import corrected
 from planner.plan.driving_bound import DrivingBound
 from planner.plan.edges import Edges
-from planner.plan.heuristic import HEURISTICS, Heuristic
+from planner.plan.heuristic import HEURISTICS, Heuristic, arm_time
 from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
 from planner.plan.quick_plan import quickly_planned
 from planner.plan.realizer import OutOfTimeError, Realizer
 from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
+from planner.plan.relaxed import Relaxed, Trial
 from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -29,6 +31,10 @@ LOOK_ALONE_AFTER = 180
 
 GREEDY_AFTER_S = 1.0
 """A search that has found nothing after so much work looks for some plan to fall back on (s, see `Budget`)."""
+
+TRIAL_EXPANDED_MAX, TRIAL_WORK_S, REASONS_WORK_S = 200, 1.0, 3.0
+"""The budget in states and in work of each search that tries whether a fold can be done once a cause is removed, and in
+work of all of them for one plan (s, see `Budget`)."""
 
 _COLLISIONS_MAX = 12
 """Of so many motions that the arms could not follow it is looked at what was in their way."""
@@ -68,6 +74,9 @@ class PlanSearch:
         self._known = known
         self._like = like
         self._on_found = on_found
+        self._wanted = (1 << len(problem.work.sequence.folds)) - 1
+        self._is_trial = self._may_collide = False
+        self._tried_s = 0.0
         self._achieved = 0
         self._reached: set[State] = set()
         self._blocking: list[int] = []
@@ -78,24 +87,42 @@ class PlanSearch:
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
 
-    def plan(self) -> Plan:
-        """The quickest plan, or why there is none."""
+    def plan(self, *, with_reasons: bool = True) -> Plan:
+        """The quickest plan, or why there is none, if that is of interest."""
         unrest = self._work.unrest(0, self._problem.start.offset)
         if unrest is not None:
-            return self._answer(Outcome.INFEASIBLE, None, (), (reason_at_start(self._work, unrest),))
+            met = Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
+            return self._answer(Outcome.INFEASIBLE, None, (), self._tried(met) if with_reasons else ())
         result, acts = self._real_path(self._problem.start)
         if self._known is not None and result.outcome is not Outcome.SOLVED:
             is_proof = result.outcome is Outcome.INFEASIBLE
             bound_s = self._known.cost_s if is_proof else result.bound
             return self._answer(Outcome.SOLVED, bound_s, self._known.acts, (), is_cut_short=not is_proof)
         outcome = Outcome.INFEASIBLE if self._blocking else result.outcome
-        why = self._reasons() if outcome is Outcome.INFEASIBLE else ()
+        why = self._reasons() if with_reasons and outcome is Outcome.INFEASIBLE else ()
         return self._answer(outcome, result.bound, acts, why, is_cut_short=outcome is Outcome.BUDGET_EXCEEDED)
+
+    def trial(self, folds: int, *, may_collide: bool) -> Trial:
+        """Look whether some folds (a bit mask), and all they wait for, can be done; the quickest way matters not.
+
+        Args:
+            folds: the folds.
+            may_collide: whether that is in reach is enough: joint paths are not looked for.
+        """
+        self._wanted, self._may_collide, self._greedy_at_s = folds, may_collide, math.inf
+        self._is_trial = True
+        start = self._problem.start
+        unrest = self._work.unrest(0, start.offset)
+        if unrest is not None:
+            return Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
+        result, _ = self._real_path(start)
+        states = (start, *(edge.after for edge in result.path)) if result.outcome is Outcome.SOLVED else None
+        return Trial(self._work, states, bool(self._realizer.struck), self._measured)
 
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """The quickest path that is real, and what it is then."""
-        is_goal, is_over = self._problem.is_goal, self._is_over
-        question = (start, self._edges.leaving, is_goal, self._bound(start), self._max_expanded, is_over)
+        bound, is_over = self._bound(start), self._is_over
+        question = (start, self._edges.leaving, self._is_goal, bound, self._max_expanded, is_over)
         while True:
             self._edges.begin()
             result = a_star(*question, limit=self._limit_s)
@@ -104,6 +131,8 @@ class PlanSearch:
                 return result, ()
             if result.cost >= self._limit_s:
                 return replace(result, outcome=Outcome.INFEASIBLE), ()
+            if self._may_collide:
+                return result, ()
             begun = time.perf_counter()
             try:
                 found = self._realizer.acts([edge.action for edge in result.path])
@@ -117,9 +146,14 @@ class PlanSearch:
 
     def _bound(self, start: State) -> Heuristic:
         """The lower bound asked for; it knows of driving where there are too many orders of folds to search."""
+        if self._is_trial:
+            return arm_time(self._work, self._wanted)
         if self._heuristic == "arm_time" and self._work.sequence.dag.is_loose:
             return DrivingBound(self._work, start, self._is_out_of_budget)
         return HEURISTICS[self._heuristic](self._work)
+
+    def _is_goal(self, state: State) -> bool:
+        return state.done & self._wanted == self._wanted
 
     @property
     def _limit_s(self) -> float:
@@ -127,6 +161,27 @@ class PlanSearch:
         return math.inf if self._known is None else (self._known.cost_s or 0.0) - TIME_S
 
     def _reasons(self) -> tuple[Reason, ...]:
+        """Why there is no plan, each cause tried: with it removed there is one, or at least its fold can be done."""
+        found = Trial(self._work, None, bool(self._realizer.struck), self._measured)
+        return self._tried(found)
+
+    def _tried(self, met: Trial) -> tuple[Reason, ...]:
+        return corrected(Relaxed.of(self._problem), met, self._ask, self._have_tried_enough)
+
+    def _ask(self, relaxed: Relaxed, folds: int) -> Trial:
+        """Look whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
+        budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
+        search = PlanSearch(relaxed.searched, self._heuristic, budget, TRIAL_EXPANDED_MAX)
+        begun_s = budget.spent_s
+        budget.work_limit_s = begun_s + TRIAL_WORK_S
+        found = search.trial(folds, may_collide=relaxed.may_collide)
+        self._tried_s += budget.spent_s - begun_s
+        return found
+
+    def _have_tried_enough(self) -> bool:
+        return self._tried_s > REASONS_WORK_S or time.perf_counter() > self._budget.deadline_s
+
+    def _measured(self) -> tuple[Reason, ...]:
         for run in self._some_struck():
             note_collision(self._work, run[-1], self._problem.maker.snag(run))
         return reasons(self._work, {situation(state) for state in self._reached}, self._blocking)
@@ -177,7 +232,7 @@ class PlanSearch:
     def _next_unseen(self) -> list[int]:
         """The folds that no state has done yet though nothing is left that they wait for."""
         available = self._work.sequence.dag.available(self._achieved)
-        return [fold for fold in available if not self._achieved >> fold & 1]
+        return [fold for fold in available if self._wanted & ~self._achieved & 1 << fold]
 
     def _answer(
         self,

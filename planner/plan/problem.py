@@ -13,6 +13,7 @@ from planner.plan.machine import Machine
 from planner.plan.run_maker import RunMaker
 from planner.primitives.scene import Scene
 from planner.primitives.state import State
+from planner.primitives.unlimited_reach import UnlimitedReach
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 
@@ -42,11 +43,40 @@ class Problem:
         """Whether all folds are done."""
         return state.done == (1 << len(self.work.sequence.folds)) - 1
 
+    def varied(
+        self,
+        garment: Garment | None = None,
+        scene: Scene | None = None,
+        placement: Pose2 | None = None,
+        comfort_m: float | None = None,
+        behind_max_m: float | None = None,
+    ) -> "Problem":
+        """The same with some of it changed, for the same robot, what is known of its reach shared; raises as `of` does.
+
+        So both are for one thread.
+        """
+        work = self.work
+        wanted = scene or work.scene
+        machine, comfort = self.robot, work.reach.comfort_m if comfort_m is None else comfort_m
+        sequence = work.sequence if garment is None else replayed(garment)
+        is_alike = (wanted.torso_m, comfort) == (work.scene.torso_m, work.reach.comfort_m)
+        reach = work.reach if is_alike else machine.reach(wanted.torso_m, comfort)
+        behind = work.behind_max_m if behind_max_m is None else behind_max_m
+        changed = Work(sequence, wanted, reach, placement or work.placement, work.circle_m, behind)
+        return Problem(changed, machine, RunMaker(changed, machine), self.start)
+
+    def with_long_arms(self) -> "Problem":
+        """The same for a robot whose hands reach every place; joint paths are not to be asked for."""
+        work = self.work
+        reach = UnlimitedReach(work.reach)
+        changed = Work(work.sequence, work.scene, reach, work.placement, work.circle_m, work.behind_max_m)
+        return Problem(changed, self.robot, RunMaker(changed, self.robot), self.start)
+
     def anew(self) -> "Problem":
         """The same with nothing worked out yet, for somebody else's use: a problem is not shared between threads."""
         work, scene = self.work, self.work.scene
         reach = self.robot.reach(scene.torso_m, work.reach.comfort_m)
-        fresh = Work(work.sequence, scene, reach, work.placement, work.circle_m)
+        fresh = Work(work.sequence, scene, reach, work.placement, work.circle_m, work.behind_max_m)
         return Problem(fresh, self.robot, RunMaker(fresh, self.robot), self.start)
 
     @staticmethod

@@ -1,5 +1,6 @@
 """One reason why there is no plan."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,12 +31,17 @@ class Reason:
         approach: for what is out of reach how that hand is turned there, base frame; `short_by_m` is measured in it.
         offset_m: how far the cloth had been dragged from where it starts, (x, y) in the table frame (m): less this,
             `point` is where it would be with the cloth where it starts. None where it does not matter how it lies.
-        shift_m: for what is out of reach the least shift of all that the hands do that brings all of it into reach (m);
-            None where none was found.
+        shift_m: how far the cloth must be moved, or for what is out of reach the station or the table the other way,
+            so that the set is mended (m); None where that does not do.
         shift_towards: the unit direction of that shift, table frame.
         comfort_m: with "comfort_only" the comfort radius with which it can be reached (m).
         needed_friction: the friction with which the cloth would not slip.
         needed_grip_radius_m: the grip radius with which the hands would hold what they must (m).
+        set: reasons with one number must all be mended; of different numbers each is enough. None: not tried.
+        gives: what there is once the set is mended: a "plan", or the "fold" and all it waits for, or of cloth that does
+            not stay as it lies at the "start" that it does. None: not tried.
+        change: the fields of the plan request that mend the set, to be put in place of its own; None where it takes
+            what no request can ask for, as longer arms.
     """
 
     fold: int | None
@@ -57,6 +63,9 @@ class Reason:
     comfort_m: float | None = None
     needed_friction: float | None = None
     needed_grip_radius_m: float | None = None
+    set: int | None = None
+    gives: str | None = None
+    change: Mapping[str, Any] | None = None
 
     @property
     def message(self) -> str:
@@ -69,6 +78,7 @@ class Reason:
         found |= {"message": self.message, "says": self.says.to_dict()}
         for name in ("point", "towards", "offset_m", "shift_towards"):
             found[name] = None if found[name] is None else list(found[name])
+        found["change"] = None if self.change is None else dict(self.change)
         return {**found, "code": self.code.value, "approach": _turn(self.approach)}
 
 

@@ -15,8 +15,10 @@ it held.
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from planner.plan.reason import Reason
+from planner.plan.reason_attempt import Miss
 from planner.plan.reason_obstacle import lacking, of_obstacle
 from planner.plan.reason_places import Places
 from planner.plan.reason_reach import from_every_station, miss_in, nearest_miss
@@ -30,8 +32,9 @@ from planner.primitives.work import Work
 _GEOMETRY = (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE, Code.SLIPS)
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
 
-_EXAMINED_MAX = 3
-"""So many of the mildest obstacles of a kind are examined."""
+_LOOKED_AT_MAX, _EXAMINED_MAX = 60, 3
+"""Of so many of the mildest obstacles of a kind it is asked whether the cloth can be brought there, and so many that it
+can are examined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +68,7 @@ class Causes:
         if miss is not None:
             yield out_of_reach(self.work, self.fold, miss)
         for code in _GEOMETRY:
-            mildest = sorted((o for o in met if o.code is code), key=lambda o: o.severity)[:_EXAMINED_MAX]
-            cause = next((o for o in mildest if self._is_all_else_right(o)), None)
+            cause = next((o for o in self._mildest(met, code) if self._is_all_else_right(o)), None)
             if cause is not None:
                 yield of_obstacle(self.work, cause)
 
@@ -95,26 +97,31 @@ class Causes:
 
     def _together(self, met: list[Obstacle]) -> Iterator[Reason]:
         """All that stands against the way that comes nearest, several things in each."""
-        ways = [list(self._all_in(o)) for o in _mildest(met)]
+        states = [o.state for code in _GEOMETRY for o in self._mildest(met, code) if o.state is not None]
+        states = states or [State(done, (0.0, 0.0), 0, 0) for done in sorted(self.dones)]
+        ways = [self._all_in(state) for state in states]
         if ways:
-            yield from min(ways, key=lambda way: (len(way), sum(lacking(reason, self.work) for reason in way)))
+            against, miss = min(ways, key=self._repair)
+            yield from against
+            if miss is not None:
+                yield out_of_reach(self.work, self.fold, miss)
 
-    def _all_in(self, obstacle: Obstacle) -> Iterator[Reason]:
-        """All that stands against the fold in the state in which an obstacle was met."""
-        state = obstacle.state
-        if state is None:
-            return
-        for other in geometric_obstacles(self.work, state, self.fold):
-            yield of_obstacle(self.work, other)
+    def _repair(self, way: tuple[list[Reason], Miss | None]) -> tuple[int, float]:
+        """How many things stand against a way, and how much is lacking in all."""
+        against, miss = way
+        lack = sum(lacking(reason, self.work) for reason in against)
+        return len(against) + (miss is not None), lack + (0.0 if miss is None else miss.short_by_m)
+
+    def _mildest(self, met: list[Obstacle], code: Code) -> list[Obstacle]:
+        """The mildest obstacles of a kind, of those met where the cloth can be brought and stays."""
+        alike = sorted((o for o in met if o.code is code), key=lambda o: o.severity)[:_LOOKED_AT_MAX]
+        real = (o for o in alike if o.state is not None and self.places.stands(o.state))
+        return list(islice(real, _EXAMINED_MAX))
+
+    def _all_in(self, state: State) -> tuple[list[Reason], Miss | None]:
+        """All that stands against the fold in a state, and what the hands lack there, if they suffice."""
+        against = [of_obstacle(self.work, other) for other in geometric_obstacles(self.work, state, self.fold)]
         grips = None if state.held else grips_obstacle(self.work, state, self.fold)
         if grips is not None:
-            yield of_obstacle(self.work, grips)
-            return
-        miss = miss_in(self.work, state, self.fold)
-        if miss is not None:
-            yield out_of_reach(self.work, self.fold, miss)
-
-
-def _mildest(met: list[Obstacle]) -> Iterator[Obstacle]:
-    for code in _GEOMETRY:
-        yield from sorted((o for o in met if o.code is code), key=lambda o: o.severity)[:_EXAMINED_MAX]
+            return [*against, of_obstacle(self.work, grips)], None
+        return against, miss_in(self.work, state, self.fold)

@@ -1,6 +1,7 @@
 """What an obstacle says, as a reason: its numbers worked out, and what would do."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,10 +12,17 @@ from planner.plan.reason import Reason
 from planner.plan.reason_collision import collision_reason
 from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
 from planner.plan.reason_words import carried, dragged
-from planner.primitives.fold_trial import lifted_points
+from planner.primitives.fold_trial import geometric_obstacles, lifted_points
 from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
 from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.state import State
 from planner.primitives.work import Work
+
+_MOVE_STEP_M, _MOVES = 0.02, 50
+"""Where it is not known how far cloth must be moved, it is tried in such steps (m), and so many."""
+
+_UNKNOWN_M, _SLACK_M = 1.0, 1e-3
+"""The severity of what is not known, and how much further cloth is moved for a direction to count (m)."""
 
 _LISTED_MAX = 4
 """Of more points only the outermost are told."""
@@ -46,6 +54,9 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
     """How the cloth would lie or slip."""
     is_slip = obstacle.code is Code.SLIPS
     state = obstacle.state
+    move: tuple[float, Point3] | None = None
+    if obstacle.fold is not None and state is not None and not is_slip:
+        move = _least_move(work, obstacle, obstacle.fold, state)
     point: Point3 | None = None
     assert obstacle.says is not None
     says = obstacle.says
@@ -59,10 +70,36 @@ def _at_rest(work: Work, obstacle: Obstacle) -> Reason:
         obstacle.code,
         says,
         point=point,
-        short_by_m=None if is_slip else obstacle.severity,
+        short_by_m=None if is_slip or obstacle.severity >= _UNKNOWN_M else obstacle.severity,
+        towards=None if move is None else move[1],
+        shift_m=None if move is None else move[0],
+        shift_towards=None if move is None else move[1],
         offset_m=None if state is None else state.offset,
         needed_friction=work.scene.friction + obstacle.severity if is_slip else None,
     )
+
+
+def _least_move(work: Work, obstacle: Obstacle, fold: int, state: State) -> tuple[float, Point3] | None:
+    """How far the cloth would have to lie elsewhere for an obstacle of its kind to be gone (m), and in which direction.
+
+    Tried are the directions along the table's edges; None where none helps.
+    """
+    if math.isinf(obstacle.severity):
+        return None
+    steps = _MOVE_STEP_M * np.arange(1, _MOVES + 1)
+    known = [obstacle.severity] if obstacle.severity < _UNKNOWN_M else []
+    for step in (*known, *steps[steps > max(known, default=0.0)]):
+        for x, y in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+            if _is_gone(work, obstacle, fold, state, (x * step, y * step)):
+                return float(step), (x, y, 0.0)
+    return None
+
+
+def _is_gone(work: Work, obstacle: Obstacle, fold: int, state: State, move: Point2) -> bool:
+    """Whether no obstacle of a kind is left with the cloth moved (m)."""
+    slack = 1.0 + _SLACK_M / max(math.hypot(*move), LENGTH_M)
+    at = replace(state, offset=(state.offset[0] + slack * move[0], state.offset[1] + slack * move[1]))
+    return all(other.code is not obstacle.code for other in geometric_obstacles(work, at, fold))
 
 
 def _too_many_grips(work: Work, fold: int) -> Reason:

@@ -1,6 +1,8 @@
 """What was out of reach, as a sentence: where, by how much, why, and what would do."""
 
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from enum import StrEnum
 from typing import Any
 
@@ -11,7 +13,7 @@ from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.message import Message
 from planner.plan.reason import Reason
 from planner.plan.reason_attempt import Demand, Miss, explained
-from planner.plan.reason_remedy import FURTHEST_M, Remedy, remedy
+from planner.plan.reason_remedy import FURTHEST_M, remedy
 from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFFS_PER_M, Work
@@ -35,8 +37,7 @@ def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
     text = (
         f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {height_words(point[2])} "
         f"{_AT[_moment(miss)]}, {_lack(work, miss)}; "
-        f"closest: {station}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}; "
-        f"{_what_to_do(found.is_at_least, mending)}"
+        f"closest: {station}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}"
     )
     values = {
         "arm": arm,
@@ -53,8 +54,10 @@ def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
         "station": station,
         "back_off_m": miss.back_off / BACK_OFFS_PER_M,
         **dragged(miss.state),
-        "shift_m": None if mending is None else mending.distance_m,
-        "shift_towards": None if mending is None else list(mending.towards),
+        "shift_m": None,
+        "shift_towards": None,
+        "movable": None,
+        "enough_comfort_m": None,
         "tried_m": FURTHEST_M,
     }
     return Reason(
@@ -143,19 +146,46 @@ def _lack(work: Work, miss: Miss) -> str:
     return f"is {by} m out of reach{demand} ({because})"
 
 
-def _what_to_do(is_at_least: bool, mending: Remedy | None) -> str:
-    """What a person can change."""
-    if is_at_least:
-        return "place the cloth or a station so that it is nearer"
-    if mending is None:
-        return f"no shift of its way by up to {FURTHEST_M:g} m brings all of it into reach: fold less at once"
-    decimals = 2 if mending.distance_m >= _SHORT_M else 3
-    by = f"{mending.distance_m:.{decimals}f} m {_where_to(mending.towards)}"
-    up = mending.towards[2]
-    how = "move the cloth or the station"
-    if abs(up) > _OBLIQUE:
-        how = "raise the table or lower the torso" if up > 0.0 else "lower the table or raise the torso"
-    return f"all of its way is in reach {by}: {how}"
+def mended_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
+    """What was out of reach, with what was tried and does.
+
+    Args:
+        reason: the reason, with how far all that the hands do must be shifted.
+        pose: the station's pose that it is seen from.
+        kinds: what can be moved so far: "cloth" or "station", "table" or "torso"; empty where nothing that was tried
+            does, but arms that are long enough would.
+    """
+    shift, towards = reason.shift_m, reason.shift_towards
+    if not kinds or shift is None or towards is None:
+        advice = f"no shift of its way by up to {FURTHEST_M:g} m was found that brings it about: fold less at once"
+        if reason.is_at_least:
+            advice = "place the cloth or a station so that it is nearer"
+        return replace(_advised(reason, advice, {"movable": []}), shift_m=None, shift_towards=None)
+    decimals = 2 if shift >= _SHORT_M else 3
+    in_base = _point(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
+    up = towards[2] > 0.0
+    words = {
+        "cloth": "move the cloth",
+        "station": "move the station",
+        "table": "raise the table" if up else "lower the table",
+        "torso": "lower the torso" if up else "raise the torso",
+    }
+    how = " or ".join(words[kind] for kind in kinds)
+    advice = f"all of its way is in reach {shift:.{decimals}f} m {_where_to(in_base)}: {how}"
+    return _advised(reason, advice, {"movable": list(kinds), "shift_m": shift, "shift_towards": list(in_base)})
+
+
+def reached_with_comfort(reason: Reason, comfort_m: float) -> Reason:
+    """What is in reach with less comfort, which was tried."""
+    advice = f"with {_down(comfort_m)} m of comfort it can be done"
+    told = _advised(reason, advice, {"movable": None, "enough_comfort_m": comfort_m})
+    return replace(told, comfort_m=comfort_m, shift_m=None, shift_towards=None)
+
+
+def _advised(reason: Reason, advice: str, values: Mapping[str, Any]) -> Reason:
+    """A reason that also says what would do."""
+    says = reason.says
+    return replace(reason, says=Message(says.code, f"{says.text}; {advice}", {**says.values, **values}))
 
 
 def _where_to(towards: Point3) -> str:

@@ -101,22 +101,8 @@ class _Reasons:
     def _waiting(self, blocked: list[int]) -> Iterator[Reason]:
         folds = self._work.sequence.folds
         for fold in folds:
-            roots = [b for b in blocked if b in self._before(fold.index)]
+            roots = [b for b in blocked if b in self._work.sequence.dag.before(fold.index)]
             if roots and fold.index not in blocked:
                 names = " and ".join(folds[root].label for root in roots)
                 text = f"{fold.label}: waits for {names}, which cannot be done"
                 yield Reason(fold.index, Code.WAITS_FOR_FOLD, Message("waits_for", text, {"folds": roots}))
-
-    def _before(self, fold: int) -> set[int]:
-        """All folds that must precede one; what a chain's fold waits for the whole chain waits for."""
-        dag = self._work.sequence.dag
-        chain_of = {f: chain for chain in dag.chains for f in chain}
-        before: set[int] = set()
-        front = [fold]
-        while front:
-            chain = chain_of[front.pop()]
-            for earlier in (a for a, b in dag.edges if b in chain and a not in chain and a not in before):
-                before.update(chain_of[earlier])
-                front.append(earlier)
-        own = chain_of[fold]
-        return before | set(own[: own.index(fold)])

@@ -1,51 +1,86 @@
 """What would have to be true of the world for there to be a plan: friction, grip radius, comfort.
 
-Each of these only ever allows more the further it goes. So the furthest is tried first, and if even that gives no
-plan, nothing less does.
+Each is told in sensible steps, the least that gives a plan, which is tried as it is told. What the reasons found is
+tried first. Else the furthest is: friction and comfort only ever allow more the further they go, so if even that gives
+no plan, nothing less does, and if it does, the least is found by halving.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from planner.cloth.garment import DrawnFold
+from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
+from planner.plan.reason import Reason
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import in_cm
 
-FRICTIONS = (1.5, 2.0, 4.0)
-GRIP_RADII_M = (0.15, 0.2, 0.25, 0.3, 0.4, 0.5)
-COMFORTS_M = (0.02, 0.01, 0.0)
+FRICTION_STEPS, FRICTION_MAX = 20, 10.0
+"""How many steps there are in a friction coefficient of 1, and the largest that is tried."""
+
+GRIP_RADIUS_STEPS_PER_M, GRIP_RADIUS_MAX_M = 100, 0.5
+"""How many steps there are in a metre, and the largest grip radius that is tried (m)."""
+
+COMFORT_STEP_M = 0.005
+"""From one comfort radius to the next (m)."""
 
 
 def comforts(asked: Asked) -> Search:
     """Look for the largest comfort radius below the one asked for that gives a plan."""
-    return _least([_comfort(asked, c) for c in COMFORTS_M if c < asked.comfort_radius_m])
+    now = asked.comfort_radius_m
+    steps = math.ceil(now / COMFORT_STEP_M - LENGTH_M)
+    return _least(lambda step: _comfort(asked, max(round(now - step * COMFORT_STEP_M, 6), 0.0)), 0, steps)
 
 
-def frictions(asked: Asked) -> Search:
+def frictions(asked: Asked, reasons: Sequence[Reason]) -> Search:
     """Look for the smallest friction coefficient above the scene's that gives a plan."""
-    return _least([_friction(asked, mu) for mu in FRICTIONS if mu > asked.scene.friction])
+    now = _step_below(asked.scene.friction * FRICTION_STEPS)
+    needed = [r.needed_friction for r in reasons if r.needed_friction is not None and r.set is not None]
+    first = [_step_above(mu * FRICTION_STEPS) for mu in needed]
+    most = round(FRICTION_MAX * FRICTION_STEPS)
+    return _least(lambda step: _friction(asked, step / FRICTION_STEPS), now, most, first)
 
 
-def grip_radii(asked: Asked, folds: Sequence[int]) -> Search:
+def grip_radii(asked: Asked, folds: Sequence[int], reasons: Sequence[Reason]) -> Search:
     """Look for the smallest grip radius of some folds that gives a plan."""
-    smallest = min((asked.garment.folds[i].grip_radius_m for i in folds), default=max(GRIP_RADII_M))
-    return _least([_grip_radius(asked, folds, r) for r in GRIP_RADII_M if r > smallest])
+    smallest = min((asked.garment.folds[i].grip_radius_m for i in folds), default=GRIP_RADIUS_MAX_M)
+    needed = [r.needed_grip_radius_m for r in reasons if r.needed_grip_radius_m is not None]
+    first = [_step_above(radius * GRIP_RADIUS_STEPS_PER_M) for radius in needed]
+    now, most = _step_below(smallest * GRIP_RADIUS_STEPS_PER_M), round(GRIP_RADIUS_MAX_M * GRIP_RADIUS_STEPS_PER_M)
+    return _least(lambda step: _grip_radius(asked, folds, step / GRIP_RADIUS_STEPS_PER_M), now, most, first)
 
 
-def _least(trials: Sequence[Trial]) -> Search:
-    """The first trial that works, once the last is known to; trials are in ascending order."""
-    if not trials:
-        return
-    most = Proof.of(trials[-1], (yield trials[-1]))
-    if most is None:
-        return
-    for trial in trials[:-1]:
-        proof = Proof.of(trial, (yield trial))
-        if proof is not None:
-            yield proof.suggestion
-            return
-    yield most.suggestion
+def _step_above(steps: float) -> int:
+    """The first whole step that is no less."""
+    return math.ceil(steps - LENGTH_M)
+
+
+def _step_below(steps: float) -> int:
+    """The last whole step that is no more."""
+    return math.floor(steps + LENGTH_M)
+
+
+def _least(trial_at: Callable[[int], Trial], fails: int, most: int, first: Sequence[int] = ()) -> Search:
+    """The trial of the fewest steps that works, of those beyond some that fail; some are tried first, then the most."""
+    best: Proof | None = None
+    works, is_known = most + 1, False
+    for step in sorted({step for step in (*first, most) if fails < step <= most}):
+        best = Proof.of(trial := trial_at(step), (yield trial))
+        if best is not None:
+            works, is_known = step, step in first
+            break
+        fails = step
+    while works - fails > 1 and best is not None:
+        middle, is_known = works - 1 if is_known else (fails + works) // 2, False
+        trial = trial_at(middle)
+        plan = yield trial
+        if plan is None:
+            break
+        proof = Proof.of(trial, plan)
+        fails, works, best = (middle, works, best) if proof is None else (fails, middle, proof)
+    if best is not None:
+        yield best.suggestion
 
 
 def _comfort(asked: Asked, radius_m: float) -> Trial:

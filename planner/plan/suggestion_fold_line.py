@@ -23,8 +23,9 @@ _DECIMALS = 5
 
 
 def fold_lines(asked: Asked, folds: Sequence[int]) -> Search:
-    """Look for the smallest shift of each of some folds, to either side; to the side where less cloth moves first."""
-    sides = [_Side(asked, fold, sign) for fold in folds for sign in (1, -1)]
+    """Look for the smallest shift of some folds, each alone and then all, to the side where less cloth moves first."""
+    each = [_Shift(asked, (fold,), sign) for fold in folds for sign in (1, -1)]
+    sides = each + ([_Shift(asked, tuple(folds), sign) for sign in (1, -1)] if len(folds) > 1 else [])
     for before_m, shift_m in zip((0.0, *STEPS_M), STEPS_M, strict=False):
         for side in tuple(sides):
             trial = side.shifted(shift_m)
@@ -40,29 +41,42 @@ def fold_lines(asked: Asked, folds: Sequence[int]) -> Search:
 
 
 @dataclass(frozen=True, slots=True)
-class _Side:
-    """A fold, and the side to which it may be shifted: 1 is left of its line, where less moves; -1 right."""
+class _Shift:
+    """Folds, and the side to which their lines may be shifted: 1 is left of each, where less moves; -1 right."""
 
     asked: Asked
-    fold: int
+    folds: tuple[int, ...]
     sign: int
 
     def shifted(self, by_m: float) -> Trial | None:
-        """The trial of a shift; None where it is not legal."""
-        drawn = self.asked.garment.folds[self.fold]
-        line = Segment(drawn.start, drawn.end)
-        nx, ny = (self.sign * part for part in line.left)
-        moved = Segment(
-            (line.start[0] + by_m * nx, line.start[1] + by_m * ny), (line.end[0] + by_m * nx, line.end[1] + by_m * ny)
-        )
-        garment = redrawn(self.asked.garment, self.fold, moved)
+        """The trial of a shift of all their lines by as much; None where it is not legal."""
+        garment: Garment | None = self.asked.garment
+        says = []
+        for fold in self.folds:
+            if garment is None:
+                return None
+            says.append(self._said(fold, by_m))
+            garment = redrawn(garment, fold, self._moved(garment.folds[fold], by_m))
         if garment is None:
             return None
-        x, y = self.asked.placement.to_outer(np.array([nx, ny])) - self.asked.placement.to_outer(np.zeros(2))
-        text = f"Shift fold {self.fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
-        says = Message("shift_fold", text, {"fold": self.fold, "by_m": by_m, "towards": [float(x), float(y)]})
         change = {"garment": garment.to_dict()}
-        return Trial("fold_line", says, change, by_m, replace(self.asked, garment=garment))
+        text = " and ".join(one.text for one in says)
+        told = says[0] if len(says) == 1 else Message("shift_folds", text, {"shifts": [one.to_dict() for one in says]})
+        return Trial("fold_line", told, change, by_m, replace(self.asked, garment=garment))
+
+    def _moved(self, drawn: DrawnFold, by_m: float) -> Segment:
+        line = Segment(drawn.start, drawn.end)
+        dx, dy = (self.sign * by_m * part for part in line.left)
+        (x0, y0), (x1, y1) = line.start, line.end
+        return Segment((x0 + dx, y0 + dy), (x1 + dx, y1 + dy))
+
+    def _said(self, fold: int, by_m: float) -> Message:
+        """What is to be done to one of them."""
+        drawn, placement = self.asked.garment.folds[fold], self.asked.placement
+        left = np.array(Segment(drawn.start, drawn.end).left)
+        x, y = placement.to_outer(self.sign * left) - placement.to_outer(np.zeros(2))
+        text = f"Shift fold {fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
+        return Message("shift_fold", text, {"fold": fold, "by_m": by_m, "towards": [float(x), float(y)]})
 
 
 def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:

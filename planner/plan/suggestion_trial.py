@@ -34,8 +34,8 @@ class Asked:
     heuristic: str
     max_expanded: int
 
-    def plan(self, time_limit_s: float, should_stop: Callable[[], bool]) -> Plan:
-        """The answer to the request; raises what `make_plan` does."""
+    def plan(self, time_limit_s: float, should_stop: Callable[[], bool], *, with_reasons: bool = False) -> Plan:
+        """The answer to the request, reasons aside unless they are asked for; raises what `make_plan` does."""
         return make_plan(
             self.garment,
             self.scene,
@@ -47,6 +47,7 @@ class Asked:
             time_limit_s=time_limit_s,
             max_expanded=self.max_expanded,
             should_stop=should_stop,
+            with_reasons=with_reasons,
         )
 
 

@@ -90,7 +90,8 @@ def suggestions(
     )
     compile_kernels()
     budget = Budget(time_limit_s, should_stop)
-    known = plan or asked.plan(max(_FIRST_PLAN_SHARE * time_limit_s, low), budget.is_stopped)
+    first_s = max(_FIRST_PLAN_SHARE * time_limit_s, low)
+    known = plan or asked.plan(first_s, budget.is_stopped, with_reasons=True)
     return _searched(asked, known, budget)
 
 
@@ -101,7 +102,7 @@ def _searched(asked: Asked, known: Plan, budget: Budget) -> Suggestions:
     else:
         folds = _blocking(known)
         changes = _lanes(fold_lines(asked, folds), placements(asked, None), orders(asked), stations(asked))
-        assumptions = _lanes(comforts(asked), frictions(asked), grip_radii(asked, folds))
+        assumptions = _lanes(comforts(asked), frictions(asked, known.reasons), grip_radii(asked, folds, known.reasons))
     yield from _by_turns(changes, budget, _CHANGES_SHARE if assumptions else 1.0)
     yield from _by_turns(assumptions, budget, 1.0)
     yield from _by_turns(changes, budget, 1.0)

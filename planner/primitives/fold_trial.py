@@ -106,7 +106,7 @@ def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacl
         says = Message("line_off_table", text, {"off_m": float(off)})
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
     behind = -work.kept(Depths).of(fold)[0]
-    if behind > LENGTH_M:
+    if behind > work.behind_max_m + LENGTH_M:
         text = (
             f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
             "carry it; turn or lengthen the line, or fold that part by itself first"

@@ -37,6 +37,7 @@ class Work:
         reach: the robot's reach.
         placement: the article frame in the table frame at the start.
         circle_m: radius of the circle round the base that must clear the table when it turns (m).
+        behind_max_m: how far the part that a fold moves may reach behind its line's extension (m).
         obstacles: why primitives were not possible, collected for the reasons.
     """
 
@@ -45,6 +46,7 @@ class Work:
     reach: Reach
     placement: Pose2
     circle_m: float
+    behind_max_m: float = 0.0
     obstacles: Obstacles = field(default_factory=Obstacles)
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
@@ -136,6 +138,11 @@ class Work:
         x, y = float(point[0]) + offset[0], float(point[1]) + offset[1]
         table = self.scene.table
         return abs(x) <= table.depth_m / 2 + LENGTH_M and abs(y) <= table.width_m / 2 + LENGTH_M
+
+    @property
+    def has_slipped(self) -> bool:
+        """Whether the cloth would have slipped at some placement that was asked about, and friction would hold it."""
+        return any(found is not None and found.code == "slips" for found in self._unrest.values())
 
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
         """Why the cloth after some folds would not stay at a placement; None if it is in a g-state."""

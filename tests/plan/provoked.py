@@ -1,6 +1,8 @@
 """Small problems that have no plan, and what it takes to see that a reason is gone."""
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from planner import Scene, make_plan
 from planner.cloth.garment import Garment
@@ -9,6 +11,7 @@ from planner.geometry.table import Table
 from planner.plan.plan import Plan
 from planner.plan.reason import Reason
 from planner.primitives.g_fold import GFold
+from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from tests.builders import fold, garment, rectangle_points
 
@@ -56,6 +59,21 @@ def refused(cloth: Garment, scene: Scene | None = None, **options: object) -> Pl
     answer = make_plan(cloth, scene, time_limit_s=60.0, **options)
     assert answer.status == "infeasible"
     return answer
+
+
+def but_for_collisions(answer: Plan) -> Reason:
+    """The only reason of an answer, if nothing else has to be mended with it but what the arms touch then."""
+    reason, *others = answer.reasons
+    assert all((other.code, other.set) == (Code.COLLISION, reason.set) for other in others)
+    return reason
+
+
+def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
+    """The plan of a request once a change has been put into it, as a client would."""
+    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
+    options = {name: parts.get(name, float)(value) for name, value in change.items()}
+    request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 60.0, **options}
+    return make_plan(request.pop("garment"), request.pop("scene"), **request)
 
 
 def is_gone(reason: Reason, answer: Plan) -> bool:

@@ -15,7 +15,7 @@ from planner.geometry.segment import Segment
 from planner.plan.reason_grips import needed_radius
 from planner.primitives.obstacle import Code
 from tests.builders import fold, garment, rectangle_points
-from tests.plan.provoked import BACK, FRONT, HOUSE, fixed, is_gone, refused
+from tests.plan.provoked import BACK, FRONT, HOUSE, fixed, is_gone, planned_with, refused
 
 SLOPE_M = math.hypot(0.2, 0.1)
 
@@ -50,13 +50,16 @@ def test_two_grips_too_close_need_a_radius_of_half_their_distance():
         return garment(rectangle_points(0.08, 0.3), line, placement=Pose2(-0.7, 0.04, BACK))
 
     # Two hands need 0.10 m, and the corners of the end are 0.08 m apart.
-    (reason,) = refused(ribbon(0.03), fixed()).reasons
+    reason, reach = refused(ribbon(0.03), fixed()).reasons
     assert reason.code == Code.GRIPS_TOO_CLOSE
+    # One hand in the middle of the ribbon is a little too far before the robot's body.
+    assert (reach.code, reach.set) == (Code.OUT_OF_REACH, reason.set)
+    assert planned_with(reason.change, ribbon(0.03), fixed()).is_solved
     assert reason.short_by_m == pytest.approx(0.02)
     assert reason.needed_grip_radius_m == pytest.approx(0.04)
     assert "0.080 m apart, and two hands need 0.10 m; with a grip radius of 0.040 m, now 0.03 m" in reason.message
     assert is_gone(reason, make_plan(ribbon(0.04), fixed(), time_limit_s=60.0))
-    assert [r.code for r in refused(ribbon(0.039), fixed()).reasons] == [Code.GRIPS_TOO_CLOSE]
+    assert [r.code for r in refused(ribbon(0.039), fixed()).reasons][:1] == [Code.GRIPS_TOO_CLOSE]
 
 
 def test_a_red_fold_whose_corner_no_hand_holds_any_more_needs_a_wider_grip():

@@ -1,26 +1,29 @@
 import math
 import time
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from planner import FoldSequence, Garment, Plan, Scene, load_garment, make_plan
+from planner import FoldSequence, Garment, Scene, load_garment, make_plan
 from planner.errors import FoldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.plan.suggestion_fold_line import chord, redrawn
+from planner.geometry.table import Table
+from planner.plan.suggestion import Suggestion
+from planner.plan.suggestion_assumption import frictions, grip_radii
+from planner.plan.suggestion_fold_line import chord, fold_lines, redrawn
 from planner.plan.suggestion_grid import Room, turned_in_place
 from planner.plan.suggestion_map import placement_map
 from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_station import stations
-from planner.plan.suggestion_trial import Asked, Trial
+from planner.plan.suggestion_trial import Asked, Search, Trial
 from planner.plan.suggestion_words import direction_words, moved_words
 from planner.plan.suggestions import Suggestions, suggestions
 from tests.builders import fold, garment, rectangle_points
+from tests.plan.provoked import planned_with
 
 FRONT_ONLY = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
 FAR = Pose2(0.4, 0.15, -math.pi / 2)
@@ -34,15 +37,6 @@ def towel(placement: Pose2 | None = None) -> Garment:
 
 def asked(cloth: Garment, scene: Scene | None = None) -> Asked:
     return Asked(cloth, scene or Scene(), cloth.placement, "front", "pr2", 0.03, "arm_time", 1000)
-
-
-def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
-    """The plan of a request once a change has been put into it, as a client would."""
-    assert len(change) == 1
-    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
-    options = {name: parts.get(name, float)(value) for name, value in change.items()}
-    request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 30.0, **options}
-    return make_plan(request.pop("garment"), request.pop("scene"), **request)
 
 
 @pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
@@ -81,6 +75,47 @@ def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
     found = list(suggestions(cloth, time_limit_s=5.0))
     assert [s.kind for s in found] == ["placement"]
     assert found[0].cost_s < known.cost_s - 1.0
+
+
+def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
+    # The table is so high that neither end of the strip can be lifted as far as it is to its line.
+    lines = fold((0.235, 0.0), (0.235, 0.1), name="left end"), fold((0.725, 0.1), (0.725, 0.0), name="right end")
+    strip = garment(rectangle_points(0.96, 0.1), *lines, placement=Pose2(-0.6, 0.48, -math.pi / 2))
+    high = Scene(table=Table(height_m=1.35))
+    known = make_plan(strip, high, time_limit_s=60.0)
+    assert {reason.fold for reason in known.reasons} == {0, 1}
+    wish = least_of(fold_lines(asked(strip, high), (0, 1)))
+    assert wish.says.code == "shift_folds"
+    assert [shift["fold"] for shift in wish.says.values["shifts"]] == [0, 1]
+    assert planned_with(wish.change, strip, high).is_solved
+
+
+def least_of(search: Search) -> Suggestion:
+    """What a search tells in the end, with all the time in the world."""
+    wish = next(search)
+    while isinstance(wish, Trial):
+        wish = search.send(wish.asked.plan(60.0, bool))
+    return wish
+
+
+def test_the_friction_that_is_suggested_is_the_least_in_sensible_steps():
+    # Folded over x = 0.3 of 1.2 m across the table, 0.11 m hang and 1.09 m of layers lie: 0.1009 would do.
+    strip = garment(rectangle_points(1.2, 0.2), fold((0.3, 0.0), (0.3, 0.2)), placement=Pose2(-0.6, 0.6, -math.pi / 2))
+    smooth = Scene(friction=0.0)
+    for reasons in (make_plan(strip, smooth, time_limit_s=60.0).reasons, ()):
+        found = least_of(frictions(asked(strip, smooth), reasons))
+        assert found.change["scene"]["friction"] == pytest.approx(0.15)
+        assert found.plan.is_solved
+
+
+def test_the_grip_radius_that_is_suggested_is_the_least_in_whole_centimetres():
+    # The corners of a ribbon's end are 0.05 m apart, too near for two hands; one between them needs 0.025 m.
+    line = fold((0.05, 0.15), (0.0, 0.15), radius_m=0.01)
+    ribbon = garment(rectangle_points(0.05, 0.3), line, placement=Pose2(-0.7, 0.21, -math.pi / 2))
+    known = make_plan(ribbon, time_limit_s=60.0)
+    for reasons in (known.reasons, ()):
+        found = least_of(grip_radii(asked(ribbon), (0,), reasons))
+        assert found.change["garment"]["folds"][0]["grip_radius_m"] == pytest.approx(0.03)
 
 
 def test_what_is_planned_already_is_not_planned_again():

@@ -13,7 +13,8 @@ export const CHANGES = {
     if (!quarters) return `move the garment ${way}`;
     return `turn the garment ${TURNS[quarters]}${way ? ` and move it ${way}` : ""}`;
   },
-  shift_fold: ({ fold, by_m: by, towards }, folds) => `shift ${called(folds, fold)} ${length(by)} ${direction(towards)}`,
+  shift_fold: shiftFold,
+  shift_folds: ({ shifts }, folds) => listed(shifts.map((one) => shiftFold(one, folds))),
   fold_before: ({ fold, before }, folds) => `make ${called(folds, fold)} before ${called(folds, before)}`,
   fold_in_order: ({ folds: order }, folds) =>
     `fold in the order ${order.map((index) => called(folds, index)).join(", ")}`,
@@ -40,5 +41,9 @@ export const CHANGES = {
   start_at: ({ station }) => `start at ${place(station)}`,
   take_back: ({ step }) => `take back \u201C${step}\u201D`,
 };
+
+function shiftFold({ fold, by_m: by, towards }, folds) {
+  return `shift ${called(folds, fold)} ${length(by)} ${direction(towards)}`;
+}
 
 const short = (number) => String(Number(number.toPrecision(3)));

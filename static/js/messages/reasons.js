@@ -39,7 +39,7 @@ export const REASONS = {
     const { arm, at, moment, station, back_off_m: backOff } = says;
     return (
       `the ${arm} grip at ${onTable(at)}, ${height(at[2])} ${MOMENTS[moment]}, ${lack(says)}. ` +
-      `Closest: ${place(station)}, backed off ${length(backOff)}${carried(says)}. ${whatToDo(says)}`
+      `Closest: ${place(station)}, backed off ${length(backOff)}${carried(says)}${whatToDo(says)}`
     );
   },
   too_many_grips: ({ points, hands, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
@@ -81,6 +81,11 @@ export const REASONS = {
     `layer ${counted(layer)} hangs over the ${edge} edge and nothing holds its corner at ${onGarment(at)}, ` +
     `${length(beyond)} beyond the edge`,
   slips,
+  slips_on_the_way: ({ friction, needed_friction: needed }) =>
+    `the cloth slips wherever it would be in reach. The friction is ${friction.toFixed(2)}` +
+    (needed === null ? "" : `, ${(Math.ceil(100 * needed - 1e-6) / 100).toFixed(2)} would hold it`),
+  wider_grip: ({ grip_radius_m: radius, needed_grip_radius_m: needed }) =>
+    `a grip radius of ${enough(needed)} would do, now ${length(radius)}`,
   waits_for: ({ folds: roots }, folds) =>
     `waits for ${listed(roots.map((root) => called(folds, root)))}, which cannot be done`,
   not_with_the_others: () => "can be done, but not together with the others",
@@ -101,16 +106,20 @@ function lack({ cause, joint, demand, towards, comfort_m, wanted_comfort_m: want
   return `is ${short} out of reach${DEMANDS[demand]} (${[why, limit].filter(Boolean).join(", ")})`;
 }
 
-/** What a person can change. */
-function whatToDo({ is_at_least: isAtLeast, shift_m: by, shift_towards: towards, tried_m: tried }) {
-  if (isAtLeast) return "Place the cloth or a station so that it is nearer";
-  if (by === null) return `No shift of its way by up to ${length(tried)} brings all of it into reach: fold less at once`;
-  return `All of its way is in reach ${length(by)} ${whereTo(towards)}: ${how(towards[2])}`;
+/** What a person can change, of what the planner has tried. */
+function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
+  if (typeof comfort === "number") return `. With ${length(comfort)} of comfort it can be done`;
+  if (!movable) return "";
+  if (movable.length) return `. All of its way is in reach ${length(by)} ${whereTo(towards)}: ${how(movable, towards[2])}`;
+  if (says.is_at_least) return ". Place the cloth or a station so that it is nearer";
+  return `. No shift of its way by up to ${length(says.tried_m)} was found that brings it about: fold less at once`;
 }
 
-function how(up) {
-  if (Math.abs(up) <= OBLIQUE) return "move the cloth or the station";
-  return up > 0 ? "raise the table or lower the torso" : "lower the table or raise the torso";
+/** What can be moved so far, by its name, and whether that is up. */
+function how(movable, up) {
+  const [table, torso] = up > 0 ? ["raise the table", "lower the torso"] : ["lower the table", "raise the torso"];
+  const words = { cloth: "move the cloth", station: "move the station", table, torso };
+  return movable.map((name) => words[name]).join(" or ");
 }
 
 /** A direction of the base frame in words. */

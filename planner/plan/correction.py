@@ -1,0 +1,251 @@
+"""Ways to remove a cause: what is changed, by how much, and what is said of it once it has been tried."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.geometry.pose import Point3
+from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message
+from planner.plan.reason import Reason
+from planner.plan.reason_grips import needed_radius
+from planner.plan.reason_words import reached_with_comfort
+from planner.plan.relaxed import Relaxed, Trial
+from planner.plan.suggestion_grid import Room
+from planner.primitives.obstacle import Code
+from planner.primitives.work import Work
+
+FRICTION_MAX = 10.0
+"""No scene has a larger coefficient."""
+
+_UPRIGHT = 0.5
+"""A direction with a larger component along z than this is up or down."""
+
+_FURTHER_M = (0.001, 0.1, 0.3)
+"""Cloth that is moved just so far that it may lie there is tried so much further on too (m)."""
+
+_GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Way:
+    """A way to remove a cause.
+
+    Attributes:
+        kind: what is changed; two of one kind are not combined.
+        amounts: by how much, tried in turn, the last allows most; empty where the cause is there or not.
+        applied: a problem with the cause removed by an amount.
+        told: the reason once that was tried.
+        needed: the amount with which what was found would do as well, where that can be told.
+    """
+
+    kind: str
+    amounts: tuple[float, ...]
+    applied: Callable[[Relaxed, float], Relaxed]
+    told: Callable[[Reason, float], Reason] = lambda reason, _: reason
+    needed: Callable[[Trial], float] | None = None
+
+    @property
+    def most(self) -> float:
+        """The largest amount; 0 where there are none."""
+        return max(self.amounts, default=0.0)
+
+
+COLLISIONS_IGNORED = Way("collision", (), lambda relaxed, _: relaxed.with_collisions_ignored())
+"""What shows that nothing but the arms' touching something stands in the way."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """What may be a cause, and ways to remove it, those that a person can do first."""
+
+    reason: Reason
+    ways: tuple[Way, ...]
+
+
+def candidates(work: Work, measured: tuple[Reason, ...], fold: int | None) -> Iterator[Candidate]:
+    """What may keep a fold from being done, or with None the cloth from staying where it lies at the start.
+
+    Args:
+        work: the problem, with what was met.
+        measured: what seems to stand in the way.
+        fold: the fold.
+    """
+    mine = [reason for reason in measured if reason.fold == fold]
+    if work.has_slipped and work.scene.friction < FRICTION_MAX:
+        slip = next((reason for reason in mine if reason.code is Code.SLIPS), _slips_on_the_way(work, fold))
+        yield Candidate(slip, (_friction(work, slip),))
+    moved: set[Point3 | None] = set()
+    for reason in sorted(mine, key=lambda reason: reason.short_by_m or 0.0):
+        ways = tuple(_ways(work, reason))
+        is_told = ways and ways[0].kind == "cloth" and reason.code is not Code.OUT_OF_REACH and reason.towards in moved
+        if ways and not is_told:
+            moved.add(reason.towards)
+            yield Candidate(reason, ways)
+
+
+def _ways(work: Work, reason: Reason) -> Iterator[Way]:
+    if reason.code in _GRIPS and reason.fold is not None:
+        yield _blue(reason.fold) if reason.needed_grip_radius_m is None else _grip_radius(work, reason)
+    elif reason.code in (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE):
+        yield from _cloth_moved(work, reason)
+    elif reason.code is Code.OUT_OF_REACH:
+        yield from _reach(work, reason)
+    elif reason.code is Code.COLLISION:
+        yield COLLISIONS_IGNORED
+
+
+def _friction(work: Work, slip: Reason) -> Way:
+    now = work.scene.friction
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        return relaxed.with_scene(replace(relaxed.work.scene, friction=min(now + amount, FRICTION_MAX)))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        needed = now + amount
+        if reason.needed_friction is not None and abs(reason.needed_friction - needed) <= LENGTH_M:
+            return reason
+        other = _slips_on_the_way(work, reason.fold, needed)
+        return replace(other, offset_m=reason.offset_m, point=reason.point)
+
+    measured = () if slip.needed_friction is None else (slip.needed_friction - now,)
+    amounts = (*(by for by in measured if now + by < FRICTION_MAX), FRICTION_MAX - now)
+    return Way("friction", amounts, applied, told, lambda trial: trial.needed_friction - now)
+
+
+def _slips_on_the_way(work: Work, fold: int | None, needed: float | None = None) -> Reason:
+    """That the cloth slips, in a drag that the fold would need or after it."""
+    label = "" if fold is None else f"{work.sequence.folds[fold].label}: "
+    text = f"{label}the cloth slips wherever it would be in reach; the friction is {work.scene.friction:.2f}"
+    if needed is not None:
+        text += f", {math.ceil(needed * 100.0 - LENGTH_M) / 100.0:.2f} would hold it"
+    says = Message("slips_on_the_way", text, {"friction": work.scene.friction, "needed_friction": needed})
+    return Reason(fold, Code.SLIPS, says, needed_friction=needed)
+
+
+def _grip_radius(work: Work, reason: Reason) -> Way:
+    fold, needed = reason.fold or 0, reason.needed_grip_radius_m or 0.0
+    now = work.sequence.folds[fold].grip_radius_m
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        garment = relaxed.work.sequence.garment
+        wider = replace(garment.folds[fold], grip_radius_m=now + amount)
+        return relaxed.with_garment(replace(garment, folds=(*garment.folds[:fold], wider, *garment.folds[fold + 1 :])))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        if abs(now + amount - needed) <= LENGTH_M:
+            return reason
+        radius = math.ceil((now + amount) * 1000.0 - LENGTH_M) / 1000.0
+        text = f"{work.sequence.folds[fold].label}: a grip radius of {radius:.3f} m would do, now {now:g} m"
+        says = Message("wider_grip", text, {"grip_radius_m": now, "needed_grip_radius_m": now + amount})
+        return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=now + amount)
+
+    amounts = tuple(sorted({needed - now, max(_one_hands_radius(work, fold), needed) - now}))
+    return Way("grip_radius", amounts, applied, told)
+
+
+def _one_hands_radius(work: Work, fold: int) -> float:
+    """The radius with which one hand would hold all that a fold needs (m)."""
+    drawn, arms = work.sequence.folds[fold], len(work.reach.arm_names)
+    vertices = np.array(work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices)
+    return needed_radius(work.sequence.moving(fold), drawn.line, vertices, 1) if len(vertices) else 0.0
+
+
+def _blue(fold: int) -> Way:
+    def applied(relaxed: Relaxed, _: float) -> Relaxed:
+        garment = relaxed.work.sequence.garment
+        blue = replace(garment.folds[fold], kind="blue")
+        return relaxed.with_garment(replace(garment, folds=(*garment.folds[:fold], blue, *garment.folds[fold + 1 :])))
+
+    return Way("blue", (), applied)
+
+
+def _cloth_moved(work: Work, reason: Reason) -> Iterator[Way]:
+    """The cloth moved so far that it lies as it must; of what reaches behind a line, that it can be carried."""
+    if reason.fold is None:
+        yield from _onto_table(work)
+    elif reason.shift_m is not None and reason.shift_towards is not None:
+        yield _moved("cloth", reason.shift_towards, reason.shift_m, _FURTHER_M)
+    elif reason.short_by_m is not None and reason.point is None:
+        yield Way("behind", (reason.short_by_m,), lambda relaxed, by: relaxed.with_reach_behind(work.behind_max_m + by))
+
+
+def _onto_table(work: Work) -> Iterator[Way]:
+    """The cloth moved until all of it lies on the table, or as far on the way there as is enough."""
+    room = Room.of(work.sequence.garment, work.placement, work.scene.table)
+    x, y = room.nearest
+    length = math.hypot(x, y)
+    if not room.is_none and length > LENGTH_M:
+        yield _moved("cloth", (x / length, y / length, 0.0), length)
+
+
+def _moved(kind: str, towards: Point3, by_m: float, further_m: tuple[float, ...] = ()) -> Way:
+    """The cloth moved in a direction of the table frame, by so much, or further by one of some lengths (m)."""
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        x, y, _ = (amount * part for part in towards)
+        return relaxed.with_placement(relaxed.work.placement.moved(x, y))
+
+    amounts = tuple(by_m + 2 * LENGTH_M + more for more in (0.0, *further_m))
+    return Way(kind, amounts, applied, lambda reason, by: replace(reason, shift_m=by, shift_towards=towards))
+
+
+def _reach(work: Work, reason: Reason) -> Iterator[Way]:
+    """The hands' way shifted, by moving cloth or robot; less comfort; arms of any length."""
+    comfort = list(_comfort(work, reason))
+    if reason.cause == "comfort_only":
+        yield from comfort
+    if reason.shift_m is not None and reason.shift_towards is not None and reason.station is not None:
+        yield from _shifts(work, reason.station, reason.shift_m, reason.shift_towards)
+    if reason.cause != "comfort_only":
+        yield from comfort
+    yield Way("arms", (), lambda relaxed, _: relaxed.with_long_arms())
+
+
+def _comfort(work: Work, reason: Reason) -> Iterator[Way]:
+    """Less comfort: what lacks more than that is not in reach without any."""
+    now = work.reach.comfort_m
+    if now <= 0.0 or (reason.short_by_m or 0.0) > now:
+        return
+
+    def told(reason: Reason, amount: float) -> Reason:
+        return reached_with_comfort(reason, max(now - amount, 0.0))
+
+    amounts = (now,) if reason.comfort_m is None else (now - reason.comfort_m, now)
+    yield Way("comfort", amounts, lambda relaxed, by: relaxed.with_comfort(max(now - by, 0.0)), told)
+
+
+def _shifts(work: Work, station: str, by_m: float, towards: Point3) -> Iterator[Way]:
+    if abs(towards[2]) > _UPRIGHT:
+        yield from _lifted(by_m, towards)
+        return
+    yield _moved("cloth", towards, by_m)
+
+    def robot_moved(relaxed: Relaxed, amount: float) -> Relaxed:
+        x, y, _ = (-amount * part for part in towards)
+        stations = tuple((n, p.moved(x, y) if n == station else p) for n, p in relaxed.work.scene.stations)
+        return relaxed.with_scene(replace(relaxed.work.scene, stations=stations))
+
+    yield Way("station", (by_m,), robot_moved, _told_shift(towards))
+
+
+def _lifted(by_m: float, towards: Point3) -> Iterator[Way]:
+    """The table raised or lowered, or the torso the other way."""
+
+    def table_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
+        scene = relaxed.work.scene
+        height = scene.table.height_m + amount * towards[2]
+        return relaxed.with_scene(replace(scene, table=replace(scene.table, height_m=height)))
+
+    def torso_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
+        scene = relaxed.work.scene
+        return relaxed.with_scene(replace(scene, torso_m=scene.torso_m - amount * towards[2]))
+
+    yield Way("table", (by_m,), table_lifted, _told_shift(towards))
+    yield Way("torso", (by_m,), torso_lifted, _told_shift(towards))
+
+
+def _told_shift(towards: Point3) -> Callable[[Reason, float], Reason]:
+    return lambda reason, amount: replace(reason, shift_m=amount, shift_towards=towards)
