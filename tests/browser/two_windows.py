@@ -130,5 +130,7 @@ def beginning(plan: dict[str, Any]) -> str:
     """How the status begins."""
     if plan["status"] != "solved":
         return "No plan: "
+    if plan["dag"]["folds"] == 0:
+        return "No folds yet: draw the first one"
     count = len(plan["primitives"])
     return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan['cost_s']:.1f} s"
