@@ -54,11 +54,11 @@ class DrivingBound:
         self._service = work.kept(Service)
         self._map = SiteMap(work, start, self._service)
         self._folds = _spread(work, _FOLDS_MAX)
-        self._mask = sum(1 << fold for fold in self._folds)
         self._within, self._steps, alone = self._within_horizon()
+        self._mask = sum(1 << fold for fold in self._folds)
         self._numbers = {site.key: number for number, site in enumerate(self._within)}
         self._alone = {False: alone}
-        self._together = self._far_apart(alone)
+        self._together = self._far_apart()
         self._joint: dict[bool, FloatArray] = {}
         self._known: dict[tuple[int, bool], FloatArray] = {}
 
@@ -105,15 +105,26 @@ class DrivingBound:
         """The sites looked at, the steps that each fold takes at each, and the bound for each fold alone."""
         horizon_s = _HORIZON_S
         while True:
-            found = [(site, self._steps_at(site)) for site in self._in_time(self._map.within(horizon_s, _SITES_MAX))]
+            sites, are_all = self._map.within(horizon_s, _SITES_MAX)
+            found = [(site, self._steps_at(site)) for site in self._in_time(sites)]
             within = tuple(site for site, _ in found)
             steps = np.array([of_site for _, of_site in found]).swapaxes(0, 1)
             self._is_served = self._served(within)
             alone = self._each_alone(self._map.sites(within, is_service_over=False), steps)
             needed_s = float(alone[:, FREE, 0, self._start.back_off].max())
-            if needed_s < horizon_s - _BEYOND_S or len(within) >= _SITES_MAX or self._is_over():
-                return within, steps, alone
+            is_enough = needed_s < horizon_s - _BEYOND_S or are_all or len(within) >= _SITES_MAX
+            if is_enough or self._is_over():
+                return self._without_the_impossible(within, steps, alone)
             horizon_s *= _GROWTH
+
+    def _without_the_impossible(
+        self, within: tuple[Site, ...], steps: NDArray[np.int64], alone: FloatArray
+    ) -> tuple[tuple[Site, ...], NDArray[np.int64], FloatArray]:
+        """The same without the folds that can be done from nowhere: why not is for the search to find out."""
+        is_possible = np.isfinite(alone[:, FREE, 0, self._start.back_off])
+        self._folds = [fold for fold, is_kept in zip(self._folds, is_possible, strict=True) if is_kept]
+        self._is_served = self._is_served[is_possible]
+        return within, steps[is_possible], alone[is_possible]
 
     def _in_time(self, within: Sequence[Site]) -> Iterator[Site]:
         """The first site, and those after it for which there is time."""
@@ -131,7 +142,7 @@ class DrivingBound:
         rows = zip(steps, self._is_served, strict=True)
         return np.array([to_go(sites, of_fold[None], is_served[None])[1] for of_fold, is_served in rows])
 
-    def _far_apart(self, alone: FloatArray) -> list[int]:
+    def _far_apart(self) -> list[int]:
         """The folds that together need most from the start, one after the other the one that adds most."""
         sites = self._map.sites(self._within, is_service_over=False)
         start = self._start.back_off
@@ -141,10 +152,10 @@ class DrivingBound:
         while len(chosen) < _TOGETHER_MAX:
             sets = [[*chosen, n] for n in kinds.values() if n not in chosen]
             costs = [float(to_go(sites, self._steps[s], self._is_served[s])[-1, FREE, 0, start]) for s in sets]
-            if not costs or max(costs) <= needed_s:
+            most_s = max((cost_s for cost_s in costs if np.isfinite(cost_s)), default=0.0)
+            if most_s <= needed_s:
                 break
-            needed_s = max(costs)
-            chosen = sets[costs.index(needed_s)]
+            needed_s, chosen = most_s, sets[costs.index(most_s)]
         return chosen
 
 

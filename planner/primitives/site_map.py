@@ -3,6 +3,7 @@
 import heapq
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -48,23 +49,24 @@ class SiteMap:
         self._start = Site(start.offset, start.station)
         self._moves = work.kept(BaseMove)
         self._longest = longest_drag(work)
+        self._move_s = cache(self._moved_s)
 
-    def within(self, horizon_s: float, most: int) -> tuple[Site, ...]:
-        """Return the sites that are less than a horizon from the start (s), nearest first, at most so many."""
+    def within(self, horizon_s: float, most: int) -> tuple[tuple[Site, ...], bool]:
+        """Return the sites less than a horizon from the start (s), nearest first, at most so many; are these all?"""
         found: dict[SiteKey, Site] = {}
         queue: list[tuple[float, int, Site]] = [(0.0, 0, self._start)]
         count = 0
         while queue and len(found) < most:
             away_s, _, site = heapq.heappop(queue)
             if away_s >= horizon_s:
-                break
+                return tuple(found.values()), False
             if site.key in found:
                 continue
             found[site.key] = site
             for other, cost_s in self._beside(site):
                 count += 1
                 heapq.heappush(queue, (away_s + cost_s, count, other))
-        return tuple(found.values())
+        return tuple(found.values()), not queue
 
     def sites(self, within: tuple[Site, ...], is_service_over: bool) -> Sites:
         """Return the relaxed problem of some sites; to others lead ways, and beyond those is nothing to be done.
@@ -109,7 +111,7 @@ class SiteMap:
                 return
             yield Site(offset, site.station)
 
-    def _move_s(self, station: int, goal: int) -> FloatArray:
+    def _moved_s(self, station: int, goal: int) -> FloatArray:
         """How long a move takes from each back-off (s)."""
         starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._work.back_offs))
         return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])

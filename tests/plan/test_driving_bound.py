@@ -1,5 +1,8 @@
 """The bound on driving, for loose folds: consistent, no greater than what is true, and close to it."""
 
+import math
+from dataclasses import replace
+
 import pytest
 
 from bench.growth_cases import tabs_on_two_sides
@@ -7,6 +10,7 @@ from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import Pose2
 from planner.plan.driving_bound import DrivingBound
 from planner.plan.heuristic import arm_time
 from planner.plan.make_plan import make_plan
@@ -22,11 +26,12 @@ from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
 
+SCENE = Scene()
 START = State(0, (0.0, 0.0), 0, 0)
 
 
-def work_of(cloth: Garment) -> Work:
-    robot, scene = load_robot("pr2"), Scene()
+def work_of(cloth: Garment, scene: Scene = SCENE) -> Work:
+    robot = load_robot("pr2")
     reach = robot.reach(scene.torso_m, 0.03)
     return Work(FoldSequence.of(cloth), scene, reach, cloth.placement, robot.card.base_radius_m)
 
@@ -56,6 +61,14 @@ def test_tabs_opposite_need_a_drag_and_the_way_back_however_many_there_are():
     work = work_of(tabs_on_two_sides(12))
     assert DrivingBound(work, START)(START) == pytest.approx(12 * 9.0 + 6.0)
     assert DrivingBound(work, START)(State((1 << 12) - 1, (0.0, 0.0), 0, 0)) == 0.0
+
+
+def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search():
+    # 1.2 m from the only station and nothing to drag towards it by: no tab is ever in reach.
+    far = replace(tabs_on_two_sides(8), placement=Pose2(0.3, 0.4, -math.pi / 2))
+    front = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),), back_off_max_m=0.0)
+    work = work_of(far, front)
+    assert DrivingBound(work, START)(START) == 8 * 9.0
 
 
 def test_of_tabs_near_and_far_a_drag_only_holds_near_ones():
