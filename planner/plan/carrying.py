@@ -133,7 +133,7 @@ class Carrier:
             as_is, half = (np.abs(np.remainder(away + turn, 2.0 * np.pi) - np.pi).max() for turn in (np.pi, 0.0))
             if half < as_is - ANGLE_RAD:
                 turned[:, lead.arm, -1] += np.pi
-                if is_free(np.arange(len(turned)), turned[:, lead.arm], False).all():
+                if is_free(np.arange(len(turned)), turned[:, lead.arm], True).all():
                     half_turns[lead.arm] = np.pi
                 else:
                     turned[:, lead.arm] = joints[:, lead.arm]

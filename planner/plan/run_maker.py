@@ -212,11 +212,12 @@ class RunMaker:
         is_first = steps[0].before.done == 0 and grid_key(max(map(abs, steps[0].before.offset))) == 0
         coming_s = motion_s - self.dwell_s - borrowed_s - (0.0 if is_first else leaving_s)
         came = self._exceeding(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0], coming_s)
-        is_last = steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1
-        left = self._exceeding(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1], leaving_s)
-        if came is None or (left is None and not is_last):
+        if came is None:
             return None
-        return came, 0.0 if is_last or left is None else left
+        if steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1:
+            return came, 0.0
+        left = self._exceeding(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1], leaving_s)
+        return None if left is None else (came, left)
 
     def _exceeding(
         self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth, share_s: float
