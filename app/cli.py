@@ -182,7 +182,8 @@ def _status(answer: Plan) -> int:
         return OUT_OF_BUDGET
     if answer.is_solved and not answer.is_proven:
         bound = answer.statistics.bound_s or 0.0
-        _errors.print(f"The budget ran out; there may be a quicker plan, but none takes less than {bound:.2f} s")
+        why = "The budget ran out. " if answer.statistics.is_cut_short else ""
+        _errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
     for reason in answer.reasons:
         _errors.print(f"{reason.to_dict()['code']}: {reason.message}")
     return 0 if answer.is_solved else NO_PLAN

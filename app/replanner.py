@@ -194,7 +194,7 @@ class Replanner:
             plan = _quickest(question, work_s, known, like, show, is_unwanted)
             if is_unwanted():
                 return None
-            if plan.is_proven:  # with more work there may be a better one
+            if not plan.statistics.is_cut_short:  # else with more work there may be a better one
                 self._remember(question, plan)
         self._publish(state.version, question, plan, is_final=True)
         return plan

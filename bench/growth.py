@@ -97,7 +97,7 @@ def _grown(case: Case, repetitions: int) -> Grown:
     while len(runs) < repetitions and (not runs or _search_s(runs[0]) <= SLOW_S):
         runs.append([_planned(case, garment) for garment in case.articles])
     plans = runs[0]
-    statuses = {plan.status if plan.is_proven else OUT_OF_TIME for plan in plans}
+    statuses = {OUT_OF_TIME if plan.statistics.is_cut_short else plan.status for plan in plans}
     is_solved = statuses == {"solved"}
     return Grown(
         case,

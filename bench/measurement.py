@@ -139,10 +139,10 @@ def _run(garment: Garment, case: Case) -> _Run:
     plan_time_s = perf_counter() - started
     found = plan.statistics
     outcome = Outcome(
-        plan.status if plan.is_proven else "budget_exceeded",
+        "budget_exceeded" if plan.statistics.is_cut_short else plan.status,
         len(garment.folds),
-        len(plan.primitives) if plan.is_proven and plan.is_solved else None,
-        plan.cost_s if plan.is_proven else None,
+        len(plan.primitives) if not found.is_cut_short and plan.is_solved else None,
+        plan.cost_s if not found.is_cut_short else None,
         found.expanded,
         found.explored,
         found.ik_queries,

@@ -100,7 +100,7 @@ class FoldPath:
     def sweeps(self, grips: FloatArray) -> FloatArray:
         """Waypoints, rising: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
         farthest = float(self.line.left_distances(grips).max())
-        count = max(1, math.ceil(farthest / self._baseline_step(grips)))
+        count = max(1, math.ceil((farthest - LENGTH_M) / self._baseline_step(grips)))
         rising = 1.0 - np.linspace(farthest, 0.0, count + 1) / self.depth_m
         return np.concatenate([rising, 2.0 - rising[-2::-1]])
 

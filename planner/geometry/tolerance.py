@@ -5,6 +5,7 @@ rounding of double precision at the size of a room. Every comparison of places i
 these numbers; no other module has its own.
 """
 
+import math
 from typing import Final
 
 GRID_M: Final = 1e-6
@@ -33,6 +34,21 @@ EDGE_RAD: Final = 1e-4
 
 SNAP_M: Final = 5e-3
 """A fold's end point may lie this far from the silhouette's boundary and is put onto it (m)."""
+
+
+SORTING_M: Final = 7.3e-4
+"""The grid on which places are put in order: no length that people draw lies half-way between two of its lines (m)."""
+
+HALF_WAY: Final = 1e-3
+"""A number this near to the middle between two whole ones is half-way."""
+
+
+def nearest_whole(value: float) -> int:
+    """Return the nearest whole number; half-way between two, to the tolerance, the one nearer to zero.
+
+    Headings of 45 degrees and the like lie exactly half-way, and a rounding error must not decide.
+    """
+    return round(math.copysign(math.ceil(abs(value) - 0.5 - HALF_WAY), value))
 
 
 def grid_key(value: float) -> int:

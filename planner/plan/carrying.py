@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.plan.carried import Carried
-from planner.plan.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Leads, Lines
+from planner.plan.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Leads, Lines, rolled
 from planner.plan.lying_cloth import LyingCloth
 from planner.plan.machine import Collisions, Machine
-from planner.plan.moments import Moments, about_x
+from planner.plan.moments import Moments
 from planner.robot.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
@@ -184,7 +184,7 @@ class Carrier:
         able = [self._machine.home(arm)[None] for arm in range(self._arms)]
         held = [arm for arm in arms if moments.is_held[arm, moment]]
         for arm in held:
-            rotation = moments.rotations[arm, moment] @ about_x(np.array([roll_rad]))[0]
+            rotation = moments.rotations[arm, moment] @ rolled(arm, roll_rad)
             able[arm] = self._postures(arm, moments.bases[moment], moments.positions[arm, moment], rotation)
         left, right = able
         if len(held) < len(arms):

@@ -6,6 +6,7 @@ early, since then it mostly is no quicker than the proper search.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import count
 
 from planner.plan.act import Act, runs_of
@@ -14,6 +15,7 @@ from planner.plan.effort import Effort
 from planner.plan.heuristic import arm_time
 from planner.plan.problem import Problem
 from planner.plan.real_run import RealRun
+from planner.plan.tries import QUICK
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
 from planner.search.a_star import a_star
@@ -28,8 +30,8 @@ _LOOKS_PER_STATE = 12
 _FAILURES_MAX = 8
 """So many runs may turn out not to be real."""
 
-_WAYS_ALONE, _WAYS_TOGETHER = 4, 1
-"""So many ways to do the same are looked at with one hand and with both, which mostly fail for good, and slowly."""
+_ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=1)
+"""What is tried with one hand, and with both, which mostly fail for good, and slowly."""
 
 
 def greedy(problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
@@ -103,8 +105,8 @@ class _Greedy:
             return Act(first, steps, None)
         key = (steps[0].before.key, *(step.after.key for step in steps))
         if key not in self._made:
-            ways = _WAYS_ALONE if all(len(step.grips) == 1 for step in steps) else _WAYS_TOGETHER
-            self._made[key] = self._problem.maker.real(steps, ways, late_max=1)
+            tries = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
+            self._made[key] = self._problem.maker.real(steps, tries)
         run = self._made[key]
         return None if run is None else Act(first, run.steps, run)
 

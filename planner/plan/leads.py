@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.tolerance import LENGTH_M
 from planner.plan.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.plan.moments import Moments, about_x
 from planner.robot.tool_path import ToolPath
@@ -50,7 +51,7 @@ class Lines:
     """How hands come and leave.
 
     Attributes:
-        roll_rad: how far they have rolled about their approach axes.
+        roll_rad: how far they have rolled about their approach axes; see `rolled`.
         shares: how much of the straight line and of the rise is tried, the first that there is room for is taken.
     """
 
@@ -149,10 +150,18 @@ def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
 
 
+def rolled(arm: int, roll_rad: float) -> FloatArray:
+    """Return the rotation by which an arm's hand rolls about its approach axis, shape (3, 3).
+
+    The arms are mirror images: the right one rolls the other way, so that what one can do the other can.
+    """
+    return np.asarray(about_x(np.array([roll_rad if arm == 0 else -roll_rad]))[0])
+
+
 def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> _Way:
     held = np.flatnonzero(moments.is_held[arm])
     positions = moments.positions[arm, held]
-    rotations = moments.rotations[arm, held] @ about_x(np.array([lines.roll_rad]))[0]
+    rotations = moments.rotations[arm, held] @ rolled(arm, lines.roll_rad)
     upwards = np.array([0.0, 0.0, 1.0])
     coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
     leaving *= RETREAT_M / np.linalg.norm(leaving)
@@ -183,7 +192,7 @@ def _stepped(corners: FloatArray) -> FloatArray:
     """The points of a polyline, no more than a step apart, shape (n, 3), m; at least two."""
     parts = [corners[:1]]
     for start, end in pairwise(corners):
-        count = int(np.ceil(np.linalg.norm(end - start) / _STEP_M))
+        count = int(np.ceil((np.linalg.norm(end - start) - LENGTH_M) / _STEP_M))
         parts.append(start + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - start))
     points = np.concatenate(parts)
     return points if len(points) > 1 else points.repeat(2, 0)

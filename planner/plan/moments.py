@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, wrapped_angle
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, EDGE_RAD, nearest_whole
 from planner.plan.phase_shares import STEP_RAD, shares_of
 from planner.primitives.phase import Hand, Phase
 
@@ -143,7 +143,7 @@ class _Sampler:
         angle = max(angles, default=0.0)
         rolls = tuple(self._rolls)
         if angle > ANGLE_RAD:
-            parts = np.linspace(0.0, 1.0, int(np.ceil(angle / STEP_RAD)) + 1)[1:, None]
+            parts = np.linspace(0.0, 1.0, int(np.ceil((angle - EDGE_RAD) / STEP_RAD)) + 1)[1:, None]
             turned = [
                 np.full((len(parts), 3, 3), np.nan)
                 if turn is None
@@ -171,7 +171,8 @@ class _Sampler:
             return np.array([(after.heading_rad, after.pitch_rad, self._rolls[arm] + _rolls(hand)[0])] * 2)
         if before.approach.is_vertical:
             before = before.seen_with(after.heading_rad)
-            goal = _Wrist(after, before.roll_rad if after.is_vertical else math.pi * round(before.roll_rad / math.pi))
+            level = math.pi * nearest_whole(before.roll_rad / math.pi)
+            goal = _Wrist(after, before.roll_rad if after.is_vertical else level)
         elif after.is_vertical:
             goal = _Wrist(Approach(before.approach.heading_rad, after.pitch_rad), before.roll_rad)
         else:

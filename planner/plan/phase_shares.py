@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
 from planner.primitives.phase import Phase
 
 STEP_M = 0.01
@@ -26,13 +26,13 @@ def shares_of(phase: Phase) -> FloatArray:
     hands = [hand for hand in phase.hands if hand is not None]
     pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
     drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
-    wanted = np.full(pieces, drive / pieces / STEP_M)
+    wanted = np.full(pieces, (drive - LENGTH_M) / pieces / STEP_M)
     for hand in hands:
         if len(hand.points) > 1:
-            _need(wanted, np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) / STEP_M)
+            _need(wanted, (np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) - LENGTH_M) / STEP_M)
         if len(hand.rolls_rad) > 1:
-            _need(wanted, np.abs(np.diff(hand.rolls_rad)) / STEP_RAD)
-    steps = np.maximum(np.ceil(wanted - ANGLE_RAD), 1.0).astype(np.int64)
+            _need(wanted, (np.abs(np.diff(hand.rolls_rad)) - EDGE_RAD) / STEP_RAD)
+    steps = np.maximum(np.ceil(wanted), 1.0).astype(np.int64)
     ends = np.cumsum(steps)
     within = (np.arange(ends[-1]) - np.repeat(ends - steps, steps) + 1) / np.repeat(steps, steps)
     return np.append(0.0, (np.repeat(np.arange(pieces), steps) + within) / pieces)

@@ -77,7 +77,7 @@ class Statistics:
         ik_time_s: time spent in them (s).
         search_time_s: time of the whole search (s), joint paths aside.
         joint_time_s: time spent on joint paths (s).
-        bound_s: no plan costs less (s); None when there is no plan at all.
+        bound_s: no plan costs less, whatever the joints can do (s); None when no plan was found for no lack of time.
         ways: ways to go on that were looked at; the work of the search, on every machine the same.
         is_cut_short: whether it ended for want of work, time or states; else to search on would find nothing else.
     """
@@ -116,7 +116,7 @@ class Plan:
     """A plan, or why there is none.
 
     Attributes:
-        status: "solved", "infeasible" (a proof that these primitives cannot do it) or "budget_exceeded".
+        status: "solved", "infeasible" (a proof that these primitives cannot do it if `is_proven`) or "budget_exceeded".
         primitives: what to do, in order; empty unless solved.
         cost_s: the whole duration (s); None unless solved.
         final_placement: the article frame in the table frame at the end; None unless solved.
@@ -124,6 +124,7 @@ class Plan:
         statistics: what the search did.
         problem: what was asked.
         acts: the primitives again, with the joint paths of those that belong together.
+        is_exhaustive: whether nothing was rejected after some tries that more tries might have made possible.
     """
 
     status: str
@@ -134,10 +135,16 @@ class Plan:
     statistics: Statistics
     problem: Problem
     acts: tuple[Act, ...]
+    is_exhaustive: bool
 
     @staticmethod
     def of(
-        problem: Problem, status: str, acts: tuple[Act, ...], why: tuple[Reason, ...], statistics: Statistics
+        problem: Problem,
+        status: str,
+        acts: tuple[Act, ...],
+        why: tuple[Reason, ...],
+        statistics: Statistics,
+        is_exhaustive: bool,
     ) -> "Plan":
         """The answer to a problem: what is done, act by act, if it is solved."""
         primitives = tuple(_scheduled(problem.work, acts))
@@ -153,6 +160,7 @@ class Plan:
             statistics,
             problem,
             acts,
+            is_exhaustive,
         )
 
     @property
@@ -195,7 +203,7 @@ class Plan:
         """Whether it is known that nothing is quicker, or that there is no plan at all."""
         bound_s = self.statistics.bound_s
         if self.cost_s is None or bound_s is None:
-            return self.status == "infeasible"
+            return self.status == "infeasible" and self.is_exhaustive
         return self.cost_s <= bound_s + TIME_S
 
     @cached_property

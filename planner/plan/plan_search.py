@@ -21,6 +21,7 @@ from planner.plan.realizer import OutOfTimeError, Realizer
 from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.plan.relaxed import Relaxed, Trial
+from planner.plan.tries import MORE_RUNS_FOR_A_BETTER_PLAN, MORE_RUNS_FOR_SOME_PLAN, QUICK, THOROUGH
 from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -80,8 +81,10 @@ class PlanSearch:
         self._achieved = 0
         self._reached: set[State] = set()
         self._blocking: list[int] = []
-        self._realizer = Realizer(problem.maker, self._is_out_of_budget)
+        self._realizer = Realizer(problem.maker, self._is_out_of_budget, QUICK)
         budget.watch(problem)
+        self._found: tuple[Act, ...] = ()
+        self._bound_s: float | None = None
         self._edges = Edges(problem.work, self._possible, self._is_wanted)
         self._explored = 0
         self._joint_time_s = 0.0
@@ -92,15 +95,38 @@ class PlanSearch:
         unrest = self._work.unrest(0, self._problem.start.offset)
         if unrest is not None:
             met = Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
-            return self._answer(Outcome.INFEASIBLE, None, (), self._tried(met) if with_reasons else ())
-        result, acts = self._real_path(self._problem.start)
-        if self._known is not None and result.outcome is not Outcome.SOLVED:
-            is_proof = result.outcome is Outcome.INFEASIBLE
-            bound_s = self._known.cost_s if is_proof else result.bound
-            return self._answer(Outcome.SOLVED, bound_s, self._known.acts, (), is_cut_short=not is_proof)
-        outcome = Outcome.INFEASIBLE if self._blocking else result.outcome
-        why = self._reasons() if with_reasons and outcome is Outcome.INFEASIBLE else ()
-        return self._answer(outcome, result.bound, acts, why, is_cut_short=outcome is Outcome.BUDGET_EXCEEDED)
+            why = self._tried(met) if with_reasons else ()
+            return self._answer(Outcome.INFEASIBLE, (), why, is_cut_short=False)
+        result, self._found = self._real_path(self._problem.start)
+        is_cut_short = result.outcome is Outcome.BUDGET_EXCEEDED and not self._blocking
+        if not is_cut_short and not self._blocking and self._is_in_doubt:
+            is_cut_short = self._is_cut_short_trying_more()
+        if self._found:
+            return self._answer(Outcome.SOLVED, self._found, (), is_cut_short)
+        if self._known is not None:
+            return self._answer(Outcome.SOLVED, self._known.acts, (), is_cut_short)
+        if self._blocking or result.outcome is Outcome.INFEASIBLE:
+            why = self._reasons() if with_reasons else ()
+            return self._answer(Outcome.INFEASIBLE, (), why, is_cut_short)
+        return self._answer(result.outcome, (), (), is_cut_short)
+
+    @property
+    def _is_in_doubt(self) -> bool:
+        """Whether something quicker than what is known may be among what was rejected and could be tried more."""
+        return self._realizer.has_doubts and self._limit_s > (self._bound_s or 0.0)
+
+    def _is_cut_short_trying_more(self) -> bool:
+        """Search once more with more tries for each step; whether the budget ran out.
+
+        Reasons rest on the first round: what was in the way of the quickest ways.
+        """
+        first, reached = self._realizer, set(self._reached)
+        runs_max = MORE_RUNS_FOR_SOME_PLAN if math.isinf(self._limit_s) else MORE_RUNS_FOR_A_BETTER_PLAN
+        self._realizer = Realizer(self._problem.maker, self._is_out_of_budget, THOROUGH, runs_max)
+        _, better = self._real_path(self._problem.start)
+        self._found = better or self._found
+        self._realizer, self._reached = first, reached
+        return self._is_out_of_budget()
 
     def trial(self, folds: int, *, may_collide: bool) -> Trial:
         """Look whether some folds (a bit mask), and all they wait for, can be done; the quickest way matters not.
@@ -127,6 +153,7 @@ class PlanSearch:
             self._edges.begin()
             result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
+            self._note_bound(result)
             if result.outcome is not Outcome.SOLVED:
                 return result, ()
             if result.cost >= self._limit_s:
@@ -155,10 +182,21 @@ class PlanSearch:
     def _is_goal(self, state: State) -> bool:
         return state.done & self._wanted == self._wanted
 
+    def _note_bound(self, result: SearchResult[State, Step]) -> None:
+        """Note what any plan takes at least: what the search says as long as no step was rejected or raised.
+
+        Later the search knows of steps only that nothing better was found for them, which is no proof.
+        """
+        if not self._realizer.has_doubts and self._bound_s is None:
+            self._bound_s = min(result.bound, self._limit_s + TIME_S)
+
     @property
     def _limit_s(self) -> float:
         """What takes as long is no quicker than what is known (s)."""
-        return math.inf if self._known is None else (self._known.cost_s or 0.0) - TIME_S
+        known_s = [math.inf] if self._known is None else [self._known.cost_s or 0.0]
+        if self._found:
+            known_s.append(sum(sum(act.durations_s()) for act in self._found))
+        return min(known_s) - TIME_S
 
     def _reasons(self) -> tuple[Reason, ...]:
         """Why there is no plan, each cause tried: with it removed there is one, or at least its fold can be done."""
@@ -234,15 +272,7 @@ class PlanSearch:
         available = self._work.sequence.dag.available(self._achieved)
         return [fold for fold in available if self._wanted & ~self._achieved & 1 << fold]
 
-    def _answer(
-        self,
-        outcome: Outcome,
-        bound_s: float | None,
-        acts: tuple[Act, ...],
-        why: tuple[Reason, ...],
-        *,
-        is_cut_short: bool = False,
-    ) -> Plan:
+    def _answer(self, outcome: Outcome, acts: tuple[Act, ...], why: tuple[Reason, ...], is_cut_short: bool) -> Plan:
         reach = self._work.reach
         elapsed = time.perf_counter() - self._started - self._joint_time_s
         statistics = Statistics(
@@ -252,11 +282,12 @@ class PlanSearch:
             reach.query_time_s,
             elapsed,
             self._joint_time_s,
-            None if outcome is Outcome.INFEASIBLE else bound_s,
+            None if outcome is Outcome.INFEASIBLE else self._bound_s,
             self._budget.ways,
             is_cut_short,
         )
         if self._known is not None:
             statistics = statistics.after(self._known.statistics)
         self._work.forget()
-        return Plan.of(self._problem, outcome.value, acts, why, statistics)
+        is_exhaustive = not is_cut_short and (bool(self._blocking) or not self._realizer.has_doubts)
+        return Plan.of(self._problem, outcome.value, acts, why, statistics, is_exhaustive)

@@ -21,23 +21,14 @@ from itertools import islice
 from planner.geometry.tolerance import TIME_S
 from planner.plan.act import Act, runs_of
 from planner.plan.real_run import RealRun
-from planner.plan.run_maker import RunMaker
+from planner.plan.run_maker import RunMaker, ways_of
+from planner.plan.tries import QUICK, Tries
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
-_SPREAD, _TRIED_MAX, _ENOUGH = 64, 12, 4
-"""Once one has failed, so many other ways to do the same are looked at, so many that may do are tried, until so many
-are real."""
-
-_VAIN_MAX = 6
-"""Of those that take both arms, which are slow to try, no more are tried once so many were in vain."""
-
-_FAILURES_MAX = 5
-"""So often the same is tried from a station by the same arms, the cloth here or there, if it never succeeds."""
-
 
 class OutOfTimeError(Exception):
-    """There was no time to look whether steps are real."""
+    """There was no time to look whether steps are real, or no more work was to be done."""
 
 
 class Realizer:
@@ -47,15 +38,25 @@ class Realizer:
         struck: the runs that could not be made real, each up to the step that could not.
     """
 
-    def __init__(self, maker: RunMaker, is_over: Callable[[], bool]) -> None:
+    def __init__(
+        self,
+        maker: RunMaker,
+        is_over: Callable[[], bool],
+        tries: Tries = QUICK,
+        runs_max: float = math.inf,
+    ) -> None:
         """Nothing is known yet.
 
         Args:
             maker: makes runs real.
-            is_over: asked before each run; true means that there is no time.
+            is_over: asked before each run and each look; true means that there is no time.
+            tries: how much is tried.
+            runs_max: the arms are led through no more runs than this.
         """
         self._maker = maker
         self._is_over = is_over
+        self._tries = tries
+        self._last_run = maker.tries + runs_max
         self._made: dict[tuple[object, ...], RealRun | None] = {}
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
@@ -88,6 +89,11 @@ class Realizer:
         if math.isfinite(cost_s):
             yield step, cost_s
 
+    @property
+    def has_doubts(self) -> bool:
+        """Whether some steps were rejected, or cost more than the search's bounds: what was left untried may do."""
+        return bool(self._least_s)
+
     def is_in_doubt(self, held: State) -> bool:
         """Whether ways to or from a grasp have turned out not to be real, or to take longer than they seemed."""
         return held.grasp in self._doubted or held.station in self._given_up.values()
@@ -114,8 +120,8 @@ class Realizer:
     def _real(self, run: tuple[Step, ...]) -> RealRun | None:
         key = tuple(_key(step) for step in run)
         if key not in self._made:
-            self._require_time()
-            self._made[key] = self._maker.real(run)
+            ways = self._in_time(ways_of(run, self._tries))
+            self._made[key] = self._maker.first_real(ways, self._tries)
         return self._made[key]
 
     def _strike(self, run: tuple[Step, ...]) -> None:
@@ -126,22 +132,23 @@ class Realizer:
         others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
         self._doubt(run)
-        new = ((*before, other) for other in culprit.elsewhere(_SPREAD) if _key(other) not in others)
-        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), _TRIED_MAX)):
-            if candidate.is_together and tried == _VAIN_MAX and not others:
+        tries = self._tries
+        new = ((*before, other) for other in culprit.elsewhere(tries.spread) if _key(other) not in others)
+        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), tries.tried)):
+            if candidate.is_together and tried == tries.vain and not others:
                 break
             made, other = self._maker.made(candidate), candidate.steps[-1]
             if made is not None:
                 others[_key(other)] = other
                 self._made[tuple(_key(step) for step in candidate.steps)] = made
                 self._least_s[_key(other)] = made.durations_s()[-1]
-            if len(others) == _ENOUGH:
+            if len(others) == tries.enough:
                 break
         self._others[culprit.situation] = tuple(others.values())
         if others:
             self._succeeded.add(culprit.task)
         self._failures[culprit.task] += 1
-        if self._failures[culprit.task] >= _FAILURES_MAX and culprit.task not in self._succeeded:
+        if self._failures[culprit.task] >= tries.failures and culprit.task not in self._succeeded:
             self._given_up[culprit.task] = culprit.before.station
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
@@ -150,7 +157,7 @@ class Realizer:
             yield steps
 
     def _require_time(self) -> None:
-        if self._is_over():
+        if self._is_over() or self._maker.tries >= self._last_run:
             raise OutOfTimeError
 
     def _agrees(self, run: tuple[Step, ...], made: RealRun) -> bool:

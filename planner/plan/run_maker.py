@@ -22,6 +22,7 @@ from planner.plan.real_run import RealRun, is_carrying
 from planner.plan.run_timing import RunTiming
 from planner.plan.snags import Snags
 from planner.plan.transits import Transits
+from planner.plan.tries import QUICK, Tries
 from planner.primitives.obstacle import Snag
 from planner.primitives.phase import Phase
 from planner.primitives.primitive import Step
@@ -30,18 +31,6 @@ from planner.robot.tool_path import NoPath
 
 MARGIN_M = 0.001
 """How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
-
-_WAYS_MAX = 40
-"""So many ways to do what a run does are looked at."""
-
-_TRIED_ALONE_MAX, _TRIED_TOGETHER_MAX = 8, 2
-"""So many of those that may do are tried with one arm, and with several: to lead these takes several times as long."""
-
-_LATE_MAX = 2
-"""So many runs that take longer than their steps seem to are made for a plan that is to be the quickest."""
-
-_VARIANTS_MAX = 6
-"""So many choices of each step are combined with those of the others in its run."""
 
 _HALF = 0.5
 """The share of a reach's time, fingers closed, in which hands must be able to go home after the run before."""
@@ -122,27 +111,23 @@ class RunMaker:
         self._cloths = LyingCloths(work, collisions)
         self.collisions = collisions
 
-    def real(self, steps: Sequence[Step], ways: int = _WAYS_MAX, late_max: int = _LATE_MAX) -> RealRun | None:
-        """The run that a few primitives make, none but the last of which lets go; None if the arms cannot follow.
+    def real(self, steps: Sequence[Step], tries: Tries = QUICK) -> RealRun | None:
+        """Return the run that a few primitives make, none but the last of which lets go; None if none was found."""
+        return self.first_real(ways_of(steps, tries), tries)
 
-        Looked at are so many ways to do what they do. Where it takes longer than they seem to, the quickest of the
-        first `late_max`.
-        """
-        return self.first_real(islice(_ways(steps), ways), late_max=late_max)
+    def first_real(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> RealRun | None:
+        """Return the first that is real of some choices of steps; None where so many tries find none.
 
-    def first_real(self, choices: Iterable[tuple[Step, ...]], patience: int = 1, late_max: int = 1) -> RealRun | None:
-        """The first that is real of some choices of steps; it is given up when a few, with patience more, are not.
-
-        If it takes longer than its steps seem to, the quickest of the first `late_max`.
+        Where all take longer than their steps seem to it is the quickest of the first few.
         """
         late: list[RealRun] = []
         for number, candidate in enumerate(self.candidates(choices), start=1):
             run = self.made(candidate)
-            most = _TRIED_TOGETHER_MAX if candidate.is_together else _TRIED_ALONE_MAX
+            most = tries.together if candidate.is_together else tries.alone
             if run is not None and not run.is_late:
                 return run
             late += [] if run is None else [run]
-            if len(late) == late_max or number - len(late) >= patience * most:
+            if len(late) == tries.late or number - len(late) >= most:
                 break
         return min(late, key=lambda run: sum(run.durations_s()), default=None)
 
@@ -230,10 +215,10 @@ class RunMaker:
         return max(0.0, needed - share_s)
 
 
-def _ways(steps: Sequence[Step]) -> Iterator[tuple[Step, ...]]:
-    """Steps, then all combinations of their variants, which take time to find."""
+def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+    """Yield steps, then combinations of their variants, which take time to find; as many as are to be looked at."""
     yield tuple(steps)
-    yield from islice(product(*(islice(step.variants(), _VARIANTS_MAX) for step in steps)), 1, None)
+    yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
 
 
 @lru_cache(maxsize=4)

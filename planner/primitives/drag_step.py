@@ -103,19 +103,24 @@ class DragStep:
     def variants(self) -> Iterator["DragStep"]:
         """The same in every other choice of approaches; the best ones first."""
         yield self
-        work, way = self.work, self.way
-        turn = work.placed(self.before.offset).yaw_rad - work.station_pose(self.before.station).yaw_rad
-        chosen = tuple(int(approach) for approach in way.approaches[self.first_stand])
-        able = []
-        for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
-            allowed = approaches_from_outside(work, self.before.done, turn, grip)
-            point = work.in_base(self.before.station, pick[None])
-            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
-            able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
-        for choice in sorted(product(*(enumerate(a) for a in able)), key=lambda c: sum(rank for rank, _ in c)):
+        chosen = tuple(int(approach) for approach in self.way.approaches[self.first_stand])
+        able = [enumerate(approaches) for approaches in self._able()]
+        for choice in sorted(product(*able), key=lambda c: sum(rank for rank, _ in c)):
             approaches = tuple(approach for _, approach in choice)
             if approaches != chosen:
                 yield replace(self, approaches=approaches)
+
+    def _able(self) -> list[list[int]]:
+        """Return each hand's approaches in which it reaches its grip, the best first."""
+        work, way = self.work, self.way
+        turn = work.placed(self.before.offset).yaw_rad - work.station_pose(self.before.station).yaw_rad
+        able = []
+        for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
+            allowed = approaches_from_outside(work, self.before.done, turn, grip, arm)
+            point = work.in_base(self.before.station, pick[None])
+            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
+        return able
 
     @cached_property
     def situation(self) -> tuple[object, ...]:
@@ -160,7 +165,16 @@ class DragStep:
             for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
                 if stand + steps < work.back_offs:
                     after = State(state.done, offset, state.station, stand + steps, held, count if held else 0)
-                    yield DragStep(work, way, state, after, stand)
+                    yield from self._turned_alike(DragStep(work, way, state, after, stand))
+
+    def _turned_alike(self, other: "DragStep") -> Iterator["DragStep"]:
+        """Yield another drag, first with its hands turned as here where that is not what it prefers and still goes."""
+        if self.approaches is not None and other.first_stand == self.first_stand:
+            turned = dict(zip(self.way.arms, self.approaches, strict=True))
+            same = tuple(turned.get(arm, -1) for arm in other.way.arms)
+            if all(approach in able for approach, able in zip(same, other._able(), strict=True)):
+                yield replace(other, approaches=same)
+        yield other
 
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)

@@ -11,7 +11,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
-from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, nearest_pair_m
+from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, hand_key, nearest_pair_m
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
@@ -61,7 +61,8 @@ class DragWays:
         _, x, y, station, *_ = state.key
         key = (state.done, x, y, station)
         if key not in self._found:
-            self._found[key] = tuple(w for w in self._search(state) if w.stands)
+            ways = ((self._order(state, way.arms, way.picks), way) for way in self._search(state) if way.stands)
+            self._found[key] = tuple(way for _, way in sorted(ways, key=lambda pair: pair[0]))
         return self._found[key]
 
     def _search(self, state: State) -> Iterator[DragWay]:
@@ -73,18 +74,25 @@ class DragWays:
         for cover in drag_covers(work, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+                picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
                 for arms in assignments(work, state.station, points):
-                    yield self._way(state, cover, arms, points, placement)
+                    order = [hand for *_, hand in self._order(state, arms, picks)]
+                    grips, hands = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)
+                    yield self._way(state, grips, hands, picks[order], placement)
+
+    def _order(self, state: State, arms: tuple[int, ...], picks: FloatArray) -> list[tuple[tuple[int, ...], int, int]]:
+        """Of each hand its key, its arm and its number, in order."""
+        hands = zip(arms, picks[:, None], strict=True)
+        return sorted((hand_key(self._work, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
 
     def _way(
-        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], points: FloatArray, placement: Pose2
+        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, placement: Pose2
     ) -> DragWay:
         work = self._work
-        picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
         turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
         chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
-            allowed = approaches_from_outside(work, state.done, turn, grip)
+            allowed = approaches_from_outside(work, state.done, turn, grip, arm)
             point = work.in_base(state.station, picks[i : i + 1])
             masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
             is_able = (masks >> np.arange(work.back_offs, dtype=np.uint32) & 1).astype(bool)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, nearest_whole
 from planner.primitives.base_legs import legs
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.phase import ClothMotion, Hand, Phase
@@ -29,7 +29,7 @@ class _Piece:
     def moments(self) -> FloatArray:
         """The sweeps at which its points are."""
         start, end = self.sweeps
-        return np.linspace(start, end, max(2, round((end - start) / _DENSE_SWEEP) + 1) if end > start else 1)
+        return np.linspace(start, end, max(2, nearest_whole((end - start) / _DENSE_SWEEP) + 1) if end > start else 1)
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class FoldMotion:
         turned = math.pi * np.clip((sweeps - begin) / (2.0 - 2.0 * begin), 0.0, 1.0)
         heading = approach.heading_rad + self._base(self.first_stand).yaw_rad
         along = float(np.dot(path.line.direction, (math.cos(heading), math.sin(heading))))
-        return np.asarray(turned * round(along * math.cos(approach.pitch_rad)))
+        return np.asarray(turned * nearest_whole(along * math.cos(approach.pitch_rad)))
 
     def _approach(self, grip: int) -> Approach:
         return self.work.reach.approaches[self.way.approaches[grip]]

@@ -60,8 +60,8 @@ class FoldStands:
         """The steps driven from each back-off at which the path may be begun: those to its ends, asked backwards."""
         work = self._work
         approaches = tuple(
-            allowed if self._surroundings.are_same(trial.fold, grip) else work.kept(all_approaches)
-            for grip, allowed in zip(trial.cover, trial.approaches, strict=True)
+            allowed if self._surroundings.are_same(trial.fold, grip) else work.kept(all_approaches)[arm]
+            for grip, arm, allowed in zip(trial.cover, trial.arms, trial.approaches, strict=True)
         )
         back = replace(trial, tools=trial.tools[:, ::-1], approaches=approaches)
         anywhere = np.zeros(work.back_offs, dtype=np.int64)

@@ -1,7 +1,7 @@
 """What could be tried to perform a fold, before the robot is asked: grips, arms, the path of the tools."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from planner.primitives.grasping import (
     all_approaches,
     approaches_from_outside,
     assignments,
+    hand_key,
     nearest_pair_m,
 )
 from planner.primitives.obstacle import Code, Obstacle
@@ -66,6 +67,17 @@ class FoldTrial:
     def is_like(self, other: "FoldTrial") -> bool:
         """Whether the same arms take the same grips, maybe elsewhere on the table."""
         return (self.cover, self.arms) == (other.cover, other.arms)
+
+    def in_order(self, hands: list[int]) -> "FoldTrial":
+        """Return the same, its hands in another order."""
+        return replace(
+            self,
+            cover=tuple(self.cover[hand] for hand in hands),
+            arms=tuple(self.arms[hand] for hand in hands),
+            points=self.points[hands],
+            tools=self.tools[hands],
+            approaches=tuple(self.approaches[hand] for hand in hands),
+        )
 
     def in_base(self, work: Work, station: int) -> FloatArray:
         """The tool paths as the robot sees them from a station at back-off 0, shape (grips, waypoints, 3), m."""
@@ -125,8 +137,22 @@ def is_line_on_table(work: Work, fold: int, offset: Point2) -> bool:
     return is_end_on_table or bool(work.table_in_article(offset).region.overlaps_with(line))
 
 
-def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
-    """The grips and arms that may perform a fold in a state, with what is held or with free hands."""
+def fold_trials(work: Work, state: State, fold: int) -> list[FoldTrial]:
+    """Return the grips and arms that may perform a fold in a state, with what is held or with free hands.
+
+    They and their hands come in an order that depends on where things are and not on how they were drawn, and a mirror
+    image of the task has them in the same.
+    """
+    keyed = [(trial, _hand_keys(work, state, trial)) for trial in _trials(work, state, fold)]
+    return [trial for trial, _ in sorted(keyed, key=lambda pair: pair[1])]
+
+
+def _hand_keys(work: Work, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
+    hands = zip(trial.arms, trial.tools, strict=True)
+    return [hand_key(work, state.station, arm, tools) for arm, tools in hands]
+
+
+def _trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
     path = _path(work, state, fold)
     for cover, arms in _grips(work, state, fold):
         points = work.placed(state.offset).to_outer(np.array(cover))
@@ -134,8 +160,10 @@ def fold_trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
             continue
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
-        approaches = tuple(_approaches(work, state, fold, grip) for grip in cover)
-        yield FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
+        approaches = tuple(_approaches(work, state, fold, *hand) for hand in zip(cover, arms, strict=True))
+        trial = FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
+        keys = _hand_keys(work, state, trial)
+        yield trial.in_order(sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand])))
 
 
 def held_covers(work: Work, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
@@ -236,12 +264,12 @@ def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tu
         yield tuple(h.point for h in cover), tuple(h.arm for h in cover)
 
 
-def _approaches(work: Work, state: State, fold: int, grip: Point2) -> NDArray[np.int64]:
+def _approaches(work: Work, state: State, fold: int, grip: Point2, arm: int) -> NDArray[np.int64]:
     if state.held:
-        return work.kept(all_approaches)
+        return work.kept(all_approaches)[arm]
     turn = work.placement.yaw_rad - work.station_pose(state.station).yaw_rad
     done = (1 << fold) - 1 if work.kept(Surroundings).are_same(fold, grip) else state.done
-    return approaches_from_outside(work, done, turn, grip)
+    return approaches_from_outside(work, done, turn, grip, arm)
 
 
 def _plain(row: FloatArray) -> Point2:

@@ -9,13 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray, Point2, wrapped_angle
-from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
+from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
 from planner.primitives.work import Work
 
 GRIPS_APART_M = 0.10
 """Two grips nearer to each other than this cannot be taken by two hands (m)."""
 
 _PREFERRED_PITCH_RAD = math.radians(30.0)
+
+_DISCOMFORT_DIGITS = 3
+"""Discomforts that agree to so many decimals (rad) are the same: the bisector at a corner is known no better."""
 
 
 def nearest_pair_m(points: FloatArray) -> float:
@@ -47,6 +50,26 @@ def assignments(work: Work, station: int, points: FloatArray) -> Iterator[tuple[
             yield arms
 
 
+def hand_key(work: Work, station: int, arm: int, tools: FloatArray) -> tuple[int, ...]:
+    """Return by what hands are put in order, whatever the frame of the drawing: where they begin and end.
+
+    Mirrored, as all arms were on the left: so what a mirror image of the task tries comes in the same order.
+
+    Args:
+        work: the problem.
+        station: where the robot stands.
+        arm: the hand's arm.
+        tools: its tool points in the table frame, shape (n, 3), m.
+    """
+    ends = work.in_base(station, tools[[0, -1]]) * np.array([1.0, side_of(work, arm), 1.0])
+    return tuple(np.round(ends / SORTING_M).astype(np.int64).ravel().tolist())
+
+
+def side_of(work: Work, arm: int) -> float:
+    """Return on which side of the robot an arm is: 1 left, -1 right."""
+    return math.copysign(1.0, work.reach.shoulders[arm][1])
+
+
 class Taking(Protocol):
     """Arms at grips."""
 
@@ -70,16 +93,17 @@ def by_nearness(one: T, others: Iterable[T]) -> list[T]:
     return sorted(others, key=away_m)
 
 
-def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip: Point2) -> NDArray[np.int64]:
-    """The approaches that pinch the cloth from outside, best first.
+def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip: Point2, arm: int) -> NDArray[np.int64]:
+    """The approaches that pinch the cloth from outside, best first; of equally good ones those across the body.
 
     Args:
         work: the problem.
         done: the folds finished.
         heading_in_base: direction of the article's x axis in the base frame (rad).
         grip: a point of the stack, article frame (m).
+        arm: the arm that takes it.
     """
-    return work.kept(_Pinches).of(done, heading_in_base, grip)
+    return work.kept(_Pinches).of(done, heading_in_base, grip, side_of(work, arm))
 
 
 def like_approach(work: Work, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
@@ -99,14 +123,14 @@ class _Pinches:
     def __init__(self, work: Work) -> None:
         self._work = work
         self._headings: dict[tuple[int, Point2], float | None] = {}
-        self._known: dict[tuple[int, float, Point2], NDArray[np.int64]] = {}
+        self._known: dict[tuple[int, float, Point2, float], NDArray[np.int64]] = {}
 
-    def of(self, done: int, heading_in_base: float, grip: Point2) -> NDArray[np.int64]:
-        key = (done, heading_in_base, grip)
+    def of(self, done: int, heading_in_base: float, grip: Point2, side: float) -> NDArray[np.int64]:
+        key = (done, heading_in_base, grip, side)
         if key not in self._known:
             inward = self._inward_heading(done, grip)
             heading = None if inward is None else heading_in_base + inward
-            self._known[key] = _from_outside(self._work, heading)
+            self._known[key] = _from_outside(self._work, heading, side)
         return self._known[key]
 
     def _inward_heading(self, done: int, grip: Point2) -> float | None:
@@ -117,24 +141,27 @@ class _Pinches:
         return self._headings[done, grip]
 
 
-def _from_outside(work: Work, heading: float | None) -> NDArray[np.int64]:
+def _from_outside(work: Work, heading: float | None, side: float) -> NDArray[np.int64]:
     """The approaches within the cone about a heading, base frame, best first; without one only straight down."""
     discomfort, off = _discomfort(work, heading)
     cone, is_vertical = work.scene.approach_cone_rad, [approach.is_vertical for approach in work.reach.approaches]
     is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
     if heading is not None:
         is_within |= off <= cone + EDGE_RAD
-    return _by_comfort(discomfort, np.flatnonzero(is_within | is_vertical))
+    return _by_comfort(work, discomfort, np.flatnonzero(is_within | is_vertical), side)
 
 
-def all_approaches(work: Work) -> NDArray[np.int64]:
-    """Every approach, best first: what is held already may be held from anywhere."""
+def all_approaches(work: Work) -> tuple[NDArray[np.int64], ...]:
+    """Every approach, for each arm the best first: what is held already may be held from anywhere."""
     discomfort, _ = _discomfort(work, None)
-    return _by_comfort(discomfort, np.arange(len(discomfort)))
+    every = np.arange(len(discomfort))
+    return tuple(_by_comfort(work, discomfort, every, side_of(work, arm)) for arm in range(len(work.reach.arm_names)))
 
 
-def _by_comfort(discomfort: FloatArray, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
-    return np.asarray(approaches[np.argsort(discomfort[approaches], kind="stable")])
+def _by_comfort(work: Work, discomfort: FloatArray, approaches: NDArray[np.int64], side: float) -> NDArray[np.int64]:
+    """Approaches in the order of their discomfort; of equal ones first flat ones, then those that point across."""
+    found = np.array([(a.pitch_rad, side * a.heading_rad) for a in work.reach.approaches])[approaches]
+    return np.asarray(approaches[np.lexsort((found[:, 1], found[:, 0], discomfort[approaches]))])
 
 
 def _discomfort(work: Work, heading: float | None) -> tuple[FloatArray, FloatArray]:
@@ -143,4 +170,4 @@ def _discomfort(work: Work, heading: float | None) -> tuple[FloatArray, FloatArr
     headings, pitches, counts = np.array(found).T
     off = np.abs(np.remainder(headings - (heading or 0.0) + math.pi, math.tau) - math.pi)
     turn = np.zeros(len(off)) if heading is None else counts * off
-    return np.round(turn + np.abs(pitches - _PREFERRED_PITCH_RAD), 6), off
+    return np.round(turn + np.abs(pitches - _PREFERRED_PITCH_RAD), _DISCOMFORT_DIGITS), off

@@ -125,8 +125,9 @@ class Exhaustive:
             if not cover or nearest_pair_m(points) < GRIPS_APART_M - 1e-5:
                 continue
             picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
-            allowed = [approaches_from_outside(work, state.done, turn, grip) for grip in cover]
             for arms in assignments(work, state.station, points):
+                hands_at = zip(cover, arms, strict=True)
+                allowed = [approaches_from_outside(work, state.done, turn, grip, arm) for grip, arm in hands_at]
                 hands = zip(arms, picks, allowed, strict=True)
                 able = [self._able(state.station, *hand) for hand in hands]
                 held = tuple(Held(arm, grip) for arm, grip in sorted(zip(arms, cover, strict=True)))

@@ -63,10 +63,15 @@ class Problem:
     def first_state(self) -> State:
         return State(0, (0.0, 0.0), [name for name, _ in self.scene.stations].index(self.start), 0)
 
-    def plan(self) -> Plan:
+    def plan(self, heuristic: str = "arm_time", time_limit_s: float = 60.0) -> Plan:
         """The plan that the planner makes, joint paths and all."""
         return make_plan(
-            self.garment, self.scene, start_station=self.start, comfort_radius_m=self.comfort_m, time_limit_s=60.0
+            self.garment,
+            self.scene,
+            start_station=self.start,
+            comfort_radius_m=self.comfort_m,
+            heuristic=heuristic,
+            time_limit_s=time_limit_s,
         )
 
     def lean_cost_s(self) -> float:

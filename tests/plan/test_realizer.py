@@ -5,6 +5,7 @@ import heapq
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import count
 from typing import Any
 
@@ -197,6 +198,11 @@ def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch
     assert "cannot get them there" in plan.reasons[0].message
 
 
+def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
+    for name in ("QUICK", "THOROUGH"):
+        monkeypatch.setattr(plan_search, name, replace(getattr(plan_search, name), failures=failures))
+
+
 def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
     realizers = []
 
@@ -209,7 +215,7 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
     barred(monkeypatch, lambda arm, base: arm == 0)
     searches = []
     for failures_max in (1, 1_000):
-        monkeypatch.setattr(realizer, "_FAILURES_MAX", failures_max)
+        give_up_after(monkeypatch, failures_max)
         begun = len(realizers)
         plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
         assert plan.status == "infeasible" and plan.reasons[0].code == Code.COLLISION
@@ -220,7 +226,7 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
 
 
 def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch):
-    monkeypatch.setattr(realizer, "_FAILURES_MAX", 1)
+    give_up_after(monkeypatch, 1)
     barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
     assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
 

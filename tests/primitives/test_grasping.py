@@ -25,7 +25,7 @@ class Fan(WideReach):
 def headings(grip: Point2, cone_deg: float, turn_deg: float = 0.0) -> list[float]:
     """The headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
     problem = work(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
-    found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip)
+    found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip, 0)
     chosen = [Fan.approaches[i] for i in found]
     return sorted(999.0 if a.is_vertical else round(math.degrees(a.heading_rad)) for a in chosen)
 
@@ -51,7 +51,7 @@ def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one
     assert headings((0.0, 0.0), 45.0) == [0, 30, 60, 90, 999]
     askew = garment([(0.0, 0.0), (0.4, -1e-6), (0.4, 0.3), (0.0, 0.3)])
     problem = work(askew, Scene(approach_cone_rad=math.radians(45.0)), Fan())
-    assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0))) == 5
+    assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0), 0)) == 5
 
 
 def test_the_article_turned_turns_the_headings():

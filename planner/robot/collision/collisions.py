@@ -17,6 +17,7 @@ import numpy as np
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_parts import table_parts
+from planner.robot.arm import MIRROR
 from planner.robot.collision.bodies import Bodies, Pairs, rows
 from planner.robot.collision.clearance import Clearance
 from planner.robot.collision.contact import Contact
@@ -33,6 +34,7 @@ _BODY = 2 * EACH
 _TABLE = _BODY + len(BODY_PARTS)
 _TOP = 0
 _BOTH = np.array([0, 1])
+_LEFT = np.array([0])
 _NEITHER = np.empty(0, dtype=np.int64)
 _ORIGIN = Pose2(0.0, 0.0, 0.0)
 
@@ -103,7 +105,11 @@ class Collisions:
 
         Only certainly free ones count if that is asked for: a third of the time, and 0.5 % of the free ones missed.
         """
-        return self._bodies.are_free(self._of_arm[arm], bases, joints[:, None], np.array([arm]), is_certain)
+        # Mirrored, the right arm is asked as a left one: what is certain is so for both alike.
+        side = 1.0 if arm == 0 else -1.0
+        stands = rows(bases) * np.array([1.0, side, side])
+        named = joints if arm == 0 else joints * MIRROR
+        return self._bodies.are_free(self._of_arm[0], stands, named[:, None], _LEFT, is_certain)
 
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         """In which postures, shape (n, 2, 7), the arms do not collide with each other, shape (n,); see `arm_free`."""

@@ -1,4 +1,4 @@
-"""Which postures of the one arm are certainly apart from which of the other? Compiled, for all pairs at once.
+"""Tell which postures of the one arm are certainly apart from which of the other: compiled, for all pairs at once.
 
 The tool of each arm stays where it is, so its hand does, and is looked at once for all postures: it is the hands that
 come nearest to each other, and to tell what is near apart takes longest.

@@ -74,7 +74,11 @@ def _room_between(
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    return float(room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz)))
+    room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
+    if room < 0.0 and a < EACH <= b < 2 * EACH:
+        # From which of two arms a plane is found may be chance; a mirror image has to have the same answer.
+        room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
+    return room
 
 
 @njit(cache=True, nogil=True)
