@@ -166,7 +166,7 @@ def mended_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
     up = towards[2] > 0.0
     words = {
         "cloth": "move the cloth",
-        "station": "move the station",
+        "station": "the station" if "cloth" in kinds else "move the station",
         "table": "raise the table" if up else "lower the table",
         "torso": "lower the torso" if up else "raise the torso",
     }

@@ -118,7 +118,8 @@ function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort
 /** What can be moved so far, by its name, and whether that is up. */
 function how(movable, up) {
   const [table, torso] = up > 0 ? ["raise the table", "lower the torso"] : ["lower the table", "raise the torso"];
-  const words = { cloth: "move the cloth", station: "move the station", table, torso };
+  const station = movable.includes("cloth") ? "the station" : "move the station";
+  const words = { cloth: "move the cloth", station, table, torso };
   return movable.map((name) => words[name]).join(" or ");
 }
 
