@@ -96,7 +96,11 @@ class Eager:
     ("folds", "back_off_max_m"),
     [((HALF,), 0.05), ((HALF,), ROOM_TO_TURN_M), ((HALF, QUARTER), 0.05), ((OVER, BACK_OVER), 0.05)],
 )
-def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(folds, back_off_max_m, arm_motion_s):
+def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
+    monkeypatch, folds, back_off_max_m, arm_motion_s
+):
+    # Both try as many ways for each run: the second round, which tries more and may find quicker ones, is left out.
+    monkeypatch.setattr(plan_search, "MORE_RUNS_FOR_A_BETTER_PLAN", 0)
     plan = planned(napkin(*folds), scene(arm_motion_s, back_off_max_m))
     seeming_s = sum(p.step.duration_s for p in plan.primitives)
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
