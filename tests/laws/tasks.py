@@ -9,6 +9,7 @@ import numpy as np
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import DrawnFold, Garment
+from planner.cloth.outline import require_simple_outline
 from planner.errors import FieldError
 from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import flap_silhouette, fold_cloth
@@ -146,7 +147,8 @@ Line = Callable[[Random, Region], Segment]
 
 
 def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garment:
-    """A garment with up to so many folds, each legal when its turn comes."""
+    """A garment with up to so many folds, each legal when its turn comes; `GarmentError` for an outline that is none."""
+    require_simple_outline(outline)
     cloth, folds, lines = spread(outline), [], []
     for _ in range(_TRIES * wanted):
         if len(folds) == wanted:
