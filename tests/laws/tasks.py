@@ -147,7 +147,7 @@ Line = Callable[[Random, Region], Segment]
 
 
 def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garment:
-    """A garment with up to so many folds, each legal when its turn comes; `GarmentError` for an outline that is none."""
+    """A garment with up to so many folds, each legal when its turn comes; raises `GarmentError` for no outline."""
     require_simple_outline(outline)
     cloth, folds, lines = spread(outline), [], []
     for _ in range(_TRIES * wanted):
