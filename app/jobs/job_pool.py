@@ -96,12 +96,19 @@ class JobPool:
         self._open: set[Job[Any]] = set()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
+        self._is_closed = False
         self._mean_s = 0.0
 
     def start(self, work: Callable[[ShouldStop], Answer]) -> Job[Answer]:
-        """Queue a piece of work; raises `BusyError` when as many wait as may."""
+        """Queue a piece of work; raises `BusyError` when as many wait as may.
+
+        Once the pool is closed the job is stopped at once: a thread begun for it would take another's word to end.
+        """
         job = Job(work, self._courtesy)
         with self._lock:
+            if self._is_closed:
+                job.stop()
+                return job
             if self._waiting_max is not None and self._waiting() >= self._waiting_max:
                 raise self._busy()
             self._open.add(job)
@@ -130,9 +137,10 @@ class JobPool:
 
         A thread that were still in compiled code when the interpreter ends could bring it down.
         """
-        self.stop()
         with self._lock:
+            self._is_closed = True
             threads, self._threads = self._threads, []
+        self.stop()
         for _ in threads:
             self._jobs.put(None)
         deadline = time.monotonic() + patience_s

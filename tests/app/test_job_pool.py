@@ -59,6 +59,26 @@ def test_closing_the_pool_stops_everything() -> None:
     assert begun.future.cancelled() or begun.future.result(5.0) == "stopped"
 
 
+def test_a_job_that_comes_while_the_pool_closes_is_stopped_and_keeps_no_thread_from_its_end() -> None:
+    pool = JobPool(workers=2)
+    begun, threads = threading.Event(), []
+
+    def until_stopped(should_stop: object) -> None:
+        threads.append(threading.current_thread())
+        begun.set()
+        assert callable(should_stop)
+        while not should_stop():
+            pass
+        late = pool.start(until_stopped)
+        assert late.future.cancelled()
+
+    job = pool.start(until_stopped)
+    assert begun.wait(5.0)
+    pool.close(5.0)
+    job.future.result(5.0)
+    assert [thread.is_alive() for thread in threads] == [False]
+
+
 def test_a_jobs_error_comes_with_its_answer() -> None:
     def fail(_: object) -> None:
         raise ValueError("no")
