@@ -12,7 +12,7 @@ from planner.robot.collision.part_poses import EACH, PLACE, pose_arm
 from planner.robot.collision.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
 from planner.robot.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
 from planner.robot.collision.robot_parts import robot_parts
-from planner.robot.collision.rounded_hull import RoundedHull, rounded_hull
+from planner.robot.collision.rounded_hull import RoundedHull, prism, rounded_hull
 from tests.replay import hulls
 from tests.robot.collision_samples import CARD, random_postures
 from tests.robot.model import MODEL
@@ -189,3 +189,14 @@ def test_the_bodys_shapes_are_their_own_mirror_images(parts):
     for part, hull in enumerate(parts.hulls[0][2 * EACH :]):
         here = distances(hull.corners, hull.mirrored())
         assert here.max() <= LENGTH_M, parts.names[2 * EACH + part]
+
+
+@pytest.mark.parametrize("corners", [3, 4, 7, 400])
+def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int):
+    around = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
+    hull = prism(0.4 * np.column_stack([np.cos(around), np.sin(around)]), 0.03)
+    a, b, c = (hull.corners[hull.faces[:, k]] for k in range(3))
+    # The tetrahedra from the origin to each face: their sum is the area of the polygon times the height.
+    volume = np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6.0
+    assert volume == pytest.approx(corners / 2.0 * np.sin(2.0 * np.pi / corners) * 0.4**2 * 0.03)
+    assert hull.convex().num_points == 2 * corners

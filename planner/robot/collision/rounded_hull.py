@@ -6,6 +6,7 @@ rounder by the distance of the furthest one left out: everything within that rad
 is inside. Two such bodies are apart where the hulls of their corners are further apart than both radii together.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING
@@ -67,12 +68,12 @@ def prism(base: FloatArray, height_m: float) -> RoundedHull:
     """What stands over a convex polygon, shape (n, 2), counter-clockwise, from z = 0 to a height (m)."""
     count = len(base)
     corners = np.vstack([np.column_stack([base, np.full(count, z)]) for z in (0.0, height_m)])
-    fans = [face for k in range(1, count - 1) for face in ((0, k + 1, k), (count, count + k, count + k + 1))]
+    caps = [face for i, j, k in _strip(count) for face in ((i, k, j), (count + i, count + j, count + k))]
     sides = []
     for k in range(count):
         after = (k + 1) % count
         sides += [(k, after, count + after), (k, count + after, count + k)]
-    return RoundedHull(corners, np.array([*fans, *sides], dtype=np.int32), 0.0)
+    return RoundedHull(corners, np.array([*caps, *sides], dtype=np.int32), 0.0)
 
 
 def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = False) -> RoundedHull:
@@ -121,3 +122,17 @@ def _qhull(points: FloatArray) -> "ConvexHull":
     from scipy.spatial import ConvexHull  # slow to import, and needed only where shapes are made
 
     return ConvexHull(points)
+
+
+def _strip(count: int) -> Iterator[tuple[int, int, int]]:
+    """Yield the triangles of a convex polygon of so many corners, counter-clockwise, as a strip from side to side.
+
+    In a fan one corner would be the neighbour of all others, and coal takes no more than 255 neighbours.
+    """
+    low, high = 0, count - 1
+    while high - low > 1:
+        yield (low, low + 1, high)
+        low += 1
+        if high - low > 1:
+            yield (low, high - 1, high)
+            high -= 1
