@@ -1,5 +1,7 @@
 """A tie: quarter by quarter towards the wide end. The defaults are the shipped one's, from the paper's Table 1."""
 
+import numpy as np
+
 from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
@@ -18,6 +20,8 @@ def cut(given: Measures) -> Cut:
     """Folds: at each quarter of its length, from the narrow end on."""
     length, wide, narrow = given["length_m"], given["wide_m"], given["narrow_m"]
     given.require_less("narrow_m", wide + 1e-3, "the wide end and {} more", 1e-3)
+    given.require_less("narrow_tip_m", length, "the length")
+    given.require_less("wide_tip_m", length - given["narrow_tip_m"], "the length without the narrow tip")
     low, middle = -given["narrow_tip_m"], narrow / 2
     high = low + length
     shoulder = high - given["wide_tip_m"]
@@ -32,7 +36,7 @@ def cut(given: Measures) -> Cut:
     folds = []
     for number, name in enumerate(NAMES):
         height = low + (number + 1) * length / 4
-        half = (narrow + (wide - narrow) * height / shoulder) / 2
+        half = float(np.interp(height, (low, 0.0, shoulder, high), (0.0, narrow, wide, 0.0))) / 2
         folds.append(fold(name, (middle + half, height), (middle - half, height)))
     return Cut(outline, tuple(folds), lying_away(outline, INSIDE_M, BESIDE_M))
 
