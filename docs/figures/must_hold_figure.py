@@ -44,7 +44,7 @@ def draw() -> Drawing:
 def _fold(view: View) -> None:
     sequence = FoldSequence.of(load_garment("t-shirt"))
     fold, moving = sequence.folds[0], sequence.folded(0, 0).moving
-    covers = sequence.covers(0, 0, _SUPPORT_RAD, 2)
+    covers = sequence.covers(0, _SUPPORT_RAD, 2)
     view.polygon("cloth", sequence.cloth(0).silhouette.ring, _CLOTH)
     view.polygon("part", moving.ring, _PART)
     for grip in covers.covers[0]:

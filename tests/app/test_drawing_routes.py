@@ -138,7 +138,8 @@ async def test_a_change_that_cannot_be_kept_is_told_of(client: httpx.AsyncClient
     folder = tmp_path / "documents"
     folder.rename(tmp_path / "elsewhere")
     folder.write_text("in the way")
-    assert_problem(await put(client, state, moved(state, -0.01)), 507)
+    problem = assert_problem(await put(client, state, moved(state, -0.01)), 500)
+    assert problem["detail"].endswith("could not be written, so the change was not made: Not a directory")
     assert (await client.get(f"/api/documents/{state['id']}")).json() == state
 
 

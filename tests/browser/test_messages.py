@@ -214,7 +214,7 @@ TOLD_EXACTLY = [
         "way, as high as it is far from the fold line, is 4 cm out of reach from where the base is by then (too far "
         "up, shoulder pan limit). Closest: front right, backed off 20 cm (the cloth dragged 10 cm towards the robot "
         "from where it starts and held on to). All of its way is in reach 5 cm nearer to the robot: move the cloth or "
-        "move the station",
+        "the station",
     ),
     ({"code": "waits_for", "folds": [0, 1]}, f"waits for fold 1 and {HEM}, which cannot be done"),
 ]
