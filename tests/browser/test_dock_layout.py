@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.conftest import Garment, Sheet, windows
+from tests.browser.conftest import STAGE_PATIENCE_MS, Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
@@ -99,7 +99,7 @@ def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(ph
     expect(play).to_be_hidden()
     phone.locator("#sheet").tap()
     phone.get_by_role("button", name="Show the stage large").tap()
-    expect(play).to_be_enabled()
+    expect(play).to_be_enabled(timeout=STAGE_PATIENCE_MS)
     play.tap()
     pause = phone.get_by_role("button", name="Pause on the stage")
     expect(pause).to_be_visible()
