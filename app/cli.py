@@ -21,8 +21,8 @@ from planner.cloth.garment_files import read_json
 from planner.errors import FieldError, FoldingError, RequestError, SceneError
 from planner.plan.plan import Plan
 from planner.plan.suggestions import suggestions
-from planner.primitives.scene import Scene
 from planner.strict_model import first_error
+from planner.task.scene import Scene
 
 BAD_INPUT, NO_PLAN, OUT_OF_BUDGET = 2, 3, 4
 STANDARD_OUTPUT = "-"

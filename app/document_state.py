@@ -12,7 +12,7 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Point2
 from planner.plan.plan import Plan
 from planner.plan.timeline import Timeline
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from app.ui.stage import Stage
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.plan.plan import Plan
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25

@@ -12,7 +12,7 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.plan.suggestion_map import PlacementMap, placement_map
 from planner.plan.suggestions import suggestions
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 
 class Options(TypedDict):

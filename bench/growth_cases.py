@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from planner.cloth.garment import DEFAULT_DENSITY_KG_M2, DEFAULT_GRIP_RADIUS_M, DrawnFold, Garment
 from planner.geometry.pose import Point2, Pose2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 LENGTH_M = 0.8
 RIBBON_M = 0.2

@@ -12,7 +12,7 @@ from planner.plan.garment_check import check_garment
 from planner.plan.make_plan import make_plan, quick_plan
 from planner.plan.plan import Plan
 from planner.plan.suggestions import suggestions
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 __all__ = [
     "FoldSequence",

@@ -16,8 +16,8 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, Pose2
 from planner.geometry.region import Region
-from planner.primitives.scene import Scene
 from planner.primitives.work import Work
+from planner.task.scene import Scene
 
 CIRCLE_M = 0.47
 

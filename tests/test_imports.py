@@ -22,8 +22,10 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.robot": GROUND | {"planner.geometry"},
     "planner.cloth": GROUND | {"planner.geometry"},
     "planner.folds": GROUND | {"planner.geometry", "planner.cloth"},
-    "planner.primitives": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
-    "planner.plan": GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "primitives", "search", "robot")},
+    "planner.task": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
+    "planner.primitives": GROUND | {"planner.geometry", "planner.cloth", "planner.folds", "planner.task"},
+    "planner.plan": GROUND
+    | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "search", "robot")},
 }
 
 # Where a library may be imported; libraries not named here may be imported anywhere.

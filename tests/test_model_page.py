@@ -9,8 +9,8 @@ import pytest
 
 from planner import make_plan
 from planner.folds.fold_sequence import FoldSequence
-from planner.primitives.scene import Scene
 from planner.robot.pr2 import load_robot
+from planner.task.scene import Scene
 from tests.builders import fold, garment, rectangle_points
 
 PAGE = (Path(__file__).parent.parent / "docs" / "model.md").read_text(encoding="utf-8")

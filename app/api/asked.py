@@ -13,7 +13,7 @@ from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import FieldError, FoldError, GarmentError, SceneError
 from planner.geometry.pose import Pose2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 SHORTEST_S = 0.01
 """The least time that a search is given, though it should have begun earlier (s)."""

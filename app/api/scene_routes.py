@@ -8,7 +8,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from app.api.answers import Health, SceneFile
 from app.api.asked import workspace_of
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 router = APIRouter(prefix="/api")
 

@@ -23,7 +23,7 @@ from app.api.waiting import answer_of, until
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
 from app.workspace import Workspace
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 router = APIRouter(prefix="/api", tags=["suggestions"])
 

@@ -3,7 +3,7 @@
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import COMFORT_RADIUS_M, START_STATION
 from planner.cloth.garment import DEFAULT_DENSITY_KG_M2, DEFAULT_GRIP_RADIUS_M, centred_placement
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 
 def blank_drawing() -> Drawing:

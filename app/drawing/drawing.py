@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from planner.geometry.pose import Point2, Pose2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from app.drawing.drawing import Corner, Crease, Drawing, End
 from planner.cloth.garment import Garment
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 START_STATION = "front"
 COMFORT_RADIUS_M = 0.03

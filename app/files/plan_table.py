@@ -18,8 +18,8 @@ import numpy as np
 from planner.geometry.pose import Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, DECIMALS
 from planner.plan.plan import Plan, PlannedPrimitive
-from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
+from planner.task.grip import Grip
 
 MOMENTS = ("pick", "apex", "place")
 _FORMULA = ("=", "+", "-", "@")

@@ -14,8 +14,8 @@ from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
 from planner.plan.frame import Frame
 from planner.plan.plan import Plan
-from planner.plan.reason import Reason
-from planner.primitives.scene import Scene
+from planner.task.reason import Reason
+from planner.task.scene import Scene
 
 
 class NoClothError(FoldingError):

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner.geometry.pose import FloatArray, Point3, Pose2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 _LOOK_AT: Point3 = (-0.34, -0.06, -0.21)
 _RISE_RAD = math.radians(35.5)

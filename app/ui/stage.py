@@ -29,8 +29,8 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.plan.frame import ClothSurface, Frame
 from planner.plan.plan import Plan
-from planner.primitives.scene import Scene
 from planner.robot.card import RobotCard
+from planner.task.scene import Scene
 
 _SQUARE = 1.0
 """Of no picture the aspect is known before somebody looks; what is whole in a square is whole in all that are wider."""

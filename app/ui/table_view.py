@@ -8,7 +8,7 @@ from app.ui.lighting import paint
 from app.ui.rotation import yaw
 from planner.geometry.pose import Pose2
 from planner.geometry.table_parts import table_parts
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 _ABOVE_FLOOR_M = 0.004
 _ARROW = np.array([[0.16, 0.0, 0.0], [-0.10, 0.11, 0.0], [-0.04, 0.0, 0.0], [-0.10, -0.11, 0.0]])

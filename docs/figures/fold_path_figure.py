@@ -8,7 +8,7 @@ from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 _DEPTH_M, _GRIP_M = 0.40, 0.30
 _HANGING_M, _LINE_M = 0.15, 0.10

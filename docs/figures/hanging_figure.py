@@ -4,8 +4,8 @@ from docs.figures.drawing import FAINT, INK, NONE, RED, TABLE, Drawing, Style, V
 from planner import load_garment, make_plan
 from planner.geometry.pose import Point2
 from planner.plan.plan import Plan
-from planner.primitives.grip import Grip
 from planner.primitives.state import State
+from planner.task.grip import Grip
 
 _SCALE = 152.0
 _PANEL_PX, _FIRST_PX, _HEIGHT_PX = 296.0, 152.0, 110.0

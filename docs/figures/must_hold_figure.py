@@ -12,7 +12,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 _SCALE = 330.0
 _SUPPORT_RAD = Scene().support_angle_rad

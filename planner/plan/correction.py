@@ -9,13 +9,12 @@ import numpy as np
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
-from planner.plan.reason import Reason
 from planner.plan.reason_grips import needed_radius
 from planner.plan.reason_words import reached_with_comfort
 from planner.plan.relaxed import Relaxed, Trial
 from planner.plan.suggestion_grid import Room
-from planner.primitives.obstacle import Code
 from planner.primitives.work import Work
+from planner.task.reason import Code, Reason
 
 FRICTION_MAX = 10.0
 """No scene has a larger coefficient."""

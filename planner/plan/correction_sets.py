@@ -12,11 +12,10 @@ from dataclasses import dataclass, replace
 
 from planner.errors import FoldingError
 from planner.plan.correction import COLLISIONS_IGNORED, Candidate, Way, candidates
-from planner.plan.reason import Reason
 from planner.plan.reason_obstacle import lacking
 from planner.plan.reason_words import mended_by
 from planner.plan.relaxed import Ask, Relaxed, Trial
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code, Reason
 
 LESS = 0.96
 """With so much of an amount that is told, or less, the fold cannot be done."""

@@ -11,11 +11,12 @@ from planner.geometry.pose import Point2
 from planner.plan.reason_obstacle import of_obstacle
 from planner.plan.vertex_check import VertexCheck, vertex_checks
 from planner.primitives.fold_trial import grips_obstacle, held_covers
-from planner.primitives.obstacle import Code, Obstacle
-from planner.primitives.scene import Scene
+from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
+from planner.task.reason import Code
+from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from planner.plan.plan_search import PlanSearch
 from planner.plan.problem import Problem, require_between
 from planner.plan.quick_plan import quickly_planned
 from planner.plan.warm_up import warm_up
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 TIME_LIMIT_S = (0.01, 60.0)
 EXPANDED_MAX = 1_000_000

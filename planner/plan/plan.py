@@ -15,12 +15,12 @@ from planner.plan.act import Act
 from planner.plan.film import FilmMaker
 from planner.plan.machine import Machine
 from planner.plan.problem import Problem
-from planner.plan.reason import Reason
 from planner.plan.timeline import Timeline, standing
-from planner.primitives.grip import BaseStop, Grip
 from planner.primitives.primitive import Step
-from planner.primitives.scene import Scene
 from planner.primitives.work import Work
+from planner.task.grip import BaseStop, Grip
+from planner.task.reason import Reason
+from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,6 @@ from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
 from planner.plan.quick_plan import quickly_planned
 from planner.plan.realizer import OutOfTimeError, Realizer
-from planner.plan.reason import Reason
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.plan.relaxed import Relaxed, Trial
 from planner.plan.tries import MORE_RUNS_FOR_A_BETTER_PLAN, MORE_RUNS_FOR_SOME_PLAN, QUICK, THOROUGH
@@ -26,6 +25,7 @@ from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.search.a_star import Outcome, SearchResult, a_star
+from planner.task.reason import Reason
 
 LOOK_ALONE_AFTER = 180
 """Most plans are found with so few looks at a state or at what may leave it; after them folds are looked at alone."""

@@ -11,11 +11,11 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.plan.machine import Machine
 from planner.plan.run_maker import RunMaker
-from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.unlimited_reach import UnlimitedReach
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
+from planner.task.scene import Scene
 
 COMFORT_MAX_M = 0.1
 

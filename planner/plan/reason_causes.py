@@ -17,7 +17,6 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from planner.plan.reason import Reason
 from planner.plan.reason_attempt import Miss
 from planner.plan.reason_obstacle import lacking, of_obstacle
 from planner.plan.reason_places import Places
@@ -25,9 +24,10 @@ from planner.plan.reason_reach import from_every_station, miss_in, nearest_miss
 from planner.plan.reason_words import out_of_reach
 from planner.primitives.fold_trial import fold_trials, geometric_obstacles, grips_obstacle
 from planner.primitives.fold_way import can_follow
-from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code, Reason
 
 _GEOMETRY = (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE, Code.SLIPS)
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)

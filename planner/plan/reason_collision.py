@@ -12,15 +12,15 @@ import numpy as np
 
 from planner.geometry.pose import Point2
 from planner.message import Message
-from planner.plan.reason import Reason
 from planner.plan.reason_reach import from_every_station
 from planner.plan.reason_words import carried, dragged, height_words
 from planner.primitives.fold_trial import fold_trials, geometric_obstacle
 from planner.primitives.fold_way import can_follow
-from planner.primitives.obstacle import Code, Obstacle, Snag
+from planner.primitives.obstacle import Obstacle, Snag
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code, Reason
 
 _START = (0.0, 0.0)
 

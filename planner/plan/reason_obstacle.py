@@ -8,15 +8,15 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message, plain_points
-from planner.plan.reason import Reason
 from planner.plan.reason_collision import collision_reason
 from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
 from planner.plan.reason_words import carried, dragged
 from planner.primitives.fold_trial import geometric_obstacles, lifted_points
 from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
-from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code, Reason
 
 _MOVE_STEP_M, _MOVES = 0.02, 50
 """Where it is not known how far cloth must be moved, it is tried in such steps (m), and so many."""

@@ -11,12 +11,11 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.message import Message
-from planner.plan.reason import Reason
 from planner.plan.reason_attempt import Demand, Miss, explained
 from planner.plan.reason_remedy import FURTHEST_M, remedy
-from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFFS_PER_M, Work
+from planner.task.reason import Code, Reason
 
 _SHORT_M = 0.0095
 """Lengths shorter than this are told to the millimetre (m)."""

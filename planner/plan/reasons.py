@@ -9,15 +9,15 @@ from collections.abc import Collection, Iterator
 
 from planner.cloth.g_state import Unrest
 from planner.message import Message
-from planner.plan.reason import Reason
 from planner.plan.reason_causes import Causes
 from planner.plan.reason_collision import collisions
 from planner.plan.reason_obstacle import of_obstacle
 from planner.plan.reason_places import Places
-from planner.primitives.obstacle import Code, Obstacle, Situation, Snag
+from planner.primitives.obstacle import Obstacle, Situation, Snag
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code, Reason
 
 
 def reasons(work: Work, reached: Collection[Situation], impossible: Collection[int]) -> tuple[Reason, ...]:

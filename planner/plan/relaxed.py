@@ -8,10 +8,10 @@ from planner.cloth.g_state import needed_friction
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.plan.problem import Problem
-from planner.plan.reason import Reason
-from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Reason
+from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,9 +12,9 @@ from dataclasses import replace
 from planner.cloth.garment import DrawnFold
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
-from planner.plan.reason import Reason
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import in_cm
+from planner.task.reason import Reason
 
 FRICTION_STEPS, FRICTION_MAX = 20, 10.0
 """How many steps there are in a friction coefficient of 1, and the largest that is tried."""

@@ -12,7 +12,7 @@ from planner.geometry.pose import Pose2
 from planner.plan.suggestion_budget import Budget
 from planner.plan.suggestion_grid import Room
 from planner.plan.suggestion_trial import Asked
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 STEP_M = (0.02, 1.0)
 """The finest and the coarsest map (m)."""

@@ -8,7 +8,7 @@ from planner.geometry.pose import Pose2, wrapped_angle
 from planner.message import Message
 from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import moved_words
-from planner.primitives.scene import STATIONS_MAX, Scene
+from planner.task.scene import STATIONS_MAX, Scene
 
 STAND_OFF_M = 0.15
 """How far outside the table's edge the base's centre stands."""

@@ -15,7 +15,7 @@ from planner.message import Message
 from planner.plan.make_plan import make_plan
 from planner.plan.plan import Plan
 from planner.plan.suggestion import Suggestion
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 WORTH_TELLING_S = 1.0
 """A second suggestion of a kind, or one where there is a plan already, saves at least this much (s)."""

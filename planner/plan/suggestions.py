@@ -22,8 +22,8 @@ from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_placement import placements
 from planner.plan.suggestion_station import stations
 from planner.plan.suggestion_trial import Asked, Search, Trial
-from planner.primitives.obstacle import Code
-from planner.primitives.scene import Scene
+from planner.task.reason import Code
+from planner.task.scene import Scene
 
 TOLD_MAX = 3
 """So many suggestions of one kind at most."""

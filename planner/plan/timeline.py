@@ -16,10 +16,11 @@ from planner.geometry.tolerance import TIME_S
 from planner.plan.cloth_surface import ClothSurfaces
 from planner.plan.film import Film
 from planner.plan.frame import Frame
-from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.phase import Hand, Phase
 from planner.primitives.state import State
 from planner.primitives.work import Work
 from planner.robot.card import RobotCard
+from planner.task.cloth_motion import ClothMotion
 
 RATE_HZ = (1.0, 200.0)
 

@@ -18,11 +18,12 @@ from planner.geometry.pose import Point2, Pose2, wrapped_angle
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
-from planner.primitives.grip import Grip
-from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.phase import Hand, Phase
 from planner.primitives.primitive import InTime, Later
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.cloth_motion import ClothMotion
+from planner.task.grip import Grip
 
 
 @dataclass(frozen=True, slots=True)

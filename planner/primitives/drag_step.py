@@ -13,10 +13,11 @@ from planner.geometry.table_top import TableTop
 from planner.primitives.drag_grips import DRAGS_PER_M, dragged
 from planner.primitives.drag_way import DragWay, DragWays
 from planner.primitives.grasping import approaches_from_outside, by_nearness
-from planner.primitives.grip import Grip
-from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.phase import Hand, Phase
 from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
+from planner.task.cloth_motion import ClothMotion
+from planner.task.grip import Grip
 
 
 @dataclass(frozen=True)

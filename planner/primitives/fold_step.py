@@ -14,10 +14,10 @@ from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obst
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.grasping import by_nearness, like_approach
-from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
+from planner.task.grip import Grip
 
 _DENSE_SWEEP = 0.02
 

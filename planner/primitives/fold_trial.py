@@ -23,11 +23,12 @@ from planner.primitives.grasping import (
     hand_key,
     nearest_pair_m,
 )
-from planner.primitives.obstacle import Code, Obstacle
+from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
 from planner.primitives.state import Held, State
 from planner.primitives.surroundings import Surroundings
 from planner.primitives.work import BACK_OFF_STEP_M, Work
+from planner.task.reason import Code
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ which costs next to nothing: how far out of reach it was is worked out when some
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from typing import TypeAlias
 
 import numpy as np
@@ -19,24 +18,11 @@ from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.tolerance import grid_key
 from planner.message import Message
 from planner.primitives.state import State
+from planner.task.reason import Code
 
 Situation: TypeAlias = tuple[int, int, int, tuple[tuple[int, int, int], ...], bool, int]
 """What of a state matters to whether a fold is possible: the folds done (a bit mask), where the article lies, what is
 held and whether from a drag; and how far the base has backed off, if anything is held, for else it may drive."""
-
-
-class Code(StrEnum):
-    """The constraint that stopped a fold."""
-
-    TOO_MANY_GRIPS = "too_many_grips"
-    OUT_OF_REACH = "out_of_reach"
-    NOT_A_G_STATE = "not_a_g_state"
-    SLIPS = "slips"
-    COLLISION = "collision"
-    GRIPS_TOO_CLOSE = "grips_too_close"
-    RED_NEEDS_HOLD = "red_needs_hold"
-    LINE_OFF_TABLE = "line_off_table"
-    WAITS_FOR_FOLD = "waits_for_fold"
 
 
 def situation(state: State) -> Situation:

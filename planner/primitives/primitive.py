@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
-from planner.primitives.grip import Grip
 from planner.primitives.phase import Phase
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.grip import Grip
 
 
 class Step(Protocol):

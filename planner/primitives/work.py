@@ -12,11 +12,11 @@ from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
-from planner.primitives.grip import BaseStop
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
-from planner.primitives.scene import Scene
 from planner.primitives.state import State
+from planner.task.grip import BaseStop
+from planner.task.scene import Scene
 
 T = TypeVar("T")
 

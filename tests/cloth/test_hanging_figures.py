@@ -21,8 +21,8 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.primitives.fold_trial import geometric_obstacle
-from planner.primitives.obstacle import Code
 from planner.primitives.state import State
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle, work
 
 TABLE = Table(1.6, 0.98, 0.79)

@@ -18,11 +18,11 @@ from planner.plan.edges import Edges
 from planner.plan.heuristic import HEURISTICS, Heuristic
 from planner.primitives.primitive import Primitive, Step
 from planner.primitives.primitive_set import PRIMITIVES
-from planner.primitives.scene import DEFAULT_STATIONS, Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
+from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.builders import rectangle_points
 from tests.laws.drawings import folded
 from tests.laws.outlines import Outline, outlines

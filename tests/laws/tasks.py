@@ -18,7 +18,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
 from planner.geometry.table import Table
-from planner.primitives.scene import DEFAULT_STATIONS, Scene
+from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.builders import fold, garment, rectangle_points, spread, star
 from tests.laws.outlines import Outline
 from tests.laws.scenes import Problem

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from planner.cloth.garment_files import load_garment
 from planner.primitives.primitive_set import PRIMITIVES
-from planner.primitives.scene import DEFAULT_STATIONS, Scene
+from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.laws.law import law
 from tests.laws.scenes import FOLDABLE, Problem, problems
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from planner.cloth.garment_files import load_garment
 from planner.geometry.pose import Point2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 from tests.laws.images import mirrored, redrawn, reordered
 from tests.laws.law import law
 from tests.laws.scenes import FOLDABLE, Problem, problems

@@ -9,10 +9,9 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.plan.plan import Plan
-from planner.plan.reason import Reason
 from planner.primitives.g_fold import GFold
-from planner.primitives.obstacle import Code
 from planner.primitives.state import State
+from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
 
 BACK = -math.pi / 2

@@ -5,7 +5,7 @@ import pytest
 from planner import Scene, load_garment, make_plan, shipped_garment_names
 from planner.plan import plan_search as planning
 from planner.plan.alone import drag_offsets
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code
 
 HALVED = ("scarf-halved", "tie-halved")
 SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]

@@ -9,7 +9,7 @@ from planner import Plan, load_garment, make_plan
 from planner.plan import plan_search
 from planner.plan.budget import Budget
 from planner.plan.problem import Problem
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 PAUSE_S = 0.002
 SEARCH_S = 0.08

@@ -19,11 +19,11 @@ from planner.primitives.fold_question import FoldQuestions
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
-from planner.primitives.scene import Scene
 from planner.primitives.state import State
 from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
+from planner.task.scene import Scene
 from tests.plan.test_edges import edges_of
 
 SCENE = Scene()

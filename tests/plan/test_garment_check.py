@@ -11,7 +11,7 @@ from planner.errors import FoldError, GarmentError
 from planner.folds.fold_sequence import FoldSequence
 from planner.plan.garment_check import check_garment
 from planner.plan.vertex_check import Support, vertex_checks
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 from tests.builders import fold, garment, rectangle_points, star
 
 

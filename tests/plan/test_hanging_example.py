@@ -20,9 +20,9 @@ from planner.primitives.drag_step import DragStep
 from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
-from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points, work
 from tests.replay.planned import planned
 

@@ -14,7 +14,8 @@ from planner.geometry.table_top import TableTop
 from planner.plan.moments import Moments, moments_of
 from planner.plan.phase_shares import STEP_M, STEP_RAD
 from planner.plan.real_run import is_carrying
-from planner.primitives.phase import ClothMotion, Hand, Phase
+from planner.primitives.phase import Hand, Phase
+from planner.task.cloth_motion import ClothMotion
 from tests.replay.planned import planned
 
 HEIGHT_M = 0.79

@@ -18,12 +18,12 @@ from planner.geometry.table import Table
 from planner.plan import plan_search, problem, realizer
 from planner.plan.machine import Clearance, Collisions
 from planner.plan.run_maker import RunMaker
-from planner.primitives.obstacle import Code
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
 from planner.robot.collision.contact import Contact
 from planner.robot.pr2 import Pr2, load_robot
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 
 BACK = -math.pi / 2

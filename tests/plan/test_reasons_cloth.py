@@ -8,7 +8,7 @@ from planner import Scene, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 from tests.plan.provoked import BACK, HAMMER_SCENE, but_for_collisions, hammer, is_gone, refused
 

@@ -8,10 +8,11 @@ from planner import Plan, Scene
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.plan import problem
-from planner.primitives.obstacle import Code, Obstacle, Obstacles, Snag
+from planner.primitives.obstacle import Obstacle, Obstacles, Snag
 from planner.primitives.state import State
 from planner.robot.collision.contact import Contact
 from planner.robot.pr2 import Pr2
+from planner.task.reason import Code
 from tests.plan.test_realizer import (
     HALF,
     IDLE_S,

@@ -13,7 +13,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.plan.reason_grips import needed_radius
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 from tests.plan.provoked import BACK, FRONT, HOUSE, fixed, is_gone, planned_with, refused
 

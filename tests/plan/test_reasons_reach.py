@@ -9,8 +9,7 @@ import pytest
 from planner import Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.plan.reason import Reason
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
 from tests.plan.provoked import (
     BACK,

@@ -10,8 +10,7 @@ import pytest
 from planner import Plan, Scene, load_garment, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
-from planner.plan.reason import Reason
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
 from tests.plan.provoked import BACK, planned_with, refused
 

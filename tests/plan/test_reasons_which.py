@@ -9,8 +9,9 @@ from planner.geometry.table import Table
 from planner.message import Message
 from planner.plan import plan_search as planning
 from planner.plan.reasons import reasons
-from planner.primitives.obstacle import Code, Obstacle, situation
+from planner.primitives.obstacle import Obstacle, situation
 from planner.primitives.state import State
+from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 from tests.plan.provoked import (
     BACK,

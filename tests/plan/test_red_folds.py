@@ -13,9 +13,9 @@ from planner.primitives.base_move import BaseMove
 from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
-from planner.primitives.obstacle import Code
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.reason import Code
 from tests.builders import fold, garment, is_same_region, is_same_stack, rectangle, rectangle_points, work
 from tests.plan.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, WIDTH_M, towel
 

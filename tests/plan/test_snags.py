@@ -8,8 +8,8 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.plan.moments import Moments
 from planner.plan.snags import Snags
-from planner.primitives.obstacle import Code
 from planner.robot.pr2 import load_robot
+from planner.task.reason import Code
 from tests.builders import fold, garment
 
 ROBOT, TORSO_M, TABLE = load_robot("pr2"), 0.29, Table()

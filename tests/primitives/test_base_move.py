@@ -9,8 +9,8 @@ import pytest
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.primitives.base_move import BaseMove, Route, clear_of_table, route_along, shortest_way
-from planner.primitives.scene import Scene
 from planner.primitives.state import Held, State
+from planner.task.scene import Scene
 from tests.builders import CIRCLE_M, garment, rectangle_points, work
 from tests.replay.way_round import require_way_round
 

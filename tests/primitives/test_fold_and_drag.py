@@ -15,9 +15,9 @@ from planner.primitives.base_legs import unbeaten
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
-from planner.primitives.scene import Scene
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
+from planner.task.scene import Scene
 from tests.builders import WideReach, fold, garment, rectangle_points, work
 
 NEAR_HALF = fold((0.4, 0.15), (0.0, 0.15))

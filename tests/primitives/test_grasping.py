@@ -7,7 +7,7 @@ import pytest
 
 from planner.geometry.pose import Approach, Point2, Pose2
 from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 from tests.builders import WideReach, garment, rectangle_points, work
 
 TOWEL = garment(rectangle_points(0.4, 0.3))

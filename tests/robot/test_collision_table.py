@@ -8,7 +8,7 @@ import pytest
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_parts import table_parts
-from planner.primitives.scene import DEFAULT_STATIONS, Scene
+from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.replay import hulls
 from tests.robot.collision_samples import CARD, HOME, ROBOT, TORSO_M
 

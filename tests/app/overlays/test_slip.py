@@ -8,7 +8,7 @@ from planner.cloth.g_state import TableInArticle, unrest
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.segment import Segment
-from planner.primitives.scene import DEFAULT_STATIONS, Scene
+from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.builders import rectangle_points, spread
 
 # A line along x; what lies to its right is below it.

@@ -10,7 +10,7 @@ from app.templates.template import Template
 from planner import load_garment, make_plan
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
-from planner.primitives.obstacle import Code
+from planner.task.reason import Code
 
 # The shipped garments whose values are the defaults of a template.
 SHIPPED = {

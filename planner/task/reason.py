@@ -2,11 +2,25 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 from planner.geometry.pose import Approach, Point2, Point3
 from planner.message import Message
-from planner.primitives.obstacle import Code
+
+
+class Code(StrEnum):
+    """The constraint that stopped a fold."""
+
+    TOO_MANY_GRIPS = "too_many_grips"
+    OUT_OF_REACH = "out_of_reach"
+    NOT_A_G_STATE = "not_a_g_state"
+    SLIPS = "slips"
+    COLLISION = "collision"
+    GRIPS_TOO_CLOSE = "grips_too_close"
+    RED_NEEDS_HOLD = "red_needs_hold"
+    LINE_OFF_TABLE = "line_off_table"
+    WAITS_FOR_FOLD = "waits_for_fold"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import pytest
 
 from planner.errors import SceneError
 from planner.geometry.pose import Pose2
-from planner.primitives.scene import Scene
+from planner.task.scene import Scene
 
 
 def test_the_default_scene_is_the_one_in_which_the_nine_plan():
