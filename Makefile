@@ -2,6 +2,7 @@
 
 VENV := .venv
 BIN := $(VENV)/bin
+NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 PYTEST := $(BIN)/python -m pytest
 # How many tests run at once.
@@ -10,10 +11,11 @@ JOBS ?= 2
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
+READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types imports test-quick test test-long browser bench figures lock clean
+.PHONY: help run check format lint types page-types imports test-quick test test-long browser bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -22,7 +24,7 @@ help: ## this list
 run: $(READY) ## serve the designer on http://127.0.0.1:8000
 	@exec $(BIN)/pleat serve
 
-check: lint types imports ## format, lint, types, and which package may import which
+check: lint types page-types imports ## format, lint, types of Python and of the page's JavaScript, imports
 
 format: $(READY_DEV) ## put the code into its format
 	$(BIN)/ruff format .
@@ -34,6 +36,12 @@ lint: $(READY_DEV)
 
 types: $(READY_DEV)
 	$(BIN)/mypy
+
+# The page's JavaScript is checked against the shapes of what the server sends: they are read off the server each time.
+page-types: $(READY_DEV) $(READY_JS)
+	$(BIN)/python -m tests.js.describe tests/js/openapi.json
+	@cd tests/js && $(NODE) node_modules/openapi-typescript/bin/cli.js openapi.json --output api.d.ts >/dev/null
+	cd tests/js && $(NODE) node_modules/typescript/bin/tsc --project .
 
 imports: $(READY_DEV)
 	$(PYTEST) tests/test_imports.py
@@ -72,9 +80,11 @@ lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
+	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -f package-lock.json && npm install --package-lock-only \
+	    --omit-lockfile-registry-resolved --ignore-scripts --no-audit --no-fund --loglevel=error
 
 clean: ## remove the virtual environment and all that was generated
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
+	rm -rf $(VENV) tests/js/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(BIN)/python:
@@ -97,6 +107,12 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 $(READY_DEV): requirements-dev.txt $(READY)
 	@echo "Setting up the tools for tests"
 	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@touch $@
+
+# Scripts of packages are not run: none of these needs one.
+$(READY_JS): tests/js/package-lock.json $(READY_DEV)
+	@echo "Setting up the tools for the page's types"
+	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 	@touch $@
 
 # What Pleat is compared with. Only the benchmark wants it, and does without where there is no wheel for this machine.

@@ -1,11 +1,12 @@
 """The shapes of garments, scenes and answers, for the description of the interface at /docs.
 
-The planner makes and checks these values; nothing is validated here.
+The planner makes and checks these values; nothing is validated here. The types of the page's JavaScript are made of
+them, so tests hold what is sent against them, field by field.
 """
 
-from typing import Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 Point = tuple[float, float]
 Point3 = tuple[float, float, float]
@@ -49,6 +50,13 @@ class GarmentFile(BaseModel):
     placement: PoseFile | None = None
 
 
+class GarmentAnswer(GarmentFile):
+    """A garment, every field filled in."""
+
+    title: str
+    folds: list[FoldFile]
+
+
 class GarmentEntry(BaseModel):
     """A garment in the list."""
 
@@ -82,6 +90,13 @@ class SceneFile(BaseModel):
     base_turn_rad_s: float = 0.5
 
 
+class SceneAnswer(SceneFile):
+    """A scene, every field filled in."""
+
+    table: TableFile
+    stations: dict[str, PoseFile]
+
+
 class LayerAnswer(BaseModel):
     """A layer of the folded cloth, article frame (m)."""
 
@@ -113,18 +128,41 @@ class BaseAnswer(PoseFile):
     back_off_m: float
 
 
-class PrimitiveAnswer(BaseModel):
-    """A primitive; which further fields it has depends on its kind."""
+class StepPart(BaseModel):
+    """What every primitive has: its time in the plan, where it leaves the base, and what the arms do."""
 
-    kind: Literal["fold", "drag", "move"]
     start_s: float
     duration_s: float
     base: BaseAnswer
     grips: list[GripAnswer]
-    fold: int | None = None
-    distance_m: float | None = None
-    holds: bool | None = None
-    waypoints: list[Point3] | None = None
+
+
+class FoldPart(StepPart):
+    """A fold, and whether the hands hold on after it."""
+
+    kind: Literal["fold"]
+    fold: int
+    holds: bool
+
+
+class DragPart(StepPart):
+    """A drag towards the robot (m), and whether the hands hold on after it."""
+
+    kind: Literal["drag"]
+    distance_m: float
+    holds: bool
+
+
+class MovePart(StepPart):
+    """A drive from one station to another, by way of poses of the base (m, rad)."""
+
+    kind: Literal["move"]
+    start: str = Field(alias="from")
+    to: str
+    waypoints: list[Point3]
+
+
+PrimitiveAnswer = Annotated[FoldPart | DragPart | MovePart, Field(discriminator="kind")]
 
 
 class DagPart(BaseModel):
@@ -132,6 +170,24 @@ class DagPart(BaseModel):
 
     folds: int
     edges: list[tuple[int, int]]
+
+
+class Says(BaseModel):
+    """A message as data: its code, and the named numbers of that code."""
+
+    model_config = ConfigDict(extra="allow")
+
+    code: str
+
+
+class Change(BaseModel):
+    """The fields of a plan request that a suggestion changes; the others stay."""
+
+    garment: GarmentAnswer | None = None
+    placement: PoseFile | None = None
+    scene: SceneAnswer | None = None
+    start_station: str | None = None
+    comfort_radius_m: float | None = None
 
 
 class ApproachAnswer(BaseModel):
@@ -153,7 +209,7 @@ class ReasonAnswer(BaseModel):
     fold: int | None
     code: str
     message: str
-    says: dict[str, Any]
+    says: Says
     cause: str | None
     joint: str | None
     point: Point3 | None
@@ -172,7 +228,21 @@ class ReasonAnswer(BaseModel):
     needed_grip_radius_m: float | None
     set: int | None
     gives: Literal["plan", "fold", "start"] | None
-    change: dict[str, Any] | None
+    change: Change | None
+
+
+class StatisticsAnswer(BaseModel):
+    """What the search did: counts, and times (s); `bound_s` is what any plan takes at least."""
+
+    expanded: int
+    explored: int
+    ik_queries: int
+    ik_time_s: float
+    search_time_s: float
+    joint_time_s: float
+    bound_s: float | None
+    ways: int
+    is_cut_short: bool
 
 
 class PlanAnswer(BaseModel):
@@ -186,7 +256,7 @@ class PlanAnswer(BaseModel):
     final_layers: list[LayerAnswer]
     final_placement: PoseFile | None
     reasons: list[ReasonAnswer]
-    statistics: dict[str, Any]
+    statistics: StatisticsAnswer
 
 
 class SampleAnswer(BaseModel):

@@ -20,12 +20,13 @@ from app.api import (
     suggestion_routes,
     template_routes,
 )
-from app.api.described import describe_problem
+from app.api.described import describe
 from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
+from app.api.live_answers import LiveCommand, LiveMessage
 from app.api.methods import HeadAsGet
 from app.api.prefix import BelowPrefix
-from app.api.problems import install_problems
+from app.api.problems import Problem, install_problems
 from app.settings import Settings
 from app.workspace import Workspace
 
@@ -67,7 +68,7 @@ def create_app(settings: Settings) -> FastAPI:
         app.include_router(routes.router)
     page_routes.mount_files(app)
     install_problems(app)
-    describe_problem(app)
+    describe(app, Problem, LiveMessage, LiveCommand)
     app.add_middleware(FailuresAsProblems)
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)

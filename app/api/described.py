@@ -5,7 +5,7 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic import BaseModel
 
-from app.api.problems import MEDIA_TYPE, Problem
+from app.api.problems import MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
@@ -46,14 +46,15 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
     return {key: _inlined(value, definitions) for key, value in schema.items() if key != "discriminator"}
 
 
-def describe_problem(app: FastAPI) -> None:
-    """Put the shape of problems into the description, and drop the one that FastAPI would answer with."""
+def describe(app: FastAPI, *models: type[BaseModel]) -> None:
+    """Put the shapes of what no route's signature names into the description: problems, what the websocket carries."""
     plain = app.openapi
 
     def openapi() -> dict[str, Any]:
         description = plain()
         schemas = description.setdefault("components", {}).setdefault("schemas", {})
-        schemas.update(_schemas(Problem))
+        for model in models:
+            schemas.update(_schemas(model))
         return description
 
     app.openapi = openapi  # type: ignore[method-assign]

@@ -1,13 +1,54 @@
 """The shapes of answers about documents, for the description of the interface at /docs."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import BaseModel
 
-from app.api.answers import GarmentFile, LayerAnswer, Point
-from app.drawing.drawing_json import DrawingModel, EndModel
+from app.api.answers import GarmentAnswer, LayerAnswer, Point, PoseFile, Says, SceneAnswer
+from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
 
 Ring = list[Point]
+
+
+class EndAnswer(BaseModel):
+    """An end of a fold: where it is (m), and what it is tied to."""
+
+    point: Point
+    on: CornerTieModel | EdgeTieModel | CreaseTieModel | ChordTieModel | None
+
+
+class CornerAnswer(BaseModel):
+    """A corner of the outline (m)."""
+
+    id: str
+    point: Point
+
+
+class FoldAnswer(BaseModel):
+    """A fold of a drawing; `twin` is the one on the other side that goes along."""
+
+    id: str
+    name: str
+    kind: Literal["blue", "red"]
+    start: EndAnswer
+    end: EndAnswer
+    grip_radius_m: float | None
+    twin: str | None
+
+
+class DrawingAnswer(BaseModel):
+    """A drawing, every field filled in."""
+
+    name: str
+    title: str
+    outline: list[CornerAnswer]
+    areal_density_kg_m2: float
+    grip_radius_m: float
+    folds: list[FoldAnswer]
+    placement: PoseFile
+    scene: SceneAnswer
+    start_station: str
+    comfort_radius_m: float
 
 
 class DocumentEntryAnswer(BaseModel):
@@ -44,7 +85,7 @@ class DrawingProblem(BaseModel):
     code: str
     field: str
     message: str
-    says: dict[str, Any] | None
+    says: Says | None
     fold: int | None
     points: list[Point]
     lines: list[tuple[Point, Point]]
@@ -63,8 +104,8 @@ class DocumentAnswer(BaseModel):
     kind: Literal["document"]
     id: str
     version: int
-    drawing: DrawingModel
-    garment: GarmentFile
+    drawing: DrawingAnswer
+    garment: GarmentAnswer
     solved: list[SolvedFold]
     steps: list[StepAnswer]
     problems: list[DrawingProblem]
@@ -86,8 +127,8 @@ class PlaybackAnswer(BaseModel):
 class CreaseAnswer(BaseModel):
     """A fold that could be drawn: its ends, what moves, and where that lands (m)."""
 
-    start: EndModel
-    end: EndModel
+    start: EndAnswer
+    end: EndAnswer
     moving: list[Ring]
     landed: list[Ring]
 
@@ -115,8 +156,8 @@ class MendAnswer(BaseModel):
     """A change that takes a problem of a drawing away: what is done, and the drawing afterwards."""
 
     label: str
-    says: dict[str, Any]
-    drawing: DrawingModel
+    says: Says
+    drawing: DrawingAnswer
 
 
 class MendsAnswer(BaseModel):

@@ -10,7 +10,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse, Response
 
 from app import searches
-from app.api.answers import GarmentFile
+from app.api.answers import GarmentAnswer, Says
 from app.api.asked import workspace_of
 from app.api.body import read_bytes
 from app.api.described import problems
@@ -52,9 +52,9 @@ class ImportAnswer(BaseModel):
     """
 
     format: Literal["json", "svg", "dxf"]
-    garment: GarmentFile
+    garment: GarmentAnswer
     notes: list[str]
-    says: list[dict[str, Any] | None]
+    says: list[Says | None]
     creases: Creases | None
     sizes: dict[str, tuple[float, float]] | None
 
@@ -69,7 +69,7 @@ class FileEntry(BaseModel):
     media_type: str
     available: bool
     reason: str | None
-    says: dict[str, Any] | None
+    says: Says | None
 
 
 @router.post(

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
-from app.api.answers import GarmentEntry, GarmentFile
+from app.api.answers import GarmentAnswer, GarmentEntry, GarmentFile
 from app.api.asked import workspace_of
 from app.api.body import read_object
 from app.api.described import problems, takes
@@ -24,7 +24,7 @@ async def list_garments(request: Request) -> list[dict[str, Any]]:
     return [asdict(entry) for entry in entries]
 
 
-@router.get("/{name}", responses={200: {"model": GarmentFile}, **problems(404)})
+@router.get("/{name}", responses={200: {"model": GarmentAnswer}, **problems(404)})
 async def read_garment(request: Request, name: str) -> JSONResponse:
     """A garment file with every field filled in."""
     garment = await run_in_threadpool(workspace_of(request).garments.garment, name)
@@ -34,7 +34,7 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
 @router.put(
     "/{name}",
     openapi_extra=takes(GarmentFile),
-    responses={200: {"model": GarmentFile}, 201: {"model": GarmentFile}, **problems(403, 409, 413, 422, 507)},
+    responses={200: {"model": GarmentAnswer}, 201: {"model": GarmentAnswer}, **problems(403, 409, 413, 422, 507)},
 )
 async def save_garment(request: Request, name: str) -> JSONResponse:
     """Save or replace a garment of one's own: 201 when it is new, 200 when it was there."""

@@ -13,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
+from app.api.answers import Says
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.jobs.apart import StoppedError
@@ -61,7 +62,7 @@ class FieldProblem(BaseModel):
 
     field: str
     message: str
-    says: dict[str, Any] | None = None
+    says: Says | None = None
 
 
 class Problem(BaseModel):

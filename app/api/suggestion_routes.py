@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app import searches
-from app.api.answers import PoseFile
+from app.api.answers import Change, PoseFile, Says
 from app.api.asked import TimeLimit, asked_garment, asked_options, asked_scene, within_request, workspace_of
 from app.api.body import read_model
 from app.api.described import problems, takes
@@ -34,8 +34,8 @@ class SuggestionEvent(BaseModel):
     kind: Literal["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"]
     is_assumption: bool
     message: str
-    says: dict[str, Any]
-    change: dict[str, Any]
+    says: Says
+    change: Change
     size: float
     cost_s: float
     plan_id: str

@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
-from app.api.answers import GarmentFile, Point
+from app.api.answers import GarmentAnswer, Point
 from app.api.body import read_model
 from app.api.described import problems, takes
 from app.templates.catalogue import TEMPLATES, find_template
@@ -52,7 +52,7 @@ class TemplateAnswer(BaseModel):
 class MadeAnswer(BaseModel):
     """What a template has made, and of which measures (m)."""
 
-    garment: GarmentFile
+    garment: GarmentAnswer
     measures: dict[str, float]
     notes: list[str]
 

@@ -5,6 +5,7 @@
 
 import { button, element } from "./dom.js";
 import { length } from "./messages/lengths.js";
+import { present } from "./present.js";
 
 /** What is usual (see planner.primitives.scene, planner.plan.make_plan). */
 export const USUAL = { friction: 1, comfort_m: 0.03 };
@@ -18,7 +19,7 @@ export function assumptions(drawing) {
   const { scene, comfort_radius_m: comfort, folds } = drawing;
   const wide = folds.filter((fold) => isWide(drawing, fold));
   const widest = Math.max(...wide.map((fold) => fold.grip_radius_m));
-  return [
+  return present([
     wide.length > 0 && {
       kind: "grip_radius",
       text: `grip ${length(widest)}`,
@@ -34,7 +35,7 @@ export function assumptions(drawing) {
       text: `comfort ${length(comfort)}`,
       off: (changed) => void (changed.comfort_radius_m = USUAL.comfort_m),
     },
-  ].filter((one) => one !== false);
+  ]);
 }
 
 /** Whether a grip at a fold is taken to hold more than the garment's own. */

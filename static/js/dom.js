@@ -1,4 +1,4 @@
-/** Small things for building elements. */
+/** Small things for building elements and telling errors. */
 
 /**
  * @param {string} id of an element that is there
@@ -35,3 +35,6 @@ export function button(className, onClick, ...children) {
   made.addEventListener("click", onClick);
   return made;
 }
+
+/** Return what an error says. @param {unknown} error */
+export const sayable = (error) => (error instanceof Error ? error.message : String(error));

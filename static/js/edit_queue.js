@@ -6,6 +6,7 @@
  * no server is kept, and sent again when there is one.
  */
 
+import { sayable } from "./dom.js";
 import { inWords } from "./messages/in_words.js";
 
 const TRIES = 3;
@@ -105,7 +106,7 @@ export class EditQueue {
     } catch (error) {
       const isLost = error instanceof UnreachableError;
       if (isLost && job.phase === "commit") return this.hold(job);
-      if (job.phase !== "preview") this.store.refuse(isLost ? OFFLINE : String(error.message));
+      if (job.phase !== "preview") this.store.refuse(isLost ? OFFLINE : sayable(error));
     }
     this.waiting = this.waiting.filter((other) => other !== job);
     job.resolve(state);

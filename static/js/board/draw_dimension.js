@@ -21,7 +21,7 @@ export function dimension(key, a, b, text) {
   const tick = path([plus(tip, times(left(along), 9)), minus(tip, times(left(along), 9))], false);
   const beyond = plus(tip, times(along, 10));
   const anchor = Math.abs(along[0]) < 0.5 ? "middle" : along[0] > 0 ? "start" : "end";
-  return [
+  return /** @type {const} */ ([
     { key, tag: "path", class: "reason-arrow", d: d + tick },
     {
       key: `${key}:text`,
@@ -32,5 +32,5 @@ export function dimension(key, a, b, text) {
       "text-anchor": anchor,
       text,
     },
-  ];
+  ]);
 }

@@ -9,6 +9,8 @@ import { between, crossings, distance, edgesOf, isInside, leftPart, toInner, toO
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
+/** @import { Drawing, Point, Reason, Table } from "pleat" */
+
 const CODES = new Set(["not_a_g_state", "slips"]);
 const CROSS_PX = 8;
 /** Nearer to the table than this is on it (m). */
@@ -31,6 +33,7 @@ export function drawOverhang(board) {
   if (!reason || drawing.outline.length < 3) return [];
   const ring = drawing.outline.map(({ point }) => point);
   const sides = edgesOf(tableIn(drawing));
+  /** @param {Point[]} points */
   const px = (points) => points.map((point) => view.toPx(point));
   const parts = sides.map(([a, b]) => leftPart(ring, b, a)).filter((part) => part.length > 2);
   return [
@@ -40,7 +43,7 @@ export function drawOverhang(board) {
   ];
 }
 
-/** The table's corners as the article sees them, counter-clockwise. */
+/** The table's corners as the article sees them, counter-clockwise. @param {Drawing} drawing */
 function tableIn({ placement, scene: { table } }) {
   const [deep, wide] = [table.depth_m / 2, table.width_m / 2];
   /** @type {[number, number][]} */
@@ -53,21 +56,34 @@ function tableIn({ placement, scene: { table } }) {
   return corners.map((corner) => toInner(placement, corner));
 }
 
-/** The stretches of a side of the table that lie under cloth. */
+/**
+ * Return the stretches of a side of the table that lie under cloth.
+ * @param {[Point, Point]} side
+ * @param {Point[]} ring
+ */
 function under([a, b], ring) {
   const stops = [0, ...crossings(a, b, [ring]).filter((t) => t > 0 && t < 1), 1];
-  const lines = stops.slice(1).map((t, n) => [between(a, b, stops[n]), between(a, b, t)]);
+  const lines = stops.slice(1).map((t, n) => /** @type {[Point, Point]} */ ([between(a, b, stops[n]), between(a, b, t)]));
   return lines.filter(([p, q]) => isInside(between(p, q), [ring]));
 }
 
-/** A cross where it is worst, and how far the cloth there is from the table. */
+/**
+ * A cross where it is worst, and how far the cloth there is from the table.
+ * @param {import("./view.js").View} view
+ * @param {Drawing} drawing
+ * @param {Point[]} ring the outline
+ * @param {Reason} reason
+ */
 function howFar(view, drawing, ring, reason) {
   const { placement } = drawing;
   const isBeside = !isOver(ring, tableIn(drawing));
+  /** @param {Point} point */
   const foot = (point) => toInner(placement, onTable(toOuter(placement, point), drawing.scene.table, isBeside));
+  /** @param {Point} point */
   const away = (point) => distance(point, foot(point));
+  /** @param {Point} one @param {Point} other */
   const worse = (one, other) => (away(one) > away(other) !== isBeside ? one : other);
-  const at = reason.point ? toInner(placement, reason.point) : ring.reduce(worse);
+  const at = reason.point ? toInner(placement, [reason.point[0], reason.point[1]]) : ring.reduce(worse);
   const from = view.toPx(at);
   const items = reason.point ? [] : [crossAt("over", from, CROSS_PX)];
   if (away(at) <= ON_M) return items;
@@ -77,11 +93,18 @@ function howFar(view, drawing, ring, reason) {
   return [...items, arrow, isOn(view, words) ? words : { ...words, ...below }];
 }
 
-/** Whether any of the cloth is over the table. */
+/** Whether any of the cloth is over the table. @param {Point[]} ring @param {Point[]} table */
 const isOver = (ring, table) => edgesOf(table).reduce((part, [a, b]) => leftPart(part, a, b), ring).length > 2;
 
-/** The place on a table nearest to a point of its frame; unless it must be there, on the line of the edge crossed. */
+/**
+ * The place on a table nearest to a point of its frame; unless it must be there, on the line of the edge crossed.
+ * @param {Point} point
+ * @param {Table} table
+ * @param {boolean} isThere whether it must be on the table
+ * @returns {Point}
+ */
 function onTable([x, y], { depth_m: deep, width_m: wide }, isThere) {
+  /** @param {number} value @param {number} most */
   const within = (value, most) => Math.min(Math.max(value, -most / 2), most / 2);
   /** @type {[number, number]} */
   const nearest = [within(x, deep), within(y, wide)];
@@ -89,4 +112,5 @@ function onTable([x, y], { depth_m: deep, width_m: wide }, isThere) {
   return Math.abs(nearest[0] - x) > Math.abs(nearest[1] - y) ? [nearest[0], y] : [x, nearest[1]];
 }
 
+/** @param {{width: number, height: number}} board @param {{x: number, y: number}} at */
 const isOn = ({ width, height }, { x, y }) => x >= 0 && x <= width && y >= 0 && y <= height;

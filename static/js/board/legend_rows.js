@@ -1,5 +1,6 @@
 /** What the shades and lines of the overlays mean: a row for each kind of them that is drawn, and for no other. */
 
+import { present } from "../present.js";
 import { drawChecks } from "./draw_findings.js";
 import { fullness } from "./draw_overlays.js";
 import { length } from "./units.js";
@@ -55,11 +56,11 @@ function reach(found, drawn) {
   const shades = arms.flatMap((_, n) => [cell("reach", 2 + 10 * n, 20), cell("reach-line", 2 + 10 * n, 20)]);
   const both = arms.length > 1 ? "; stronger: both" : "";
   const ease = comfort > 0 ? ` with ${length(comfort)} of comfort` : "";
-  return [
+  return present([
     arms.length > 0 && { words: `${letters.join(", ")}: can grip${ease}${both}`, marks: shades },
     comfort > 0 &&
       drawn.has("reach-line is-bare") && { words: "Limit of reach, without comfort", marks: [line("reach-line is-bare")] },
-  ].filter((row) => row !== false);
+  ]);
 }
 
 /** @param {any} places */
@@ -68,9 +69,9 @@ function costs(places) {
   const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => `${cost.toFixed(1)}\u00A0s`);
   const shades = [0, 1, 2, 3].map((n) => ({ ...cell("cost", 1 + 8 * n, 8), "fill-opacity": fullness(1 - n / 3) }));
   const range = least === most ? `takes ${least}` : `takes ${least} (strongest) to ${most}`;
-  return [
+  return present([
     known.length > 0 && { words: `The plan ${range}, the cloth\u2019s middle there`, marks: shades },
     places && known.length < places.cells.length && { words: "Empty: no plan from there", marks: [cell("cost is-none", 9)] },
     places && !places.complete && { words: "No square: not tried, time was up", marks: [] },
-  ].filter((row) => Boolean(row));
+  ]);
 }

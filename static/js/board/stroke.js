@@ -38,7 +38,12 @@ function crease(from, to, rings) {
   return cross(minus(b, a), minus(from, a)) < 0 ? [b, a] : [a, b];
 }
 
-/** Whether a stroke touches the cloth, or one of its ends is as near. @param {number} near (m) */
+/**
+ * Whether a stroke touches the cloth, or one of its ends is as near.
+ * @param {{from: Point, to: Point}} stroke
+ * @param {Point[][]} rings the cloth
+ * @param {number} near (m)
+ */
 export function reachesCloth({ from, to }, rings, near) {
   const isNear = (p) => isInside(p, rings) || distance(p, nearestOnRings(p, rings) ?? p) <= near;
   return crossings(from, to, rings).some((t) => t >= 0 && t <= 1) || isNear(from) || isNear(to);

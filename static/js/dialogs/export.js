@@ -1,6 +1,6 @@
 /** `Export`: every format in which the document can be taken along. */
 
-import { button, element } from "../dom.js";
+import { button, element, sayable } from "../dom.js";
 import { inWords } from "../messages/in_words.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 
@@ -83,7 +83,7 @@ async function record(pressed, url, file, said, signal) {
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
     said.textContent = file.text;
   } catch (error) {
-    said.textContent = error instanceof TypeError ? OFFLINE : String(error.message);
+    said.textContent = error instanceof TypeError ? OFFLINE : sayable(error);
   }
   pressed.disabled = false;
 }

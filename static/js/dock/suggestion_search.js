@@ -1,5 +1,6 @@
 /** A search for what would help: asks the server, and gathers its answers as they come. */
 
+import { sayable } from "../dom.js";
 import { eventStream } from "./event_stream.js";
 
 /**
@@ -48,7 +49,7 @@ export class SuggestionSearch extends EventTarget {
         this.tell();
       }
     } catch (error) {
-      if (!abort.signal.aborted) this.fault = String(error.message);
+      if (!abort.signal.aborted) this.fault = sayable(error);
     }
     if (abort.signal.aborted) return; // another search may be running by now
     this.isRunning = false;

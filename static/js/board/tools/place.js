@@ -104,7 +104,7 @@ export class PlaceTool extends Tool {
     const { placement, plane, centre } = this.held;
     const [right, up] = minus(this.board.view.pxToPlane(pointer.px), plane);
     const by = [up, -right]; // the plane's up is the table's x, its left the table's y
-    const at = [0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer));
+    const at = /** @type {[number, number]} */ ([0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer)));
     const kept = minus(at, centre);
     const name = MIDDLES[at.filter((value) => value === 0).length];
     return { placement: { ...placement, x_m: placement.x_m + kept[0], y_m: placement.y_m + kept[1] }, name };

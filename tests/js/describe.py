@@ -1,0 +1,18 @@
+"""Write the description of the interface to a file, for the page's types to be made of: ``python -m ... FILE``."""
+
+import json
+import sys
+from pathlib import Path
+
+from app.api.create_app import create_app
+from app.settings import Settings
+
+
+def main() -> None:
+    """Write it; no data folder is opened for that."""
+    description = create_app(Settings(data=Path("nowhere"))).openapi()
+    Path(sys.argv[1]).write_text(json.dumps(description), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+/** What the page's comments call the values of the server. The shapes come from `api.d.ts`, which `make` generates. */
+
+import type { components } from "./api";
+
+type Schemas = components["schemas"];
+
+/** A point: of the article frame, or of the board (m, or px). */
+export type Point = [number, number];
+export type Point3 = Schemas["GripAnswer"]["pick"];
+export type Pose = Schemas["PoseFile"];
+
+export type Drawing = Schemas["DrawingAnswer"];
+export type Corner = Schemas["CornerAnswer"];
+export type Fold = Schemas["FoldAnswer"];
+export type FoldEnd = Schemas["EndAnswer"];
+export type FoldKind = Fold["kind"];
+export type Garment = Schemas["GarmentAnswer"];
+export type GarmentFold = Schemas["FoldFile"];
+export type Scene = Schemas["SceneAnswer"];
+export type Table = Schemas["TableFile"];
+
+export type DocumentState = Schemas["DocumentAnswer"];
+export type DocumentEntry = Schemas["DocumentEntryAnswer"];
+export type DrawingProblem = Schemas["DrawingProblem"];
+export type Step = Schemas["StepAnswer"];
+export type Layer = Schemas["MovedLayerAnswer"];
+export type Steps = Schemas["StepsAnswer"];
+export type Crease = Schemas["CreaseAnswer"];
+export type Mends = Schemas["MendsAnswer"];
+
+export type LiveMessage = Schemas["LiveMessage"];
+export type Command = Schemas["LiveCommand"];
+export type PlanMessage = Schemas["PlanMessage"];
+export type Playback = Schemas["PlaybackAnswer"];
+export type Plan = Schemas["PlanOnShow"];
+export type PlanBefore = Schemas["PlanBefore"];
+export type Primitive = Plan["primitives"][number];
+export type Reason = Schemas["ReasonAnswer"];
+export type Statistics = Schemas["StatisticsAnswer"];
+
+export type Overlays = Schemas["OverlaysAnswer"];
+export type Region = Schemas["RegionAnswer"];
+export type Places = Schemas["PlacesAnswer"];
+
+export type SuggestionEvent = Schemas["SuggestionEvent"];
+export type PlanChange = Partial<Schemas["Change"]>;
+
+export type Template = Schemas["TemplateAnswer"];
+export type Measure = Schemas["MeasureAnswer"];
+export type Made = Schemas["MadeAnswer"];
+export type FileEntry = Schemas["FileEntry"];
+export type Imported = Schemas["ImportAnswer"];
+export type Problem = Schemas["Problem"];
+
+/** A message as data. Which numbers it has follows from its code, so each of its words says what it reads. */
+export type Says = { code: string; [name: string]: any };
