@@ -4,6 +4,9 @@ import json
 import math
 import sys
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +31,8 @@ from bench.reach import Effort, reach_of
 from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
 from bench.reach_truth import DenseReach
-from bench.report import Report
+from bench.report import Report, Row
+from bench.served import served
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
 from planner.robot.approaches import APPROACHES
@@ -285,17 +289,27 @@ def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path):
         assert 0.0 < run["show_ms"]["median"] <= run["server_ms"]["median"]
 
 
-def test_naming_a_garment_leaves_out_what_is_of_no_garment(tmp_path: Path):
+def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    asked: dict[str, Sequence[str]] = {}
+
+    def noted(name: str, articles: Sequence[str], repetitions: int) -> Report:
+        asked[name] = articles
+        return Report(name, name, ("article",), (Row((("vest",),), {}),), repetitions)
+
+    monkeypatch.setattr("bench.__main__.BENCHMARKS", {name: partial(noted, name) for name in BENCHMARKS})
     main(["--quick", "--only", "vest"], tmp_path, tmp_path)
-    made = {path.stem for path in tmp_path.iterdir()}
-    assert {"table-1", "re-plan", "first-plan"} <= made
-    assert not made & {"reach", "growth"}
+    assert {path.stem for path in tmp_path.iterdir()} == set(asked)
+    assert {"table-1", "re-plan", "first-plan"} <= set(asked)
+    assert not set(asked) & {"reach", "growth"}
+    assert all(articles == ["vest"] for articles in asked.values())
 
 
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
+    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0), ("PLAN_LIMIT_S", 1.0)):
         monkeypatch.setattr(f"bench.crowd.{name}", less)
-    report = crowd(["hand-towel"], 1)
+    with served() as server:
+        monkeypatch.setattr("bench.crowd.served", lambda: nullcontext(server))  # one for both: it starts for seconds
+        report = crowd(["hand-towel"], 1)
     assert "5 plans a second" in printed(report)
     alone, beside_plans = written(report, tmp_path)["rows"]
     assert alone["plans"] == 0 < beside_plans["plans"]

@@ -6,13 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
-from tests.plan.provoked import BACK, planned_with, refused
+from tests.laws.law import LONG
+from tests.plan.provoked import BACK, FRONT, planned_with, refused
 
 A_BIT_LESS = 0.95
 
@@ -48,7 +50,7 @@ def test_what_moving_the_cloth_does_not_mend_is_not_told_to_be_moved_and_frictio
     # dragged by 0.2 m, 0.1 m of it hang and 0.5 m lie.
     over, back = fold((0.3, 0.4), (0.0, 0.4)), fold((0.0, 0.6), (0.3, 0.6), "red")
     towel = garment(rectangle_points(0.3, 0.6), over, back, placement=Pose2(-0.7, 0.15, BACK))
-    smooth = Scene(friction=0.0)
+    smooth = Scene(friction=0.0, stations=FRONT)
     found = refused(towel, smooth).reasons
     slip = next(reason for reason in found if reason.code is Code.SLIPS)
     assert slip.needed_friction == pytest.approx(0.2)
@@ -78,13 +80,10 @@ def random_task(seed: int) -> tuple[Garment, Scene]:
     x_m, y_m = turned.to_outer(np.array([width / 2, length / 2]))
     placement = turned.moved(rng.uniform(-0.75, 0.75) - float(x_m), rng.uniform(-0.45, 0.45) - float(y_m))
     friction = rng.choice([0.0, 0.05, 0.2, 0.5, 1.0])
-    stations = (("front", Pose2(-0.95, 0.0, 0.0)),)
-    return garment(rectangle_points(width, length), line, placement=placement), Scene(
-        friction=friction, stations=stations
-    )
+    return garment(rectangle_points(width, length), line, placement=placement), Scene(friction=friction, stations=FRONT)
 
 
-@pytest.mark.parametrize("seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(8, 100))])
+@pytest.mark.parametrize("seed", range(100 if settings.get_current_profile_name() == LONG else 24))
 def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int):
     cloth, scene = random_task(seed)
     answer = make_plan(cloth, scene, time_limit_s=60.0)

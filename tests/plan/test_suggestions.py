@@ -23,9 +23,9 @@ from planner.plan.suggestion_trial import Asked, Search, Trial
 from planner.plan.suggestion_words import direction_words, moved_words
 from planner.plan.suggestions import Suggestions, suggestions
 from tests.builders import fold, garment, rectangle_points
-from tests.plan.provoked import planned_with
+from tests.plan.provoked import FRONT, planned_with
 
-FRONT_ONLY = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
+FRONT_ONLY = Scene(stations=FRONT)
 FAR = Pose2(0.4, 0.15, -math.pi / 2)
 
 
@@ -81,7 +81,7 @@ def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
     # The table is so high that neither end of the strip can be lifted as far as it is to its line.
     lines = fold((0.235, 0.0), (0.235, 0.1), name="left end"), fold((0.725, 0.1), (0.725, 0.0), name="right end")
     strip = garment(rectangle_points(0.96, 0.1), *lines, placement=Pose2(-0.6, 0.48, -math.pi / 2))
-    high = Scene(table=Table(height_m=1.35))
+    high = Scene(table=Table(height_m=1.35), stations=FRONT)
     known = make_plan(strip, high, time_limit_s=60.0)
     assert {reason.fold for reason in known.reasons} == {0, 1}
     wish = least_of(fold_lines(asked(strip, high), (0, 1)))
@@ -264,9 +264,10 @@ def is_complete(found: Suggestions) -> bool:
 
 
 def test_a_search_says_whether_it_has_tried_everything():
-    # A single fold, done from where it lies: only better placements are looked for, on a map soon gone through.
-    cloth = towel(Pose2(-0.6, 0.15, -math.pi / 2))
-    assert make_plan(cloth).is_solved
-    assert is_complete(suggestions(cloth, time_limit_s=60.0))
-    assert not is_complete(suggestions(cloth, time_limit_s=60.0, should_stop=lambda: True))
+    # A single fold, done from where it lies: only better placements are looked for, and the table leaves room for few.
+    cloth = towel(Pose2(-0.2, 0.15, -math.pi / 2))
+    small = Scene(table=Table(0.5, 0.5), stations=(("front", Pose2(-0.4, 0.0, 0.0)),))
+    assert make_plan(cloth, small).is_solved
+    assert is_complete(suggestions(cloth, small, time_limit_s=60.0))
+    assert not is_complete(suggestions(cloth, small, time_limit_s=60.0, should_stop=lambda: True))
     assert not is_complete(suggestions(towel(FAR), FRONT_ONLY, time_limit_s=0.01))
