@@ -1,7 +1,7 @@
 """What a plan consists of once it is real: runs in which cloth is held, and moves between them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner.plan.real_run import RealRun
 from planner.primitives.primitive import Step
@@ -24,6 +24,22 @@ class Act:
     def durations_s(self) -> tuple[float, ...]:
         """How long each of its primitives takes (s)."""
         return self.run.durations_s() if self.run is not None else tuple(step.duration_s for step in self.steps)
+
+
+def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
+    """Return acts as they are done one after the other: the hands come to each run from the one before it."""
+    before: RealRun | None = None
+    found = []
+    for act in acts:
+        run = None if act.run is None else act.run.following(before)
+        found.append(replace(act, run=run))
+        before = run or before
+    return tuple(found)
+
+
+def duration_s(acts: Sequence[Act]) -> float:
+    """Return how long acts take together (s)."""
+    return sum(sum(act.durations_s()) for act in acts)
 
 
 def runs_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:

@@ -84,12 +84,7 @@ class FilmMaker:
             self._track.open(arm, opens, opens + self._dwell_s)
         self._now = held + float(timing.times_s[-1])
         self._before = run
-        self._free = [self._still(run.late_s[1])] if run.late_s[1] > 0.0 else []
-
-    def _still(self, duration_s: float) -> Cue:
-        """So long after the last cue, with nothing that moves."""
-        last = self._cues[-1]
-        return Cue(last.primitive, last.phase, np.array([0.0, duration_s]), np.array([1.0, 1.0]))
+        self._free = []
 
     def _reach(self, run: RealRun) -> None:
         """Everything until a run's grips are reached."""

@@ -122,7 +122,7 @@ class FreeHands:
     def _waiting(self, free: FreeTime, tail: Line, lead: Line) -> tuple[FreeTime, Keyframes]:
         """The base waits until the hands are home; they set out again when it has arrived.
 
-        What it waits is taken from the reach, which lasts long enough for both: see `RealRun.late_s`.
+        What it waits is taken from the reach, which lasts long enough for both: see `ReachTime`.
         """
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import islice, zip_longest
 
 from planner.geometry.tolerance import TIME_S
-from planner.plan.act import Act
+from planner.plan.act import Act, duration_s
 from planner.plan.alone import Alone
 from planner.plan.budget import Budget
 from planner.plan.correction_sets import corrected
@@ -97,7 +97,7 @@ class PlanSearch:
             met = Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
             why = self._tried(met) if with_reasons else ()
             return self._answer(Outcome.INFEASIBLE, (), why, is_cut_short=False)
-        result, self._found = self._real_path(self._problem.start)
+        result, _ = self._real_path(self._problem.start)
         is_cut_short = result.outcome is Outcome.BUDGET_EXCEEDED and not self._blocking
         if not is_cut_short and not self._blocking and self._is_in_doubt:
             is_cut_short = self._is_cut_short_trying_more()
@@ -123,8 +123,7 @@ class PlanSearch:
         first, reached = self._realizer, set(self._reached)
         runs_max = MORE_RUNS_FOR_SOME_PLAN if math.isinf(self._limit_s) else MORE_RUNS_FOR_A_BETTER_PLAN
         self._realizer = Realizer(self._problem.maker, self._is_out_of_budget, THOROUGH, runs_max)
-        _, better = self._real_path(self._problem.start)
-        self._found = better or self._found
+        self._real_path(self._problem.start)
         self._realizer, self._reached = first, reached
         return self._is_out_of_budget()
 
@@ -154,22 +153,26 @@ class PlanSearch:
             result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
             self._note_bound(result)
-            if result.outcome is not Outcome.SOLVED:
-                return result, ()
+            if result.outcome is not Outcome.SOLVED or self._may_collide:
+                return result, self._found
             if result.cost >= self._limit_s:
-                return replace(result, outcome=Outcome.INFEASIBLE), ()
-            if self._may_collide:
-                return result, ()
+                return replace(result, outcome=Outcome.INFEASIBLE), self._found
             begun = time.perf_counter()
             try:
                 found = self._realizer.acts([edge.action for edge in result.path])
             except OutOfTimeError:
-                return replace(result, outcome=Outcome.BUDGET_EXCEEDED), ()
+                return replace(result, outcome=Outcome.BUDGET_EXCEEDED), self._found
             finally:
                 self._joint_time_s += time.perf_counter() - begun
-            if found is not None:
-                return result, found
+            self._keep(self._realizer.slower if found is None else found)
+            if found is not None or (self._is_trial and self._found):
+                return result, self._found
             self._reached.clear()
+
+    def _keep(self, acts: tuple[Act, ...]) -> None:
+        """Keep what can be done if it takes less than what is kept."""
+        if acts and (not self._found or duration_s(acts) < duration_s(self._found)):
+            self._found = acts
 
     def _bound(self, start: State) -> Heuristic:
         """The lower bound asked for; it knows of driving where there are too many orders of folds to search."""
@@ -195,7 +198,7 @@ class PlanSearch:
         """What takes as long is no quicker than what is known (s)."""
         known_s = [math.inf] if self._known is None else [self._known.cost_s or 0.0]
         if self._found:
-            known_s.append(sum(sum(act.durations_s()) for act in self._found))
+            known_s.append(duration_s(self._found))
         return min(known_s) - TIME_S
 
     def _reasons(self) -> tuple[Reason, ...]:
@@ -246,11 +249,12 @@ class PlanSearch:
 
     def _is_over(self) -> bool:
         self._budget.looks += 1
-        if self._budget.looks > LOOK_ALONE_AFTER and self._known is None and not self._is_looked_at_alone:
+        has_plan = self._known is not None or bool(self._found)
+        if self._budget.looks > LOOK_ALONE_AFTER and not has_plan and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = Alone(self._work, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]
-        if self._known is None and not self._blocking and self._budget.spent_s >= self._greedy_at_s:
+        if not has_plan and not self._blocking and self._budget.spent_s >= self._greedy_at_s:
             self._greedy_at_s = math.inf
             self._fall_back()
         return bool(self._blocking) or self._is_out_of_budget()

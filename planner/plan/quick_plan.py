@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from planner.plan.act import Act
+from planner.plan.act import Act, in_turn
 from planner.plan.adapted import adapted
 from planner.plan.effort import Effort
 from planner.plan.greedy import greedy
@@ -25,7 +25,7 @@ def quickly_planned(problem: Problem, like: Sequence[Plan], is_over: Callable[[]
     acts = _acts(problem, like, effort, is_over) if work.unrest(0, problem.start.offset) is None else ()
     statistics = effort.statistics(work.reach, arm_time(work)(problem.start))
     work.forget()
-    return Plan.of(problem, "solved", acts, (), statistics, is_exhaustive=False) if acts else None
+    return Plan.of(problem, "solved", in_turn(acts), (), statistics, is_exhaustive=False) if acts else None
 
 
 def _acts(problem: Problem, like: Sequence[Plan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
-from planner.plan.act import Act, runs_of
+from planner.plan.act import Act, duration_s, in_turn, runs_of
 from planner.plan.real_run import RealRun
 from planner.plan.run_maker import RunMaker, ways_of
 from planner.plan.tries import QUICK, Tries
@@ -36,6 +36,7 @@ class Realizer:
 
     Attributes:
         struck: the runs that could not be made real, each up to the step that could not.
+        slower: what the steps asked about last are, where they are real but take longer than they seemed to.
     """
 
     def __init__(
@@ -66,6 +67,7 @@ class Realizer:
         self._given_up: dict[tuple[object, ...], int] = {}
         self._doubted: set[tuple[object, ...]] = set()
         self.struck: list[tuple[Step, ...]] = []
+        self.slower: tuple[Act, ...] = ()
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
         """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
@@ -85,7 +87,7 @@ class Realizer:
                 yield from self._unless_struck(other.begun_in(state))
 
     def _unless_struck(self, step: Step) -> Iterator[tuple[Step, float]]:
-        cost_s = max(step.duration_s, self._least_s.get(_key(step), 0.0))
+        cost_s = self._known_s(step)
         if math.isfinite(cost_s):
             yield step, cost_s
 
@@ -101,21 +103,29 @@ class Realizer:
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
 
+        What takes longer can be done all the same: that is `slower` then.
+
         Raises:
             OutOfTimeError: there was no time to find out; what is known by then stays.
         """
-        found, is_as_it_seemed = [], True
+        self.slower = ()
+        found: list[Act] = []
+        runs: list[tuple[tuple[Step, ...], RealRun]] = []
         for first, run in runs_of(steps):
-            if not any(step.grips for step in run):
-                found.append(Act(first, run, None))
-                continue
-            made = self._real(run)
-            if made is None:
+            made = self._real(run) if any(step.grips for step in run) else None
+            found.append(Act(first, run if made is None else made.steps, made))
+            if made is not None:
+                runs.append((run, made))
+            elif any(step.grips for step in run):
+                self._all_agree(runs)
                 self._strike(run)
                 return None
-            found.append(Act(first, made.steps, made))
-            is_as_it_seemed &= self._agrees(run, made)
-        return tuple(found) if is_as_it_seemed else None
+        acts = in_turn(found)
+        seemed_s = sum(self._known_s(step) for step in steps)
+        if duration_s(acts) <= seemed_s + TIME_S or self._all_agree(runs):
+            return acts
+        self.slower = acts
+        return None
 
     def _real(self, run: tuple[Step, ...]) -> RealRun | None:
         key = tuple(_key(step) for step in run)
@@ -141,7 +151,7 @@ class Realizer:
             if made is not None:
                 others[_key(other)] = other
                 self._made[tuple(_key(step) for step in candidate.steps)] = made
-                self._least_s[_key(other)] = made.durations_s()[-1]
+                self._least_s[_key(other)] = made.durations_at_most_s()[-1]
             if len(others) == tries.enough:
                 break
         self._others[culprit.situation] = tuple(others.values())
@@ -160,13 +170,21 @@ class Realizer:
         if self._is_over() or self._maker.tries >= self._last_run:
             raise OutOfTimeError
 
+    def _known_s(self, step: Step) -> float:
+        """The least that a step is known to take (s)."""
+        return max(step.duration_s, self._least_s.get(_key(step), 0.0))
+
+    def _all_agree(self, runs: Sequence[tuple[tuple[Step, ...], RealRun]]) -> bool:
+        """Whether the steps of some runs take as long as was known; what they take is known now."""
+        agreed = [self._agrees(run, made) for run, made in runs]
+        return all(agreed)
+
     def _agrees(self, run: tuple[Step, ...], made: RealRun) -> bool:
-        """Whether the steps of a run take as long as was known; what they take is known now."""
         is_known = True
-        for step, duration_s in zip(run, made.durations_s(), strict=True):
-            known = max(step.duration_s, self._least_s.get(_key(step), 0.0))
-            is_known &= duration_s <= known + TIME_S
-            self._least_s[_key(step)] = max(duration_s, known)
+        for step, lasts_s in zip(run, made.durations_at_most_s(), strict=True):
+            known = self._known_s(step)
+            is_known &= lasts_s <= known + TIME_S
+            self._least_s[_key(step)] = max(lasts_s, known)
             self._real_steps.add(_key(step))
             self._succeeded.add(step.task)
             self._given_up.pop(step.task, None)

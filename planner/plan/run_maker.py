@@ -18,7 +18,7 @@ from planner.plan.lying_cloth import LyingCloth, LyingCloths
 from planner.plan.machine import Collisions, Machine
 from planner.plan.moments import Moments, moments_of
 from planner.plan.pacing import needed_s
-from planner.plan.real_run import RealRun, is_carrying
+from planner.plan.real_run import ReachTime, RealRun, is_carrying
 from planner.plan.run_timing import RunTiming
 from planner.plan.snags import Snags
 from planner.plan.transits import Transits
@@ -129,7 +129,7 @@ class RunMaker:
             late += [] if run is None else [run]
             if len(late) == tries.late or number - len(late) >= most:
                 break
-        return min(late, key=lambda run: sum(run.durations_s()), default=None)
+        return min(late, key=lambda run: sum(run.durations_at_most_s()), default=None)
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
         """The choices of steps that may be real.
@@ -172,10 +172,10 @@ class RunMaker:
             return None
         least, first, last = needed_s(carried.joints, self._speeds), carried.first, carried.last
         timing = RunTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
-        late = self._late(candidate.steps, carried, timing.borrowed_s)
-        if late is None:
+        reach = self._reach(candidate.steps, carried, timing.borrowed_s)
+        if reach is None:
             return None
-        return RealRun(candidate.steps, carried, timing, least[:first], least[last:], late)
+        return RealRun(candidate.steps, carried, timing, least[:first], least[last:], reach)
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._work.scene.table.height_m)
@@ -185,34 +185,35 @@ class RunMaker:
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._snags.of(self._moments(phases))
 
-    def _late(self, steps: Sequence[Step], carried: Carried, borrowed_s: float) -> tuple[float, float] | None:
-        """How much the ways from home and back home exceed their shares of a reach's time (s); None without a way.
+    def _reach(self, steps: Sequence[Step], carried: Carried, borrowed_s: float) -> ReachTime | None:
+        """The time that hands need to come from home and to go there; None without a way.
 
-        What is left when fingers have closed is shared evenly between going home from the run before and coming. Where
-        nothing has been done before, hands wait at home, and after the last fold they need not go there.
+        What is left when fingers have closed is shared evenly between going home from the run before and coming, as
+        long as that run is not known. Where nothing has been done before, hands wait at home, and after the last fold
+        they need not go there.
         """
         home, motion_s = self.transits.home, self._work.scene.arm_motion_s
         lead, tail = carried.joints[: carried.first + 1], carried.joints[carried.last :]
-        leaving_s = _HALF * max(motion_s - self.dwell_s, 0.0)
+        share_s = _HALF * max(motion_s - self.dwell_s, 0.0)
+        room_s = motion_s - self.dwell_s - borrowed_s
         is_first = steps[0].before.done == 0 and grid_key(max(map(abs, steps[0].before.offset))) == 0
-        coming_s = motion_s - self.dwell_s - borrowed_s - (0.0 if is_first else leaving_s)
-        came = self._exceeding(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0], coming_s)
-        if came is None:
+        is_last = steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1
+        came_s = self._needed_s(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0])
+        left_s: float | None = 0.0
+        if came_s is not None and not is_last:
+            left_s = self._needed_s(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1])
+        if came_s is None or left_s is None:
             return None
-        if steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1:
-            return came, 0.0
-        left = self._exceeding(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1], leaving_s)
-        return None if left is None else (came, left)
+        return ReachTime(came_s, left_s, room_s, share_s, 0.0 if is_first else share_s)
 
-    def _exceeding(
-        self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth, share_s: float
+    def _needed_s(
+        self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth
     ) -> float | None:
-        """How much longer than its share it takes to go along a way and the lines it leads from or to (s)."""
+        """How long it takes at least to go along a way and the lines it leads from or to (s); None without a way."""
         way = self.transits.way(Pose2.of(base), *ends, cloth, self.transits.spared(*lines))
         if way is None:
             return None
-        needed = sum(float(self.transits.needed_s(one).sum()) for one in (way, *lines) if one is not None)
-        return max(0.0, needed - share_s)
+        return sum(float(self.transits.needed_s(one).sum()) for one in (way, *lines) if one is not None)
 
 
 def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:

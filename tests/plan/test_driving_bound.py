@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from bench.growth_cases import tabs_on_two_sides
+from planner import make_plan
 from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment
 from planner.folds.fold_sequence import FoldSequence
@@ -69,6 +70,14 @@ def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search():
     front = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),), back_off_max_m=0.0)
     work = work_of(far, front)
     assert DrivingBound(work, START)(START) == 8 * 9.0
+
+
+def test_forty_loose_folds_on_two_sides_are_proven_joint_paths_and_all():
+    # Hands that drag have a second less for coming than hands that fold; those that fold before leave sooner.
+    plan = make_plan(tabs_on_two_sides(40), time_limit_s=60.0)
+    assert plan.cost_s == pytest.approx(40 * 9.0 + 6.0)
+    assert plan.is_proven
+    assert plan.statistics.expanded < 60
 
 
 def test_of_tabs_near_and_far_a_drag_only_holds_near_ones():
