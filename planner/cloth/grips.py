@@ -6,8 +6,8 @@ covers the best is the one whose largest distance from a vertex to its grip is s
 largest, and so on; covers that tie are all kept, or a mirrored garment would plan differently.
 
 To rank all pairs of candidates is hopeless for a round cloth, which has thousands. But the first rank decides nearly
-everything, and it can be had without the others: the smallest radius with which some pair covers all. It is found by
-bisection, and only the pairs that do with it are ranked.
+everything, and it can be had without the others: the smallest radius with which some pair covers all. Only the pairs
+that do with it are ranked.
 """
 
 from dataclasses import dataclass
@@ -25,6 +25,9 @@ from planner.geometry.tolerance import LENGTH_M, grid_key
 
 _RANKED_AT_ONCE = 64
 """The pairs of so many candidates are ranked as they are."""
+
+_WORD = 64
+"""Bits of a word."""
 
 Cover = tuple[Point2, ...]
 IntArray: TypeAlias = NDArray[np.int64]
@@ -89,11 +92,12 @@ def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, a
 
 def _needs_more(vertices: FloatArray, radius_m: float, at_most: int) -> bool:
     """Whether more than `at_most` vertices lie so far apart that no grip holds two of them (greedy)."""
-    apart: list[FloatArray] = []
-    for vertex in vertices:
-        if all(np.hypot(*(vertex - other)) > 2 * (radius_m + LENGTH_M) for other in apart):
-            apart.append(vertex)
-    return len(apart) > at_most
+    left = vertices
+    for _ in range(at_most):
+        if not len(left):
+            return False
+        left = left[np.hypot(*(left - left[0]).T) > 2 * (radius_m + LENGTH_M)]
+    return len(left) > 0
 
 
 def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArray:
@@ -116,35 +120,42 @@ def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArr
 
 
 def _least_radius(distances: FloatArray, radius_m: float) -> float:
-    """The smallest radius with which a pair of candidates holds every vertex; -1 if the given one does not suffice."""
-    levels = np.unique(distances[distances <= radius_m])
-    low, high = -1, len(levels) - 1
-    if high < 0 or not _is_covered(distances <= levels[high]):
-        return -1.0
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if _is_covered(distances <= levels[middle]) else (middle, high)
-    return float(levels[high])
+    """The smallest radius with which a pair of candidates holds every vertex; -1 if the given one does not suffice.
 
-
-def _is_covered(holds: BoolArray) -> bool:
-    """Whether two candidates hold every vertex between them."""
-    kinds = np.unique(holds, axis=0)
-    return bool((_misses(kinds[kinds[:, 0]], kinds) == 0.0).any())
+    One of the pair holds the vertex that fewest can hold. Each of those is asked only for partners that do better than
+    the best pair so far, and there are soon hardly any.
+    """
+    is_held = distances <= radius_m
+    hardest = is_held.sum(axis=0).argmin()
+    least_m, lacks = np.inf, _lacking(is_held)
+    for one in np.flatnonzero(is_held[:, hardest]):
+        partners = _partners(lacks, one)
+        if len(partners):
+            least_m = float(np.minimum(distances[one], distances[partners]).max(axis=1).min())
+            lacks = _lacking(distances < least_m)
+    return least_m if np.isfinite(least_m) else -1.0
 
 
 def _covering_pairs(holds: BoolArray) -> IntArray:
     """All pairs of candidates that between them hold every vertex, shape (n, 2); the first holds vertex 0."""
-    pairs = [np.empty((0, 2), dtype=np.int64)]
+    pairs, lacks = [np.empty((0, 2), dtype=np.int64)], _lacking(holds)
     for one in np.flatnonzero(holds[:, 0]):
-        partners = np.flatnonzero(holds[:, ~holds[one]].all(axis=1))
+        partners = _partners(lacks, one)
         pairs.append(np.column_stack([np.full(len(partners), one), partners]))
     return np.vstack(pairs)
 
 
-def _misses(ones: BoolArray, others: BoolArray) -> FloatArray:
-    """How many vertices each of some candidates and each of others miss together, shape (n, m)."""
-    return np.asarray((~ones).astype(np.float64) @ (~others).astype(np.float64).T)
+def _lacking(holds: BoolArray) -> NDArray[np.uint64]:
+    """The vertices that each candidate does not hold, as bits, shape (m, words)."""
+    count, vertices = holds.shape
+    padded = np.zeros((count, -(-vertices // _WORD) * _WORD), dtype=bool)
+    padded[:, :vertices] = ~holds
+    return np.packbits(padded, axis=1).view(np.uint64)
+
+
+def _partners(lacks: NDArray[np.uint64], one: np.int64) -> IntArray:
+    """The candidates that hold all that a given one lacks."""
+    return np.flatnonzero(~(lacks & lacks[one]).any(axis=1))
 
 
 def _is_first(ranks: FloatArray) -> BoolArray:

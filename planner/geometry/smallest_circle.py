@@ -1,7 +1,5 @@
 """Centres of the smallest circles round pairs and triples of points."""
 
-from itertools import combinations
-
 import numpy as np
 
 from planner.geometry.pose import FloatArray
@@ -19,7 +17,8 @@ def triple_centres(points: FloatArray) -> FloatArray:
 
     For an acute triangle it is the circumcentre; otherwise the middle of the longest side.
     """
-    triples = np.array(list(combinations(range(len(points)), 3)), dtype=np.int64).reshape(-1, 3)
+    one = np.arange(len(points))
+    triples = np.argwhere((one[:, None, None] < one[:, None]) & (one[:, None] < one))
     corners = points[triples]
     sides = np.stack([corners[:, (i + 1) % 3] - corners[:, (i + 2) % 3] for i in range(3)], axis=1)
     squares = (sides**2).sum(axis=2)

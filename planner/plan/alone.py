@@ -61,11 +61,12 @@ class Alone:
     def __init__(self, work: Work, station: int, should_stop: Callable[[], bool]) -> None:
         """Once it should stop, every fold may be possible."""
         self._should_stop = should_stop
+        self._is_stopped = False
         self._work = work
         self._station = station
         self._offsets = drag_offsets(work)
         self._places = self._offsets
-        self._cases = Cases(work, station, self._offsets)
+        self._cases = Cases(work, station, self._offsets, self._has_to_stop)
         self._answers: dict[_Asked, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
@@ -86,11 +87,14 @@ class Alone:
             self._note_lines_off(fold, sets)
             work.obstacles.put_back(before)
             return True
-        if any(self._is_possible_after(done, fold) for done in sets):
-            work.obstacles.put_back(before)
-            return False
+        is_impossible = not any(self._is_possible_after(done, fold) for done in sets) and not self._is_stopped
         work.obstacles.put_back(before)
-        return True
+        return is_impossible
+
+    def _has_to_stop(self) -> bool:
+        """Whether there is no more time; then what was not looked at may be possible."""
+        self._is_stopped = self._is_stopped or self._should_stop()
+        return self._is_stopped
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
         return any(
@@ -126,12 +130,12 @@ class Alone:
                 work.obstacles.note(obstacle)
 
     def _is_possible(self, case: Case, fold: int, station: int) -> bool:
-        if self._should_stop():
-            return True
         anywhere = case.state(station, np.zeros(2))
         for trial in fold_trials(self._work, anywhere, fold):
             stages = self._stages(case, trial, station)
             for index in np.flatnonzero(stages == len(_EXTREMES)):
+                if self._has_to_stop():
+                    return True
                 state = case.state(station, self._places[index])
                 here = (t for t in fold_trials(self._work, state, fold) if t.is_like(trial))
                 if any(self._can_follow(state, fold, same) for same in here):
@@ -147,6 +151,8 @@ class Alone:
         left = np.arange(len(self._places))
         for sweep, points in zip(_EXTREMES, unrolled, strict=True):
             for grip, arm in enumerate(trial.arms):
+                if self._has_to_stop():
+                    return stages
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
                 asked = _Asked(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
                 found = self._found(asked, trial, points[grip], trial.approaches[grip][rows], left)
@@ -192,6 +198,8 @@ class Alone:
         lowest, highest = int(steps.min()), int(steps.max()) + work.back_offs
         found = np.zeros((len(approaches), len(first)), dtype=bool)
         for start in range(lowest, highest, _BITS):
+            if self._has_to_stop():
+                break
             lines = phases[first] + np.array([start * BACK_OFF_STEP_M, 0.0, 0.0])
             count = min(_BITS, highest - start)
             found |= work.reach.from_anywhere(arm, lines, approaches, count, BACK_OFF_STEP_M)

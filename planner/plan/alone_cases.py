@@ -1,6 +1,6 @@
 """With what in the hands a fold may be begun, wherever drags have carried the article."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import permutations
 
@@ -38,11 +38,12 @@ class Case:
 class Cases:
     """Finds the cases of one planning problem."""
 
-    def __init__(self, work: Work, station: int, offsets: FloatArray) -> None:
-        """Begun at a station, drags can carry the article by such offsets, shape (n, 2), m."""
+    def __init__(self, work: Work, station: int, offsets: FloatArray, should_stop: Callable[[], bool]) -> None:
+        """Begun at a station, drags can carry the article by such offsets, shape (n, 2), m; it may be told to stop."""
         self._work = work
         self._station = station
         self._offsets = offsets
+        self._should_stop = should_stop
 
     def of(self, done: int, fold: int) -> Iterator[Case]:
         """Free hands, then whatever a drag that starts anywhere may leave held."""
@@ -70,6 +71,8 @@ class Cases:
         silhouette = work.sequence.cloth(done).silhouette
         is_whole_seen = False
         for offset in ((float(x), float(y)) for x, y in self._offsets):
+            if self._should_stop():
+                return
             is_whole = work.table_in_article(offset).contains(silhouette)
             if (is_whole and is_whole_seen) or not (is_whole or self._is_near(fold, offset)):
                 continue

@@ -72,4 +72,9 @@ class Budget:
         """Whether there is nothing left, or somebody wants no more."""
         if math.isfinite(self.work_limit_s) and self.spent_s > self.work_limit_s:
             return True
+        return self.is_late
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the time is up, whatever work is left, or somebody wants no more."""
         return time.perf_counter() > self.deadline_s or self.should_stop()

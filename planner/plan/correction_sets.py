@@ -87,6 +87,12 @@ class _Asked:
         self._left -= 1
         return self._ask(relaxed, folds)
 
+    def measured(self, trial: Trial) -> tuple[Reason, ...]:
+        """What stood in the way of a trial."""
+        if self._is_enough():
+            raise _SpentError
+        return trial.measured()
+
 
 def _applied(way: Way, base: Relaxed, amount: float) -> Relaxed | None:
     """A problem with a cause removed; None where no such problem can be put."""
@@ -198,7 +204,7 @@ class _Corrections:
         for amount in way.amounts or (0.0,):
             tried = self._asked(way, self._base, amount, self._folds)
             if tried is not None and tried[1].has_collided:
-                touching = [r for r in tried[1].measured() if r.code is Code.COLLISION]
+                touching = [r for r in self._asked.measured(tried[1]) if r.code is Code.COLLISION]
                 through = self._base.with_collisions_ignored()
                 found = self._least(way, through) if touching else None
                 if found is not None:
@@ -264,7 +270,7 @@ class _Corrections:
             onwards.append((chosen, *found))
         if len(members) + 1 < _MEMBERS_MAX:
             for chosen, changed, trial in onwards:
-                measured = trial.measured()
+                measured = self._asked.measured(trial)
                 mine = tuple(r for r in measured if r.fold in (self._fold, None)) or measured
                 further = list(candidates(trial.work, mine, mine[0].fold if mine else self._fold))
                 found_set = self._extended(changed, chosen, further)
@@ -297,7 +303,7 @@ class _Corrections:
         """What is out of reach once all others are removed, and the least shift that is enough, else long arms."""
         base = self._with(others)
         trial = self._asked.trial(base, self._folds)
-        far = [r for r in trial.measured() if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
+        far = [r for r in self._asked.measured(trial) if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
         for candidate in candidates(trial.work, tuple(far), self._fold):
             if candidate.ways[-1].kind == "arms":
                 for way in candidate.ways[:-1]:

@@ -220,10 +220,12 @@ class PlanSearch:
         return found
 
     def _have_tried_enough(self) -> bool:
-        return self._tried_s > REASONS_WORK_S or time.perf_counter() > self._budget.deadline_s
+        return self._tried_s > REASONS_WORK_S or self._budget.is_late
 
     def _measured(self) -> tuple[Reason, ...]:
-        for run in self._some_struck():
+        for number, run in enumerate(self._some_struck()):
+            if number and self._budget.is_late:
+                break
             note_collision(self._work, run[-1], self._problem.maker.snag(run))
         return reasons(self._work, {situation(state) for state in self._reached}, self._blocking)
 

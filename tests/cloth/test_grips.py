@@ -6,6 +6,7 @@ import random
 import numpy as np
 import pytest
 
+from planner.cloth import grips
 from planner.cloth.grips import best_covers, grip_covers
 from planner.cloth.must_hold import must_hold
 from planner.geometry.pose import FloatArray, Point2
@@ -109,3 +110,15 @@ def test_every_vertex_is_within_the_radius_of_a_grip():
         for cover in grip_covers(piece, vertices, 0.2, 2).covers:
             assert rank(cover, vertices)[0] <= 0.2 + 1e-5
             assert all(piece.boundary_distance(grip) < 1e-9 for grip in cover)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_of_many_candidates_the_best_pairs_are_those_that_ranking_all_of_them_finds(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+):
+    rng = np.random.default_rng(seed)
+    candidates = np.round(rng.uniform(0.0, 0.5, (100, 2)), rng.integers(1, 4))
+    vertices = np.round(rng.uniform(0.0, 0.3, (rng.integers(1, 90), 2)), 2)
+    pruned = best_covers(candidates, vertices, 0.2, 2)
+    monkeypatch.setattr(grips, "_RANKED_AT_ONCE", len(candidates))
+    assert pruned == best_covers(candidates, vertices, 0.2, 2)

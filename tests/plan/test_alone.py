@@ -1,10 +1,14 @@
 """The relaxation must never deny what can be done, and should see at once what cannot."""
 
+import math
+from itertools import count
+
 import pytest
 
 from planner import Scene, load_garment, make_plan, shipped_garment_names
 from planner.plan import plan_search as planning
-from planner.plan.alone import drag_offsets
+from planner.plan.alone import Alone, drag_offsets
+from planner.plan.problem import Problem
 from planner.task.reason import Code
 
 HALVED = ("scarf-halved", "tie-halved")
@@ -40,6 +44,21 @@ def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
     assert len(first.point) == 3
     assert f"{first.short_by_m:.2f} m" in first.message
     assert (others[0].fold, others[0].code) == (1, Code.WAITS_FOR_FOLD)
+
+
+@pytest.mark.parametrize("name", HALVED)
+def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
+    def looked_at(stop_after: float) -> tuple[bool, int]:
+        """Whether the first fold is impossible, and how often it was asked whether to stop."""
+        problem, asked = Problem.of(load_garment(name), Scene(), None, "front", "pr2", 0.03), count(1)
+        alone = Alone(problem.work, problem.start.station, lambda: next(asked) > stop_after)
+        return alone.is_impossible(0), next(asked) - 1
+
+    is_impossible, times = looked_at(math.inf)
+    assert is_impossible
+    assert times > 100
+    for stop_after in (0, times // 2, times - 1):
+        assert looked_at(stop_after) == (False, stop_after + 1)
 
 
 def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
