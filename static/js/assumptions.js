@@ -7,19 +7,22 @@ import { button, element } from "./dom.js";
 import { length } from "./messages/lengths.js";
 import { present } from "./present.js";
 
+/** @import { Drawing, Fold } from "pleat" */
+
 /** What is usual (see planner.primitives.scene, planner.plan.make_plan). */
 export const USUAL = { friction: 1, comfort_m: 0.03 };
 
 const SAME = 1e-9;
 
-/** @typedef {{kind: string, text: string, off: (drawing: any) => void}} Assumption */
+/** @typedef {{kind: string, text: string, off: (drawing: Drawing) => void}} Assumption */
 
-/** @param {any} drawing @returns {Assumption[]} */
+/** @param {Drawing} drawing @returns {Assumption[]} */
 export function assumptions(drawing) {
   const { scene, comfort_radius_m: comfort, folds } = drawing;
   const wide = folds.filter((fold) => isWide(drawing, fold));
-  const widest = Math.max(...wide.map((fold) => fold.grip_radius_m));
-  return present([
+  const widest = Math.max(...wide.map((fold) => fold.grip_radius_m ?? 0));
+  /** @type {(Assumption|false)[]} */
+  const all = [
     wide.length > 0 && {
       kind: "grip_radius",
       text: `grip ${length(widest)}`,
@@ -35,14 +38,19 @@ export function assumptions(drawing) {
       text: `comfort ${length(comfort)}`,
       off: (changed) => void (changed.comfort_radius_m = USUAL.comfort_m),
     },
-  ]);
+  ];
+  return present(all);
 }
 
-/** Whether a grip at a fold is taken to hold more than the garment's own. */
+/**
+ * Whether a grip at a fold is taken to hold more than the garment's own.
+ * @param {Drawing} drawing
+ * @param {Fold} fold
+ */
 export const isWide = (drawing, fold) =>
   fold.grip_radius_m !== null && fold.grip_radius_m > drawing.grip_radius_m + SAME;
 
-/** Have grips at a fold hold what they usually do. */
+/** Have grips at a fold hold what they usually do. @param {Fold} fold */
 export const narrow = (fold) => void (fold.grip_radius_m = null);
 
 /** A mark of an assumption, pressed to take it off. @param {string} text @param {() => void} onClick */

@@ -9,10 +9,39 @@
 import { sayable } from "./dom.js";
 import { inWords } from "./messages/in_words.js";
 
+/** @import { DocumentState, Drawing, Fold, Garment, Problem } from "pleat" */
+
 const TRIES = 3;
 const RETRY_MS = 1000;
 const OFFLINE = "The server cannot be reached; nothing was changed.";
 const KEPT = "The server cannot be reached. Your change is kept and sent when it is back.";
+
+/** @typedef {(drawing: Drawing) => Drawing|void} Change alters the drawing it is given, or returns another one */
+/** @typedef {{ok: boolean, status: number, told: any}} Answer */
+/** @typedef {{drawing: Drawing, version: number}} Base what a change is made to */
+/**
+ * A change of the drawing, as it is asked for. Work that is none has the phase "none".
+ * @typedef {object} Wanted
+ * @property {string} label the name of the step
+ * @property {Change|null} change
+ * @property {"preview"|"commit"|"cancel"|"none"} phase
+ * @property {string|null} coalesce
+ * @property {string|null} gesture
+ */
+/** @typedef {(job: Job) => Promise<DocumentState|null>} Run */
+/**
+ * Work that waits for its turn.
+ * @typedef {object} Waiting
+ * @property {Run} run
+ * @property {boolean} isRepeated whether it has been sent before, perhaps in vain
+ * @property {string|null} after the step that undo would have taken when it was sent
+ * @property {Promise<DocumentState|null>} promise
+ * @property {(state: DocumentState|null) => void} resolve
+ */
+/** @typedef {Wanted & Waiting} Job */
+
+/** @type {Wanted} */
+const NO_CHANGE = { label: "", change: null, phase: "none", coalesce: null, gesture: null };
 
 class UnreachableError extends Error {}
 
@@ -20,32 +49,36 @@ export class EditQueue {
   /** @param {import("./store.js").Store} store */
   constructor(store) {
     this.store = store;
-    /** @type {any[]} */
+    /** @type {Job[]} */
     this.waiting = [];
     this.isBusy = false;
-    /** The gesture going on: its key, the drawing before it, and the version that its last answer had. */
-    /** @type {{key: string, drawing: any, version: number}|null} */
+    /** @type {(Base & {key: string})|null} the gesture going on, the drawing before it, its last answer's version */
     this.gesture = null;
     /** Whether changes wait for a server. */
     this.isHeld = false;
     store.addEventListener("connection", () => this.resume());
   }
 
-  /** @param {any} wanted see Store.edit */
+  /** @param {Wanted} wanted see Store.edit */
   edit(wanted) {
     this.drop((other) => other.phase === "preview" && wanted.gesture && other.gesture === wanted.gesture);
     const last = this.waiting.at(-1);
     const isWaiting = last && !(this.isBusy && last === this.waiting[0]);
     if (isWaiting && wanted.coalesce && last.coalesce === wanted.coalesce) return this.joined(last, wanted.change);
-    return this.push({ ...wanted, run: (job) => this.put(job) });
+    return this.push((job) => this.put(job), wanted);
   }
 
-  /** A change that goes along with one of the same run that has not been sent yet. */
+  /**
+   * A change that goes along with one of the same run that has not been sent yet.
+   * @param {Job} job
+   * @param {Change|null} change
+   * @returns {Promise<DocumentState|null>}
+   */
   joined(job, change) {
     const first = job.change;
     job.change = (drawing) => {
-      const between = first(drawing) ?? drawing;
-      return change(between) ?? between;
+      const between = first?.(drawing) ?? drawing;
+      return change?.(between) ?? between;
     };
     return job.promise;
   }
@@ -53,16 +86,15 @@ export class EditQueue {
   /** @param {string} gesture */
   cancel(gesture) {
     this.drop((other) => other.gesture === gesture);
-    return this.push({ phase: "cancel", label: "Cancel", gesture, run: (job) => this.put(job) });
+    return this.push((job) => this.put(job), { ...NO_CHANGE, phase: "cancel", label: "Cancel", gesture });
   }
 
   /** @param {"undo"|"redo"} verb */
   post(verb) {
-    const run = () => this.send("POST", `/${verb}`, undefined);
-    return this.push({ run: async () => this.taken(await run()) });
+    return this.push(async () => this.taken(await this.send("POST", `/${verb}`)));
   }
 
-  /** @param {string|object} garment @param {string|null} label */
+  /** @param {string|Garment} garment @param {string|null} label */
   open(garment, label) {
     const run = async () => {
       const before = this.store.state?.drawing;
@@ -72,10 +104,10 @@ export class EditQueue {
       this.store.dispatchEvent(new CustomEvent("opened", { detail: before }));
       return state;
     };
-    return this.push({ run });
+    return this.push(run);
   }
 
-  /** @param {(job: any) => unknown} isUnwanted */
+  /** @param {(job: Job) => unknown} isUnwanted */
   drop(isUnwanted) {
     const [first] = this.isBusy ? this.waiting : []; // on its way
     const dropped = this.waiting.filter((job) => job !== first && isUnwanted(job));
@@ -83,12 +115,19 @@ export class EditQueue {
     this.waiting = this.waiting.filter((job) => !dropped.includes(job));
   }
 
-  push(job) {
-    const waiting = { ...job };
-    waiting.promise = new Promise((resolve) => (waiting.resolve = resolve));
-    this.waiting.push(waiting);
+  /**
+   * @param {Run} run
+   * @param {Wanted} wanted
+   * @returns {Promise<DocumentState|null>} the state after it; null for none
+   */
+  push(run, wanted = NO_CHANGE) {
+    /** @type {Waiting["resolve"]} */
+    let resolve = () => {};
+    /** @type {Waiting["promise"]} */
+    const promise = new Promise((settle) => (resolve = settle));
+    this.waiting.push({ ...wanted, run, isRepeated: false, after: null, promise, resolve });
     this.work();
-    return waiting.promise;
+    return promise;
   }
 
   async work() {
@@ -98,7 +137,7 @@ export class EditQueue {
     this.isBusy = false;
   }
 
-  /** One job, whatever may happen to it; one that is kept stays the first of those that wait. */
+  /** One job, whatever may happen to it; one that is kept stays the first of those that wait. @param {Job} job */
   async done(job) {
     let state = null;
     try {
@@ -112,7 +151,7 @@ export class EditQueue {
     job.resolve(state);
   }
 
-  /** Keep a change, and what comes after it, until the server is back. */
+  /** Keep a change, and what comes after it, until the server is back. @param {Job} job */
   hold(job) {
     if (!job.isRepeated) this.store.refuse(KEPT);
     job.isRepeated = true;
@@ -129,19 +168,26 @@ export class EditQueue {
     this.work();
   }
 
-  /** Send a change of the drawing, again if it came too late. */
+  /**
+   * Send a change of the drawing, again if it came too late.
+   * @param {Job} job
+   * @returns {Promise<DocumentState|null>}
+   */
   async put(job) {
     if (!this.store.state) return null;
     if (job.isRepeated && this.wasMade(job)) return this.store.state;
     job.after = this.store.state.history.can_undo;
     const isPartOfGesture = job.gesture !== null && job.gesture === this.gesture?.key;
     if (job.phase === "cancel" && !isPartOfGesture) return this.store.state;
-    let base = isPartOfGesture ? this.gesture : this.store.state;
+    /** @type {Base} */
+    let base = (isPartOfGesture && this.gesture) || this.store.state;
     for (let tries = 0; tries < TRIES; tries += 1) {
       const answer = await this.send("PUT", "/drawing", body(job, base));
       if (answer.status !== 409) return this.settled(job, base, answer);
-      base = answer.told.state;
-      this.store.take(base);
+      /** @type {DocumentState} */
+      const newer = answer.told.state;
+      this.store.take(newer);
+      base = newer;
       if (job.phase === "cancel") return this.forgotten();
     }
     throw new Error("The drawing is being changed elsewhere; this change was not made.");
@@ -150,16 +196,19 @@ export class EditQueue {
   /**
    * Whether a change that is to be sent again has been made before, only its answer was lost. A gesture says where things
    * shall be: to make it again does no harm.
+   * @param {Job} job
    */
   wasMade(job) {
-    const last = this.store.state.history.can_undo;
+    const last = this.store.state?.history.can_undo ?? null;
     return job.gesture === null && last === job.label && job.after !== last;
   }
 
+  /** @param {Job} job @param {Base} base @param {Answer} answer */
   settled(job, base, answer) {
     const state = this.taken(answer);
-    const goesOn = job.phase === "preview" && job.gesture !== null;
-    this.gesture = goesOn ? { key: job.gesture, drawing: base.drawing, version: state.version } : null;
+    const goesOn = job.phase === "preview";
+    this.gesture =
+      goesOn && job.gesture !== null ? { key: job.gesture, drawing: base.drawing, version: state.version } : null;
     return state;
   }
 
@@ -169,13 +218,15 @@ export class EditQueue {
     return this.store.state;
   }
 
+  /** @param {Pick<Answer, "ok"|"told">} answer @returns {DocumentState} */
   taken({ ok, told }) {
     if (!ok) throw new Error(sentence(told, this.store.state?.drawing.folds ?? []));
     this.store.take(told);
     return told;
   }
 
-  async send(method, path, sent) {
+  /** @param {string} method @param {string} path @param {unknown} sent @returns {Promise<Answer>} */
+  async send(method, path, sent = undefined) {
     const body = sent === undefined ? undefined : JSON.stringify(sent);
     const headers = { "content-type": "application/json" };
     try {
@@ -187,13 +238,15 @@ export class EditQueue {
   }
 }
 
-function body({ label, change, phase, coalesce = null, gesture }, base) {
+/** @param {Job} job @param {Base} base */
+function body({ label, change, phase, coalesce, gesture }, base) {
   const common = { base_version: base.version, label, phase, coalesce, gesture };
-  if (phase === "cancel") return common;
+  if (!change) return common;
   const copy = structuredClone(base.drawing);
   return { ...common, drawing: change(copy) ?? copy };
 }
 
+/** @param {Problem} problem @param {Fold[]} folds */
 function sentence(problem, folds) {
   const first = problem.errors?.[0];
   if (first?.says) return `${inWords(first, folds)}.`;

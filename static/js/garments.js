@@ -7,7 +7,7 @@ import { goTo, goToNew } from "./dialogs/documents.js";
 import { sentenceOf } from "./dialogs/dialog.js";
 import { byId, element } from "./dom.js";
 
-/** @typedef {{id: string, title: string, name: string, changed_at: string, problem: string|null}} Entry */
+/** @import { DocumentEntry as Entry, GarmentEntry } from "pleat" */
 
 const DOCUMENTS = "../api/documents?limit=500";
 const DOCUMENT = "document:";
@@ -18,7 +18,7 @@ export function mountGarments(store) {
   const select = /** @type {HTMLSelectElement} */ (byId("garment"));
   /** @type {Entry[]} */
   let documents = [];
-  /** @type {{name: string, title: string}[]} */
+  /** @type {GarmentEntry[]} */
   let garments = [];
   let shown = "";
 
@@ -63,7 +63,11 @@ function group(label, options) {
   return made;
 }
 
-/** A document's title; when it was changed, too, where several have it. @param {Entry} entry @param {Map<string, number>} counts */
+/**
+ * A document's title; when it was changed, too, where several have it.
+ * @param {Entry} entry
+ * @param {Map<string, number>} counts
+ */
 function called(entry, counts) {
   const shown = nameOf(entry);
   const isAlone = (counts.get(shown) ?? 0) < 2;
@@ -83,10 +87,18 @@ function when(moment) {
     : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
 }
 
-/** What the server lists, page by page to the end, or what it listed before. */
+/**
+ * What the server lists, page by page to the end, or what it listed before.
+ * @template T
+ * @param {string} address
+ * @param {T[]} before
+ * @returns {Promise<T[]>}
+ */
 async function listed(address, before) {
+  /** @type {T[]} */
   const found = [];
-  for (let page = address; page; ) {
+  for (let page = /** @type {string|null} */ (address); page; ) {
+    /** @type {Response|null} */
     const answer = await fetch(page).catch(() => null);
     if (!answer?.ok) return before;
     found.push(...(await answer.json()));
@@ -101,7 +113,11 @@ function following(answer) {
   return next && new URL(next[1], answer.url).href;
 }
 
-/** A new document of a garment, and the page on it. */
+/**
+ * A new document of a garment, and the page on it.
+ * @param {import("./store.js").Store} store
+ * @param {string} garment its name
+ */
 async function make(store, garment) {
   const answer = await goToNew({ garment }).catch(() => null);
   if (!answer) store.refuse("The server cannot be reached; nothing was opened.");

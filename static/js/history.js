@@ -15,7 +15,7 @@ export function mountHistory(store, verbs) {
   undo.addEventListener("click", verbs.undo);
   redo.addEventListener("click", verbs.redo);
   const show = () => {
-    const { can_undo: step, can_redo: again } = store.state.history;
+    const { can_undo: step = null, can_redo: again = null } = store.state?.history ?? {};
     const back = store.begun || step;
     undo.disabled = !back;
     redo.disabled = again === null;

@@ -25,7 +25,7 @@ export function keyHandler(verbs) {
   };
 }
 
-/** The name of the verb that keys ask for; empty for none. */
+/** The name of the verb that keys ask for; empty for none. @param {KeyboardEvent} event */
 function named(event) {
   const target = /** @type {HTMLElement} */ (event.target);
   const key = event.key.toLowerCase();

@@ -1,5 +1,7 @@
 /** The websocket to the document: comes back by itself, waiting a little longer each time, unless it is gone. */
 
+/** @import { Command } from "pleat" */
+
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
 const NOT_FOUND = 4404;
@@ -13,34 +15,36 @@ export class Live extends EventTarget {
     this.url = url.href;
     this.waitMs = FIRST_WAIT_MS;
     this.opened = 0;
-    this.open();
+    this.socket = this.open();
   }
 
+  /** @returns {WebSocket} */
   open() {
-    this.socket = new WebSocket(this.url);
-    this.socket.addEventListener("open", () => {
+    const socket = new WebSocket(this.url);
+    socket.addEventListener("open", () => {
       this.waitMs = FIRST_WAIT_MS;
       this.opened += 1;
       this.dispatchEvent(new CustomEvent("open", { detail: { again: this.opened > 1 } }));
     });
-    this.socket.addEventListener("message", (event) => {
+    socket.addEventListener("message", (event) => {
       const message = JSON.parse(event.data);
       this.dispatchEvent(new CustomEvent(message.kind, { detail: message }));
     });
-    this.socket.addEventListener("close", (event) => {
+    socket.addEventListener("close", (event) => {
       if (event.code === NOT_FOUND) {
         this.dispatchEvent(new CustomEvent("gone"));
         return;
       }
       this.dispatchEvent(new CustomEvent("lost"));
-      setTimeout(() => this.open(), this.waitMs);
+      setTimeout(() => (this.socket = this.open()), this.waitMs);
       this.waitMs = Math.min(2 * this.waitMs, LONGEST_WAIT_MS);
     });
+    return socket;
   }
 
   /**
    * Send a command; without a connection it is dropped.
-   * @param {{do: string, [field: string]: unknown}} command
+   * @param {Command} command
    */
   send(command) {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));

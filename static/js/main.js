@@ -53,5 +53,6 @@ store.addEventListener("opened", (event) => {
   if (replaced?.outline.length) notice(`\u201C${replaced.title || replaced.name}\u201D was replaced; Undo brings it back.`);
 });
 store.addEventListener("document", () => {
-  document.title = `${store.state.drawing.title || store.state.drawing.name} - Pleat`;
+  const { title, name } = store.state?.drawing ?? { title: "", name: "" };
+  document.title = `${title || name} - Pleat`;
 });

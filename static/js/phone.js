@@ -16,6 +16,7 @@ export function mountPhone() {
     swap.hidden = !phone.matches;
     swap.setAttribute("aria-label", isStageLarge ? "Show the board large" : "Show the stage large");
   };
+  /** @param {boolean} isOpen */
   const open = (isOpen) => {
     document.body.classList.toggle("is-sheet-open", isOpen);
     grip.setAttribute("aria-expanded", String(isOpen));
@@ -27,6 +28,7 @@ export function mountPhone() {
     work.classList.toggle("is-stage-large");
     show();
   });
+  /** @type {number|null} where the pull began (px) */
   let from = null;
   let hasPulled = false;
   grip.addEventListener("pointerdown", (event) => {

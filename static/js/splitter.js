@@ -14,6 +14,7 @@ export function mountSplitter() {
   const kept = Number(localStorage.getItem(KEY));
   let share = kept >= LEAST && kept <= MOST ? kept : FIRST;
 
+  /** @param {number} wanted the board's share */
   const put = (wanted) => {
     share = Math.min(Math.max(wanted, LEAST), MOST);
     work.style.setProperty("--board-share", `${100 * share}fr`);
@@ -21,6 +22,7 @@ export function mountSplitter() {
     splitter.setAttribute("aria-valuenow", String(Math.round(100 * share)));
     localStorage.setItem(KEY, String(share));
   };
+  /** @param {PointerEvent} event */
   const at = (event) => {
     const left = byId("board").getBoundingClientRect().left;
     const right = byId("stage-pane").getBoundingClientRect().right;
@@ -39,7 +41,9 @@ export function mountSplitter() {
   splitter.addEventListener("lostpointercapture", () => work.classList.remove("is-splitting"));
   splitter.addEventListener("dblclick", () => put(FIRST));
   splitter.addEventListener("keydown", (event) => {
-    const wanted = { ArrowLeft: share - STEP, ArrowRight: share + STEP, Home: LEAST, End: MOST }[event.key];
+    /** @type {Record<string, number>} */
+    const places = { ArrowLeft: share - STEP, ArrowRight: share + STEP, Home: LEAST, End: MOST };
+    const wanted = places[event.key];
     if (wanted === undefined) return;
     event.preventDefault();
     put(wanted);

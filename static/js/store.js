@@ -10,49 +10,25 @@
 import { EditQueue } from "./edit_queue.js";
 import { Live } from "./live.js";
 
-/** @typedef {[number, number]} Point article frame, metres */
-/**
- * A plan as it is on show: the REST's, and what it belongs to.
- * @typedef {object} PlanOnShow
- * @property {number} version of the document, whose plan it is
- * @property {boolean} is_stale whether the document has gone on since
- * @property {boolean} is_final whether no quicker one is looked for any more
- * @property {number|null} at_least_s what any plan takes; null if that is known to be this one's cost
- * @property {string} id
- * @property {"solved"|"infeasible"|"budget_exceeded"} status
- * @property {number|null} cost_s
- * @property {any[]} primitives
- * @property {any} dag
- * @property {any[]} final_layers
- * @property {any} final_placement
- * @property {any[]} reasons
- * @property {any} statistics
- */
-/**
- * @typedef {object} PlanMessage
- * @property {number} version the document's
- * @property {"planning"|"solved"|"infeasible"|"budget_exceeded"|"illegal"|"failed"} status
- * @property {string} text
- * @property {PlanOnShow|null} plan while it is being planned the one before
- * @property {boolean} may_look_longer whether to search on may come to a better answer
- * @property {{version: number, status: string, cost_s: number|null}|null} before
- * @property {{version: number, folds: any[]}|null} checks
- */
+/** @import { Command, DocumentState, Drawing, Garment, PlanChange, PlanMessage, Playback } from "pleat" */
+/** @import { Change } from "./edit_queue.js" */
+
 /**
  * @typedef {{kind: "vertex"|"edge"|"fold"|"garment", ids: string[]}} Selection
  * An edge is named by the vertex that it starts at.
  */
+/** @typedef {PlanChange & {drawing?: Drawing, version?: number}} Preview what a suggestion or a mend would change */
 
 export class Store extends EventTarget {
   /** @param {string} id the document's */
   constructor(id) {
     super();
     this.id = id;
-    /** @type {any} the server's `document` message */
+    /** @type {DocumentState|null} what the server told last */
     this.state = null;
     /** @type {PlanMessage|null} */
     this.plan = null;
-    /** @type {any} the server's `playback` message */
+    /** @type {Playback|null} what the server told last */
     this.playback = null;
     this.isLive = false;
     /** Whether there was a connection, and is none now. */
@@ -69,7 +45,7 @@ export class Store extends EventTarget {
     this.hoverTime = null;
     /** What Undo would take back of what is being drawn, before any step; empty for nothing. */
     this.begun = "";
-    /** @type {any} a suggestion's change that is pointed at */
+    /** @type {Preview|null} a suggestion's change that is pointed at */
     this.preview = null;
     this.queue = new EditQueue(this);
     this.live = this.listen();
@@ -96,6 +72,7 @@ export class Store extends EventTarget {
       this.tell("connection");
     });
     live.addEventListener("gone", () => this.tell("gone"));
+    /** @param {Event} event */
     const told = (event) => /** @type {CustomEvent} */ (event).detail;
     live.addEventListener("problem", (event) => this.refuse(told(event).detail));
     live.addEventListener("document", (event) => {
@@ -119,7 +96,7 @@ export class Store extends EventTarget {
 
   /**
    * Take over what the server says about the document, unless something newer is known.
-   * @param {any} state
+   * @param {DocumentState} state
    * @param {boolean} always whether it is the truth however old it looks
    */
   take(state, always = false) {
@@ -176,7 +153,7 @@ export class Store extends EventTarget {
     this.tell("begun");
   }
 
-  /** @param {any} change */
+  /** @param {Preview|null} change */
   setPreview(change) {
     this.preview = change;
     this.tell("preview");
@@ -186,9 +163,9 @@ export class Store extends EventTarget {
    * Change the drawing. Changes are sent one after the other; of a gesture's previews that wait only the last one.
    * All changes of a gesture are made to the drawing as it was before the gesture.
    * @param {string} label the name of the step
-   * @param {(drawing: any) => any} change alters the copy it is given, or returns another drawing
+   * @param {Change} change alters the copy it is given, or returns another drawing
    * @param {{phase?: "preview"|"commit", coalesce?: string|null, gesture?: string|null}} how
-   * @returns {Promise<any>} the state after it; null when it was refused, or when a later preview took its place
+   * @returns {Promise<DocumentState|null>} the state after it; null when it was refused or a later preview replaced it
    */
   edit(label, change, { phase = "commit", coalesce = null, gesture = null } = {}) {
     return this.queue.edit({ label, change, phase, coalesce, gesture });
@@ -201,7 +178,7 @@ export class Store extends EventTarget {
 
   /** Settled when all that was asked for so far is done. */
   settled() {
-    return this.queue.push({ run: async () => this.state });
+    return this.queue.push(async () => this.state);
   }
 
   undo() {
@@ -214,14 +191,14 @@ export class Store extends EventTarget {
 
   /**
    * Another garment in place of this one.
-   * @param {string|object} garment its name, or a garment file
+   * @param {string|Garment} garment its name, or a garment file
    * @param {string|null} label the name of the step
    */
   open(garment, label = null) {
     return this.queue.open(garment, label);
   }
 
-  /** @param {{do: string, [field: string]: unknown}} command */
+  /** @param {Command} command */
   command(command) {
     this.live.send(command);
   }
@@ -232,6 +209,7 @@ export class Store extends EventTarget {
   }
 
   forgetWhatIsGone() {
+    if (!this.state) return;
     const { outline, folds } = this.state.drawing;
     if (this.selection && this.selection.kind !== "garment") {
       const known = new Set((this.selection.kind === "fold" ? folds : outline).map((item) => item.id));

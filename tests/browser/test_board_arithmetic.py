@@ -167,3 +167,18 @@ def test_a_crease_from_a_corner_ends_where_it_lays_edges_on_edges(page: Page) ->
     assert ends
     assert all(end == pytest.approx([2, 2]) for end in ends)
     assert asked(page, "edge_onto_edge", f"m.endsOnto([0.7, 0], {square})") == []
+
+
+@pytest.mark.parametrize(
+    ("cost_s", "least_s", "said"),
+    [
+        (30.0, 6.5, "There may be a quicker plan; none takes less than 6.5 s."),
+        (27.9, 27.8, "There may be a quicker plan; none takes less than 27.8 s."),
+        (27.835, 27.8, "There may be a quicker plan, by 0.04 s at most."),
+        (27.801, 27.8009, "There may be a quicker plan, by 0.01 s at most."),
+    ],
+)
+def test_a_plan_that_reads_the_same_as_what_any_takes_is_told_with_the_difference(
+    page: Page, cost_s: float, least_s: float, said: str
+) -> None:
+    assert asked(page, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said

@@ -281,5 +281,5 @@ def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, 
     )
     assert changed[0] == folds[0]
     assert changed[1]["id"] == "f9"
-    assert changed[1]["start"] == {"point": [0.4, 0.2]}
+    assert changed[1]["start"] == {"point": [0.4, 0.2], "on": None}
     assert changed[1]["grip_radius_m"] == 0.3

@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.conftest import Garment, Sheet, windows
@@ -181,3 +182,21 @@ def test_lengths_are_told_in_the_unit_of_the_page(page: Page) -> None:
     expect(page.locator(".transport .now")).to_contain_text(f"{inches:g} in towards the robot")
     page.evaluate("async () => { (await import('/static/js/board/units.js')).unit.name = 'cm' }")
     expect(drag).to_have_text(told)
+
+
+def test_of_a_new_plan_the_block_that_is_going_on_is_marked_too(
+    context: BrowserContext, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(napkin())
+    page = context.new_page()
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    expect(page.locator(".block.is-current")).not_to_have_count(0)
+
+    def rename(drawing: dict[str, Any]) -> None:
+        drawing["folds"][0]["name"] = "renamed"
+
+    sheet.edit(rename)
+    expect(page.locator(".block", has_text="renamed")).not_to_have_count(0)
+    expect_planned(page)
+    expect(page.locator(".block.is-current")).not_to_have_count(0)

@@ -15,6 +15,7 @@ export type Fold = Schemas["FoldAnswer"];
 export type FoldEnd = Schemas["EndAnswer"];
 export type FoldKind = Fold["kind"];
 export type Garment = Schemas["GarmentAnswer"];
+export type GarmentEntry = Schemas["GarmentEntry"];
 export type GarmentFold = Schemas["FoldFile"];
 export type Scene = Schemas["SceneAnswer"];
 export type Table = Schemas["TableFile"];

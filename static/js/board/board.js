@@ -29,6 +29,14 @@ import { TypedLength } from "./typed.js";
 import { length } from "./units.js";
 import { View } from "./view.js";
 
+/** @import { Point } from "pleat" */
+/** @import { LayerName } from "./draw_all.js" */
+/** @import { Hit } from "./hit.js" */
+/** @import { Pointed, Snapped, Targets } from "./snap.js" */
+/** @import { Tool, ToolName } from "./tools/tool.js" */
+/** @import { Blank } from "./blank.js" */
+/** @import { Rail } from "./rail.js" */
+
 /** So long the axis is seen after something was mirrored over it by a key (ms). */
 const AXIS_MS = 1500;
 
@@ -40,47 +48,30 @@ export class Board extends Shown {
     this.togglePlay = togglePlay;
     this.view = new View();
     this.snapper = new Snapper();
-    /** @type {any} what is pointed at */
+    /** @type {Hit|null} what is pointed at */
     this.hover = null;
-    /** @type {any} the snap in force */
+    /** @type {Snapped|null} the snap in force */
     this.snapped = null;
-    /** @type {{moving: any[], landed: any[]}|null} */
+    /** @type {{moving: Point[][], landed: Point[][]}|null} */
     this.ghost = null;
     this.said = "";
     this.isAxisShown = false;
     /** @type {number|undefined} */
     this.axisTimer = undefined;
     this.paint = new FoldPaint(this);
-    /** @type {import("./rail.js").Rail|null} */
+    /** @type {Rail|null} */
     this.rail = null;
-    /** @type {import("./blank.js").Blank|null} */
+    /** @type {Blank|null} */
     this.blank = null;
+    /** @type {number|undefined} the frame that is to be drawn */
+    this.frame = undefined;
     this.framing = new Framing(this);
-    this.build();
-    this.tools = Object.fromEntries(
-      [SelectTool, OutlineTool, FoldTool, PlaceTool, MeasureTool, PhotoTool]
-        .map((Tool) => new Tool(this))
-        .map((tool) => [tool.name, tool]),
-    );
-    this.tool = this.tools.select;
-    this.listen();
-  }
-
-  build() {
-    this.svg = svg("svg", {
-      class: "board",
-      id: "drafting-board",
-      role: "application",
-      "aria-label": "Drafting board",
-      tabindex: 0,
-      "data-px-per-m": 1,
-      "data-origin-px": "0,0",
-    });
+    this.svg = drawingArea();
     const scene = svg("g", { id: "board-scene" });
     this.svg.append(hatches(), scene);
     this.strip = new Strip(this);
     this.root.append(this.svg);
-    this.sheets = Object.fromEntries(LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]));
+    this.sheets = sheetsOf(scene);
     this.hintLine = element("p", "hint-line");
     this.live = element("p", "unseen");
     this.live.setAttribute("aria-live", "polite");
@@ -97,14 +88,38 @@ export class Board extends Shown {
     this.callout = new Callout(this);
     this.legend = new Legend(this);
     this.loupe = new Loupe(this.root, "board-scene");
+    this.tools = {
+      select: new SelectTool(this),
+      outline: new OutlineTool(this),
+      fold: new FoldTool(this),
+      place: new PlaceTool(this),
+      measure: new MeasureTool(this),
+      photo: new PhotoTool(this),
+    };
+    /** @type {Tool} */
+    this.tool = this.tools.select;
+    this.pointer = new PointerInput(this);
+    this.keyboard = new Keyboard(this);
+    this.listen();
   }
 
   listen() {
-    this.pointer = new PointerInput(this);
-    this.keyboard = new Keyboard(this);
     for (const name of ["document", "plan", "playback", "selection", "step", "overlays", "preview", "hover-time", "connection", "held"])
       this.store.addEventListener(name, () => this.render());
     new ResizeObserver(() => this.framing.resize()).observe(this.svg);
+  }
+
+  get toolInHand() {
+    return this.tool ?? null;
+  }
+
+  get kindOfNext() {
+    return this.paint.kind;
+  }
+
+  /** @param {number} step */
+  layersAt(step) {
+    return this.layerStack.at(step);
   }
 
   /** Whether nothing is being dragged or drawn. */
@@ -121,11 +136,13 @@ export class Board extends Shown {
     return { width: this.view.width, height: this.view.height, top: this.root.clientHeight - this.view.height };
   }
 
+  /** @param {Pointed} pointer @param {Targets} targets @returns {Snapped} */
   snapTo(pointer, targets) {
     this.snapped = this.snapper.snap(this.view, pointer, targets);
     return this.snapped;
   }
 
+  /** @param {string} text */
   openTyped(text) {
     this.typed.open(text);
   }
@@ -134,14 +151,17 @@ export class Board extends Shown {
     this.typed.close();
   }
 
+  /** @param {KeyboardEvent} event */
   nudgeOf(event) {
     return this.keyboard.nudge(event);
   }
 
+  /** @param {KeyboardEvent} event */
   keyboardPointer(event) {
     return this.keyboard.pointer(event);
   }
 
+  /** @param {boolean} isOn */
   useKeyboard(isOn) {
     this.keyboard.isOn = isOn;
   }
@@ -151,10 +171,12 @@ export class Board extends Shown {
     this.said = sentence;
   }
 
+  /** @param {string} text */
   announce(text) {
     this.live.textContent = text;
   }
 
+  /** @param {Point} at */
   whereText([x, y]) {
     return `${length(x)}, ${length(y)}${this.snapped?.name ? `, ${this.snapped.name}` : ""}`;
   }
@@ -168,7 +190,7 @@ export class Board extends Shown {
     );
   }
 
-  /** @param {string} name of a tool */
+  /** @param {ToolName} name */
   choose(name) {
     if (!this.state) return;
     const before = this.tool;
@@ -231,4 +253,23 @@ export class Board extends Shown {
       drawAll(this);
     });
   }
+}
+
+/** The element that is drawn on. */
+function drawingArea() {
+  return svg("svg", {
+    class: "board",
+    id: "drafting-board",
+    role: "application",
+    "aria-label": "Drafting board",
+    tabindex: 0,
+    "data-px-per-m": 1,
+    "data-origin-px": "0,0",
+  });
+}
+
+/** A sheet for each layer, the lowest first. @param {SVGElement} scene */
+function sheetsOf(scene) {
+  const sheets = LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]);
+  return /** @type {Record<LayerName, Sheet>} */ (Object.fromEntries(sheets));
 }

@@ -16,9 +16,10 @@ export class Callout {
 
   draw() {
     const { board } = this;
-    const problem = board.draft || board.tool.isBusy ? null : board.state.problems.find(({ points }) => points.length);
-    this.root.hidden = !problem || !board.drawing.outline.length;
-    if (this.root.hidden) return;
+    const isShown = !board.draft && !board.tool.isBusy && board.drawing.outline.length > 0;
+    const problem = isShown ? board.state?.problems.find(({ points }) => points.length) : undefined;
+    this.root.hidden = !problem;
+    if (!problem) return;
     const name = problem.fold === null ? "" : board.drawing.folds[problem.fold]?.name || `fold ${problem.fold + 1}`;
     const words = inWords(problem, board.drawing.folds);
     const text = name ? `${name}: ${words}` : words;

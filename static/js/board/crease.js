@@ -2,9 +2,12 @@
 
 import { inWords } from "../messages/in_words.js";
 
+/** @import { Crease, Fold, FoldKind, Point, Problem } from "pleat" */
+
 const EVERY_MS = 80;
 
-/** @typedef {{ok: boolean, told: any}} Answer */
+/** @typedef {{isGrab: boolean, from: Point, to: Point}} Stroke */
+/** @typedef {{ok: true, told: Crease}|{ok: false, told: {detail: string}}} Answer */
 
 export class CreaseQuestion {
   /** @param {import("./board.js").Board} board */
@@ -12,10 +15,11 @@ export class CreaseQuestion {
     this.board = board;
     this.turn = 0;
     this.isAsking = false;
+    /** @type {{stroke: Stroke, tell: (answer: Answer) => void}|null} */
     this.wanted = null;
   }
 
-  /** @param {any} stroke @param {(answer: Answer) => void} tell */
+  /** @param {Stroke} stroke @param {(answer: Answer) => void} tell */
   ask(stroke, tell) {
     this.wanted = { stroke: { ...stroke }, tell };
     if (!this.isAsking) this.work();
@@ -41,7 +45,7 @@ export class CreaseQuestion {
     this.wanted = null;
   }
 
-  /** @param {any} stroke @returns {Promise<Answer>} */
+  /** @param {Stroke} stroke @returns {Promise<Answer>} */
   async answer({ isGrab, from, to }) {
     const { step } = this.board;
     const { isFlipped, kind } = this.board.paint;
@@ -53,6 +57,10 @@ export class CreaseQuestion {
     return this.post({ after: step, kind, line: { start: end.point, end: start.point } });
   }
 
+  /**
+   * @param {{after: number, kind: FoldKind, grab?: {from: Point, to: Point}, line?: {start: Point, end: Point}}} body
+   * @returns {Promise<Answer>}
+   */
   async post(body) {
     try {
       const answer = await fetch(`${this.board.store.path}/crease`, {
@@ -61,13 +69,15 @@ export class CreaseQuestion {
         body: JSON.stringify(body),
       });
       const told = await answer.json();
-      return { ok: answer.ok, told: answer.ok ? told : { detail: sentence(told, this.board.drawing.folds) } };
+      if (answer.ok) return { ok: true, told };
+      return { ok: false, told: { detail: sentence(told, this.board.drawing.folds) } };
     } catch {
       return { ok: false, told: { detail: "The server cannot be reached." } };
     }
   }
 }
 
+/** @param {Problem} problem @param {Fold[]} folds */
 function sentence({ errors, detail }, folds) {
   return `No fold there: ${inWords(errors?.[0] ?? { message: detail }, folds)}.`;
 }

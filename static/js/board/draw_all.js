@@ -13,7 +13,7 @@ import { drawReason } from "./draw_reason.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
 
 /** The layers, the lowest first. */
-export const LAYERS = [
+export const LAYERS = /** @type {const} */ ([
   "grid",
   "photo",
   "table",
@@ -27,7 +27,9 @@ export const LAYERS = [
   "handles",
   "tool",
   "cursor",
-];
+]);
+
+/** @typedef {typeof LAYERS[number]} LayerName */
 
 const UNCLOSED = "The outline is not closed yet: P goes on with it.";
 

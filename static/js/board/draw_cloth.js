@@ -2,11 +2,16 @@
 
 import { path } from "./sheet.js";
 
-/** @param {import("./board.js").Board} board */
+/** @import { Point } from "pleat" */
+/** @import { Board } from "./board.js" */
+/** @import { Items } from "./sheet.js" */
+
+/** @param {Board} board @returns {Items} */
 export function drawCloth(board) {
   return board.isSpread ? spread(board) : stacked(board);
 }
 
+/** @param {Board} board @returns {Items} */
 function spread({ view, drawing }) {
   const points = drawing.outline.map(({ point }) => view.toPx(point));
   const isRing = points.length >= 3;
@@ -16,7 +21,9 @@ function spread({ view, drawing }) {
   ];
 }
 
+/** @param {Board} board @returns {Items} */
 function stacked({ view, drawing, layers, shown }) {
+  /** @param {Point[]} points */
   const ring = (points) => path(points.map((point) => view.toPx(point)));
   const before = { key: "before", tag: "path", class: "cloth-before", d: ring(drawing.outline.map((c) => c.point)) };
   if (!layers)

@@ -3,13 +3,15 @@
 import { distance, left, minus, plus, times, unit as direction } from "./geometry.js";
 import { path } from "./sheet.js";
 
+/** @import { Point } from "pleat" */
+
 const LEAST_ARROW_PX = 14;
 
 /**
  * An arrow with a tick at its end, and what it measures.
  * @param {string} key
- * @param {[number, number]} a px
- * @param {[number, number]} b px
+ * @param {Point} a px
+ * @param {Point} b px
  * @param {string} text
  */
 export function dimension(key, a, b, text) {

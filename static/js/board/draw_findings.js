@@ -3,13 +3,20 @@
 import { left, minus, plus, times, unit as direction } from "./geometry.js";
 import { path } from "./sheet.js";
 
+/** @import { Point } from "pleat" */
+/** @import { Item } from "./sheet.js" */
+
 const CROSS_PX = 6;
 
-/** Must-hold corners and grips of the fold that is looked at. @param {import("./board.js").Board} board */
+/**
+ * Must-hold corners and grips of the fold that is looked at.
+ * @param {import("./board.js").Board} board
+ * @returns {Item[]}
+ */
 export function drawChecks(board) {
   const checks = board.store.plan?.checks;
   const index = board.foldLookedAt;
-  if (board.isPlacing || index === null || !checks || checks.version !== board.state.version) return [];
+  if (board.isPlacing || index === null || !checks || checks.version !== board.state?.version) return [];
   const found = checks.folds[index];
   if (!found) return [];
   return [
@@ -18,6 +25,7 @@ export function drawChecks(board) {
   ];
 }
 
+/** @param {string} key @param {Point} at @returns {Item} */
 function diamond(key, [x, y]) {
   const r = 7;
   return {
@@ -33,6 +41,7 @@ function diamond(key, [x, y]) {
   };
 }
 
+/** @param {string} key @param {Point} at @returns {Item[]} */
 function grip(key, [x, y]) {
   return [
     { key, tag: "circle", class: "grip", cx: x, cy: y, r: 12 },
@@ -42,14 +51,9 @@ function grip(key, [x, y]) {
 
 /** What is wrong with the drawing, where it is. @param {import("./board.js").Board} board */
 export function drawProblems({ state, view, draft }) {
-  if (draft) return [];
+  if (draft || !state) return [];
   return state.problems.flatMap(({ points, lines }, n) => [
-    ...lines.flatMap((line, m) =>
-      double(
-        `p${n}:l${m}`,
-        line.map((point) => view.toPx(point)),
-      ),
-    ),
+    ...lines.flatMap(([a, b], m) => double(`p${n}:l${m}`, [view.toPx(a), view.toPx(b)])),
     ...points.map((point, m) => crossAt(`p${n}:${m}`, view.toPx(point))),
   ]);
 }
@@ -57,7 +61,7 @@ export function drawProblems({ state, view, draft }) {
 /**
  * Two thin lines, three pixels in all.
  * @param {string} key
- * @param {[number, number][]} line its two ends (px)
+ * @param {Point[]} line its two ends (px)
  */
 export function double(key, [a, b]) {
   const aside = times(left(direction(minus(b, a))), 1.6);
@@ -71,7 +75,7 @@ export function double(key, [a, b]) {
 /**
  * What cannot be.
  * @param {string} key
- * @param {[number, number]} at px
+ * @param {Point} at px
  * @param {number} r half as wide as it is (px)
  */
 export function crossAt(key, [x, y], r = CROSS_PX) {

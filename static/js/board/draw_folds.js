@@ -4,16 +4,21 @@ import { foldStates } from "../dock/fold_states.js";
 import { between, left, minus, plus, times, unit as direction } from "./geometry.js";
 import { path } from "./sheet.js";
 
+/** @import { FoldKind, Point } from "pleat" */
+/** @import { Board } from "./board.js" */
+/** @import { Items } from "./sheet.js" */
+
 const MARK_PX = 7;
 /** How far along the line the mark is: not in its middle, where other folds like to end. */
 const MARK_AT = 0.42;
 
-/** @param {import("./board.js").Board} board */
+/** @param {Board} board @returns {Items} */
 export function drawFolds(board) {
   const { drawing, view, step, isPlacing } = board;
   const states = statesNow(board);
   return drawing.folds.flatMap((fold, index) => {
     if (index < step && !isPlacing) return [];
+    /** @type {[Point, Point]} */
     const ends = [view.toPx(fold.start.point), view.toPx(fold.end.point)];
     const isSelected = board.isSelected("fold", fold.id);
     const isLater = (step > 0 && index > step) || states[index] === "done";
@@ -23,15 +28,15 @@ export function drawFolds(board) {
   });
 }
 
-/** How far the folds are at the moment of the plan that is played or pointed at. */
+/** How far the folds are at the moment of the plan that is played or pointed at. @param {Board} board */
 function statesNow({ store, drawing }) {
   const plan = store.plan?.plan;
   const isOfThis = plan?.dag.folds === drawing.folds.length;
-  return isOfThis ? foldStates(plan, store.hoverTime ?? store.playback?.t_s ?? 0) : [];
+  return plan && isOfThis ? foldStates(plan, store.hoverTime ?? store.playback?.t_s ?? 0) : [];
 }
 
 /**
- * @param {{key: string, kind: string, ends: [number, number][], state: string, number: number|null}} fold ends in px
+ * @param {{key: string, kind: FoldKind, ends: [Point, Point], state: string, number: number|null}} fold ends in px
  */
 export function foldItems({ key, kind, ends, state, number }) {
   const [a, b] = ends;
@@ -59,9 +64,10 @@ export function foldItems({ key, kind, ends, state, number }) {
   ];
 }
 
-/** What a fold that is being drawn moves, and where that lands. @param {import("./board.js").Board} board */
+/** What a fold that is being drawn moves, and where that lands. @param {Board} board @returns {Items} */
 export function drawGhost({ ghost, view }) {
   if (!ghost) return [];
+  /** @param {Point[][]} all */
   const rings = (all) => all.map((ring) => path(ring.map((point) => view.toPx(point)))).join("");
   return [
     { key: "moving", tag: "path", class: "ghost-moving", d: rings(ghost.moving) },

@@ -2,7 +2,10 @@
 
 import { unit } from "./units.js";
 
-/** Spacings in units, each with how many of them make a strong line. */
+/** @import { Items } from "./sheet.js" */
+/** @import { View } from "./view.js" */
+
+/** Spacings in units, each with how many of them make a strong line. @type {Record<"cm"|"in", [number, number][]>} */
 const SPACINGS = {
   cm: [
     [0.1, 10],
@@ -40,11 +43,14 @@ export function drawGrid({ view }) {
   const { step, strong } = spacing(view.scale);
   const low = view.pxToPlane([0, view.height]);
   const high = view.pxToPlane([view.width, 0]);
+  /** @type {string[]} */
   const fine = [];
+  /** @type {string[]} */
   const coarse = [];
+  /** @type {Items} */
   const figures = [];
   const every = strong * Math.max(1, Math.ceil(FIGURE_PX / (strong * step * view.scale)));
-  for (const axis of [0, 1]) {
+  for (const axis of /** @type {const} */ ([0, 1])) {
     for (let n = Math.ceil(low[axis] / step); n * step <= high[axis]; n += 1) {
       const at = view.planeToPx(axis === 0 ? [n * step, 0] : [0, n * step])[axis];
       const isStrong = n % strong === 0;
@@ -59,11 +65,13 @@ export function drawGrid({ view }) {
   ];
 }
 
+/** @param {View} view @param {0|1} axis @param {number} at */
 function line(view, axis, at) {
   const sharp = Math.round(at) + 0.5;
   return axis === 0 ? `M${sharp} 0V${view.height}` : `M0 ${sharp}H${view.width}`;
 }
 
+/** @param {View} view @param {0|1} axis @param {number} at @param {number} metres */
 function figure(view, axis, at, metres) {
   const place = axis === 0 ? { x: at + 3, y: view.height - 5 } : { x: 4, y: at - 3 };
   const isHidden = axis === 0 ? at < 24 : at > view.height - RULER_PX;

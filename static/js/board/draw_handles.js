@@ -4,18 +4,23 @@ import { between, distance, left, minus, plus, times, unit as direction } from "
 import { path } from "./sheet.js";
 import { length, number } from "./units.js";
 
+/** @import { Board } from "./board.js" */
+/** @import { Item, Items } from "./sheet.js" */
+/** @import { Point } from "pleat" */
+
 const CORNER_PX = 4.5;
 const END_PX = 4.5;
 const MIDDLE_PX = 3.5;
 const LABEL_PX = 16;
 const ROOM_FOR_MIDDLE_PX = 44;
 
-/** @param {import("./board.js").Board} board */
+/** @param {Board} board @returns {Items} */
 export function drawHandles(board) {
   if (board.isPlacing) return [];
   return [...edges(board), ...foldHandles(board), ...(board.isSpread ? corners(board) : [])];
 }
 
+/** @param {Board} board @returns {Items} */
 function corners(board) {
   const { drawing, view } = board;
   return drawing.outline.map(({ id, point }, index) => {
@@ -35,6 +40,7 @@ function corners(board) {
   });
 }
 
+/** @param {Board} board @returns {Items} */
 function foldHandles(board) {
   const { drawing, view, step } = board;
   return drawing.folds.flatMap((fold, index) => {
@@ -63,7 +69,11 @@ function foldHandles(board) {
   });
 }
 
-/** The edges that are selected or end at a selected corner, with their lengths; middles that can be pulled out. */
+/**
+ * The edges that are selected or end at a selected corner, with their lengths; middles that can be pulled out.
+ * @param {Board} board
+ * @returns {Items}
+ */
 function edges(board) {
   if (!board.isSpread) return [];
   const { drawing, view } = board;
@@ -83,11 +93,20 @@ function edges(board) {
   });
 }
 
+/** @param {string} id @param {Point} at @returns {Item} */
 function middle(id, [cx, cy]) {
   return { key: `m:${id}`, tag: "circle", class: "handle middle", cx, cy, r: MIDDLE_PX };
 }
 
-/** A length written beside an edge, on the outer side. */
+/**
+ * A length written beside an edge, on the outer side.
+ * @param {string} key
+ * @param {Point} a px
+ * @param {Point} b px
+ * @param {number} metres
+ * @param {boolean} isLeft whether the outer side is on the left
+ * @returns {Item}
+ */
 export function lengthLabel(key, a, b, metres, isLeft = true) {
   const outwards = times(left(direction(minus(b, a))), isLeft ? 1 : -1);
   const [x, y] = plus(between(a, b), times(outwards, LABEL_PX));
@@ -95,6 +114,7 @@ export function lengthLabel(key, a, b, metres, isLeft = true) {
   return { key, tag: "text", class: "length", x, y: y + 4, "text-anchor": anchor, text: length(metres) };
 }
 
+/** @param {"vertex"|"fold"} kind @param {string} id @param {string} label */
 function focusable(kind, id, label) {
   return { tabindex: 0, role: "button", "aria-label": label, "data-kind": kind, "data-id": id };
 }

@@ -7,6 +7,8 @@ import { distance, dot, minus, plus, times, toInner, toOuter, unit } from "./geo
 import { axisOfGarment, middleOf } from "./edits.js";
 import { length } from "./units.js";
 
+/** @import { Items } from "./sheet.js" */
+
 /** @param {import("./board.js").Board} board */
 export function drawCursor({ snapped, view, said }) {
   if (!snapped) return [];
@@ -68,7 +70,7 @@ export function drawAxis({ isAxisShown, drawing, view }) {
  */
 export function drawPreview({ store, view, drawing }) {
   const { placement, garment } = store.preview ?? {};
-  /** @type {import("./sheet.js").Item[]} */
+  /** @type {Items} */
   const items = [];
   if (placement) {
     const ring = drawing.outline.map(({ point }) => view.toPx(toInner(drawing.placement, toOuter(placement, point))));

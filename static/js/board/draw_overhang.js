@@ -9,7 +9,8 @@ import { between, crossings, distance, edgesOf, isInside, leftPart, toInner, toO
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
-/** @import { Drawing, Point, Reason, Table } from "pleat" */
+/** @import { Drawing, Plan, Point, Reason, Table } from "pleat" */
+/** @import { Items } from "./sheet.js" */
 
 const CODES = new Set(["not_a_g_state", "slips"]);
 const CROSS_PX = 8;
@@ -18,14 +19,17 @@ const ON_M = 1e-4;
 /** Words that would not be on the board are so far below the cross (px). */
 const BELOW_PX = 28;
 
-/** The reason why cloth would not stay as it lies at the start, if that is the first. @param {any} plan */
+/**
+ * The reason why cloth would not stay as it lies at the start, if that is the first.
+ * @param {Plan|null|undefined} plan
+ */
 export function restlessAtStart(plan) {
   const first = plan?.status === "infeasible" ? plan.reasons[0] : undefined;
   const isAtStart = first?.fold === null && CODES.has(first.code) && !Math.hypot(...(first.offset_m ?? [0, 0]));
   return isAtStart ? first : null;
 }
 
-/** @param {import("./board.js").Board} board @returns {import("./sheet.js").Item[]} */
+/** @param {import("./board.js").Board} board @returns {Items} */
 export function drawOverhang(board) {
   const { drawing, draft, isSpread, store, view } = board;
   const plan = store.plan?.plan;
@@ -46,7 +50,7 @@ export function drawOverhang(board) {
 /** The table's corners as the article sees them, counter-clockwise. @param {Drawing} drawing */
 function tableIn({ placement, scene: { table } }) {
   const [deep, wide] = [table.depth_m / 2, table.width_m / 2];
-  /** @type {[number, number][]} */
+  /** @type {Point[]} */
   const corners = [
     [-deep, -wide],
     [deep, -wide],
@@ -73,6 +77,7 @@ function under([a, b], ring) {
  * @param {Drawing} drawing
  * @param {Point[]} ring the outline
  * @param {Reason} reason
+ * @returns {Items}
  */
 function howFar(view, drawing, ring, reason) {
   const { placement } = drawing;
@@ -106,7 +111,7 @@ const isOver = (ring, table) => edgesOf(table).reduce((part, [a, b]) => leftPart
 function onTable([x, y], { depth_m: deep, width_m: wide }, isThere) {
   /** @param {number} value @param {number} most */
   const within = (value, most) => Math.min(Math.max(value, -most / 2), most / 2);
-  /** @type {[number, number]} */
+  /** @type {Point} */
   const nearest = [within(x, deep), within(y, wide)];
   if (isThere) return nearest;
   return Math.abs(nearest[0] - x) > Math.abs(nearest[1] - y) ? [nearest[0], y] : [x, nearest[1]];

@@ -4,7 +4,12 @@ import { between, boxOf, plus, turned } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
-/** Beneath the cloth. @param {import("./board.js").Board} board @param {any} found @param {any} places */
+/** @import { Overlays, Places, Point, Region } from "pleat" */
+/** @import { Board } from "./board.js" */
+/** @import { Items } from "./sheet.js" */
+/** @import { View } from "./view.js" */
+
+/** Beneath the cloth. @param {Board} board @param {Overlays|null} found @param {Places|null} places @returns {Items} */
 export function drawUnder(board, found, places) {
   return [
     ...costs(board, places),
@@ -12,19 +17,24 @@ export function drawUnder(board, found, places) {
   ];
 }
 
-/** Above the cloth. @param {import("./board.js").Board} board @param {any} found */
+/** Above the cloth. @param {Board} board @param {Overlays|null} found @returns {Items} */
 export function drawOver(board, found) {
   return found ? [...outlines(board, found), ...slip(board, found), ...paths(board, found)] : [];
 }
 
+/** @param {View} view @param {Point[]} points */
 const ring = (view, points) => path(points.map((point) => view.toPx(point)));
+/** @param {View} view @param {Region} region */
 const region = (view, { outer, holes }) => [outer, ...holes].map((points) => ring(view, points)).join("");
+/** @param {View} view @param {Region[]} all */
 const regions = (view, all) => all.map((one) => region(view, one)).join("");
 
+/** @param {Board} board @param {Overlays} found @returns {Items} */
 function table({ view, isPlacing }, found) {
   return isPlacing ? [] : [{ key: "table", tag: "path", class: "table is-faint", d: ring(view, found.table) }];
 }
 
+/** @param {Board} board @param {Overlays} found @returns {Items} */
 function reach({ view }, found) {
   return (found.reach ?? []).map(({ arm, regions: all }) => ({
     key: `reach:${arm}`,
@@ -34,7 +44,7 @@ function reach({ view }, found) {
   }));
 }
 
-/** The limits of reach stay visible over the cloth. */
+/** The limits of reach stay visible over the cloth. @param {Board} board @param {Overlays} found @returns {Items} */
 function outlines({ view }, found) {
   return (found.reach ?? []).flatMap(({ arm, regions: all, bare }) => {
     const box = boxOf(all.flatMap(({ outer }) => outer));
@@ -54,6 +64,7 @@ function outlines({ view }, found) {
   });
 }
 
+/** @param {Board} board @param {Overlays} found @returns {Items} */
 function base({ view }, found) {
   if (!found.base) return [];
   const { outline } = found.robot;
@@ -81,14 +92,15 @@ function base({ view }, found) {
   ];
 }
 
+/** @param {Board} board @param {Overlays} found @returns {Items} */
 function slip({ view }, found) {
   return (found.slip?.limits ?? []).flatMap(({ edge, line, at_m }, n) => {
-    const ends = line.map((point) => view.toPx(point));
+    const [from, to] = [view.toPx(line[0]), view.toPx(line[1])];
     // Lines of opposite edges may be the same, to and fro: their words stand at its two ends.
-    const [low, high] = [...ends].sort(([ax, ay], [bx, by]) => ax - bx || ay - by);
+    const [low, high] = from[0] < to[0] || (from[0] === to[0] && from[1] <= to[1]) ? [from, to] : [to, from];
     const [x, y] = between(low, high, n < 2 ? 0.08 : 0.76);
     return [
-      { key: `slip:${edge}`, tag: "path", class: "slip", d: path(ends, false) },
+      { key: `slip:${edge}`, tag: "path", class: "slip", d: path([from, to], false) },
       {
         key: `slip:${edge}:text`,
         tag: "text",
@@ -101,6 +113,7 @@ function slip({ view }, found) {
   });
 }
 
+/** @param {Board} board @param {Overlays} found @returns {Items} */
 function paths(board, found) {
   const { view, step } = board;
   return (found.paths ?? []).flatMap(({ primitive, fold, grips }) => {
@@ -128,7 +141,12 @@ function paths(board, found) {
 /** How full the shade of a place is. @param {number} share 1 for the quickest, 0 for the slowest */
 export const fullness = (share) => 0.1 + 0.5 * share;
 
-/** What the plan would cost if the garment's middle lay there: the stronger the cheaper. */
+/**
+ * What the plan would cost if the garment's middle lay there: the stronger the cheaper.
+ * @param {Board} board
+ * @param {Places|null} places
+ * @returns {Items}
+ */
 function costs({ view, drawing }, places) {
   const box = boxOf(drawing.outline.map(({ point }) => point));
   if (!places || !box) return [];
@@ -138,7 +156,7 @@ function costs({ view, drawing }, places) {
   const [least, most] = [Math.min(...known), Math.max(...known)];
   return places.cells.flatMap(({ move, placement, cost_s }, n) => {
     const centre = plus(middle, move);
-    /** @type {[number, number][]} */
+    /** @type {Point[]} */
     const square = [
       [-half, -half],
       [half, -half],

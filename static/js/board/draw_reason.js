@@ -11,6 +11,11 @@ import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 
+/** @import { Point, Point3, Reason } from "pleat" */
+/** @import { Board } from "./board.js" */
+/** @import { Items } from "./sheet.js" */
+/** @import { View } from "./view.js" */
+
 const CROSS_PX = 8;
 /** Higher up than this is said in words (m). */
 const ON_TABLE_M = 0.05;
@@ -22,19 +27,27 @@ const DRAGGED_M = 1e-3;
 const BELOW_PX = 14;
 const LETTER_PX = 7.5;
 
-/** The first reason that has a place, as long as it is one for what is drawn. @param {import("../store.js").Store} store */
+/** @typedef {Reason & {point: Point3}} Placed */
+
+/**
+ * The first reason that has a place, as long as it is one for what is drawn.
+ * @param {import("../store.js").Store} store
+ * @returns {Placed|null}
+ */
 export function reasonWithPlace({ plan: message }) {
   const { plan, status } = message ?? {};
   if (!plan || plan.is_stale || status === "solved" || status === "planning") return null;
-  return plan.reasons.find(({ point }) => point) ?? null;
+  return plan.reasons.find(/** @returns {reason is Placed} */ (reason) => reason.point !== null) ?? null;
 }
 
-/** @param {import("./board.js").Board} board @returns {import("./sheet.js").Item[]} */
+/** @param {Board} board @returns {Items} */
 export function drawReason(board) {
   const reason = board.draft ? null : reasonWithPlace(board.store);
   if (!reason) return [];
+  /** @param {Point} point of the table frame */
   const toPx = (point) => board.view.toPx(toInner(board.drawing.placement, minus(point, reason.offset_m ?? [0, 0])));
-  const from = toPx(reason.point);
+  const from = toPx(flat(reason.point));
+  /** @type {Items} */
   const items = [
     ...beyondReach(board, reason),
     crossAt("reason", from, CROSS_PX),
@@ -53,17 +66,23 @@ export function drawReason(board) {
   return items;
 }
 
-/** What of a disc round the cross is out of reach, where that begins, and whose reach it is. */
+/**
+ * What of a disc round the cross is out of reach, where that begins, and whose reach it is.
+ * @param {Board} board
+ * @param {Reason} reason
+ * @returns {Items}
+ */
 function beyondReach({ overlays, state, view }, { cause }) {
   const { shortfall: found, version } = overlays.found ?? {};
-  if (!found || version !== state.version) return [];
+  if (!found || version !== state?.version) return [];
+  /** @param {Point[]} points @param {boolean} isClosed */
   const px = (points, isClosed) =>
     path(
       points.map((point) => view.toPx(point)),
       isClosed,
     );
   const rings = found.beyond.flatMap(({ outer, holes }) => [outer, ...holes]);
-  const [x, y] = view.toPx(found.point);
+  const [x, y] = view.toPx(flat(found.point));
   const what = cause === "comfort_only" ? "comfort" : "reach";
   const text = `out of the ${found.arm} hand\u2019s ${what}${found.point[2] >= ON_TABLE_M ? " at that height" : ""}`;
   return [
@@ -80,7 +99,14 @@ function beyondReach({ overlays, state, view }, { cause }) {
   ];
 }
 
-/** How much is missing: along the table as an arrow, upwards or downwards in words alone; they stay on the board. */
+/**
+ * How much is missing: along the table as an arrow, upwards or downwards in words alone; they stay on the board.
+ * @param {View} view
+ * @param {Placed} reason
+ * @param {Point} from px
+ * @param {(point: Point) => Point} toPx
+ * @returns {Items}
+ */
 function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtLeast }, from, toPx) {
   if (!towards || !short) return [];
   const by = `${isAtLeast ? "at least " : ""}${length(short)}`;
@@ -89,15 +115,21 @@ function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtL
     const text = `${by} too ${towards[2] < 0 ? "high" : "low"}${high}`;
     return [{ key: "missing", tag: "text", class: "reason-text", ...below(from, text, view) }];
   }
-  const tip = toPx(plus(point, times(towards, short)));
+  const tip = toPx(plus(flat(point), times(flat(towards), short)));
   const [arrow, words] = dimension("missing", from, tip, `${by} short${high}`);
   return [arrow, isOn(tip, view) ? words : { ...words, ...below(from, words.text, view) }];
 }
 
-/** How far the cloth had been dragged from where it lies by the time that is shown, as an arrow. */
+/**
+ * How far the cloth had been dragged from where it lies by the time that is shown, as an arrow.
+ * @param {Board} board
+ * @param {Placed} reason
+ * @param {Point} from px
+ * @returns {Items}
+ */
 function dragged({ drawing, view }, { point, offset_m: offset }, from) {
-  if (Math.hypot(...(offset ?? [0, 0])) < DRAGGED_M) return [];
-  const tip = view.toPx(toInner(drawing.placement, point));
+  if (!offset || Math.hypot(...offset) < DRAGGED_M) return [];
+  const tip = view.toPx(toInner(drawing.placement, flat(point)));
   const [arrow, words] = dimension("dragged", from, tip, `dragged ${length(Math.hypot(...offset))}`);
   const where = isOn(tip, view) ? {} : below(from, words.text, view, 3);
   const [shaft, ...head] = String(arrow.d).split(/(?=M)/);
@@ -108,13 +140,22 @@ function dragged({ drawing, view }, { point, offset_m: offset }, from) {
   ];
 }
 
-/** Words below a place, so many lines. */
+/** A point as it is seen from above. @param {Point3} point @returns {Point} */
+const flat = ([x, y]) => [x, y];
+
+/** Words below a place, so many lines. @param {Point} at @param {string} text @param {View} view */
 const below = ([x, y], text, view, lines = 2) => {
   return { text, "text-anchor": "middle", x: inside(x, text, view), y: y + lines * BELOW_PX };
 };
+/** @param {Point} at @param {View} view */
 const isOn = ([x, y], { width, height }) => x >= 0 && x <= width && y >= 0 && y <= height;
 
-/** The middle of words, so that all of them are on the board. */
+/**
+ * The middle of words, so that all of them are on the board.
+ * @param {number} x
+ * @param {string} text
+ * @param {View} view
+ */
 function inside(x, text, { width }) {
   const half = (text.length * LETTER_PX) / 2;
   return Math.max(Math.min(x, width - half), half);

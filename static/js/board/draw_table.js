@@ -4,6 +4,10 @@ import { toInner } from "./geometry.js";
 import { place } from "../messages/names.js";
 import { path } from "./sheet.js";
 
+/** @import { Point, Pose } from "pleat" */
+/** @import { Items } from "./sheet.js" */
+/** @import { View } from "./view.js" */
+
 /** How large the robot is drawn (m). */
 export const BASE_M = 0.33;
 
@@ -30,7 +34,7 @@ export function drawTableEdge({ store, view, drawing, isPlacing }, look) {
   const hasNoPlan = store.plan?.status === "infeasible" || store.plan?.status === "budget_exceeded";
   if (isPlacing || !drawing.outline.length || !(hasNoPlan || store.preview?.placement)) return [];
   const [deep, wide] = [drawing.scene.table.depth_m / 2, drawing.scene.table.width_m / 2];
-  /** @type {[number, number][]} */
+  /** @type {Point[]} */
   const corners = [
     [-deep, -wide],
     [deep, -wide],
@@ -41,9 +45,10 @@ export function drawTableEdge({ store, view, drawing, isPlacing }, look) {
   return [{ key: "edge", tag: "path", class: look, d: path(ring) }];
 }
 
-/** @param {import("./view.js").View} view @param {...[number, number]} points of the table's frame */
+/** @param {View} view @param {...Point} points of the table's frame */
 const placed = (view, ...points) => points.map((point) => view.tableToPx(point));
 
+/** @param {View} view @param {string} name @param {Pose} pose @param {boolean} isStart @returns {Items} */
 function station(view, name, { x_m, y_m, yaw_rad }, isStart) {
   const [x, y] = view.tableToPx([x_m, y_m]);
   const nose = view.tableToPx([x_m + BASE_M * Math.cos(yaw_rad), y_m + BASE_M * Math.sin(yaw_rad)]);

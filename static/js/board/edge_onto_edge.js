@@ -18,9 +18,13 @@ import {
   unit,
 } from "./geometry.js";
 
-/** @typedef {import("./geometry.js").Point} Point */
+/** @import { Point } from "pleat" */
+
 /** @typedef {[Point, Point]} Line */
-/** @typedef {{at: Point, on: Line|null}} Laid where a stroke ends that makes such a fold, and the edge that is laid on */
+/**
+ * Where a stroke ends that makes such a fold, and the edge that is laid on.
+ * @typedef {{at: Point, on: Line|null}} Laid
+ */
 
 /** What is shorter is nothing (m). */
 const LEAST_M = 0.002;
@@ -29,10 +33,14 @@ const THROUGH_M = 1e-5;
 /** Of more edges than this not every two are looked at. */
 const EDGES_MAX = 60;
 
-/** The line over which an edge is laid on another, through two points; null without one. @param {Line} edge @param {Line} onto */
+/**
+ * The line over which an edge is laid on another, through two points; null without one.
+ * @param {Line} edge
+ * @param {Line} onto
+ */
 export function layingOnto(edge, onto) {
   const overlaps = bisectors(edge, onto).map((line) => ({ line, overlap: overlap(edge, onto, line) }));
-  const best = overlaps.reduce((most, one) => (!most || one.overlap > most.overlap ? one : most), null);
+  const [best] = overlaps.toSorted((one, other) => other.overlap - one.overlap);
   return best && best.overlap > LEAST_M ? best.line : null;
 }
 
@@ -49,15 +57,26 @@ function bisectors([a, b], [c, d]) {
   return [plus(along, other), minus(along, other)].map((way) => [corner, plus(corner, unit(way))]);
 }
 
-/** How much of an edge, folded over a line, lies beside another (m). */
+/**
+ * How much of an edge, folded over a line, lies beside another (m).
+ * @param {Line} edge
+ * @param {Line} onto
+ * @param {Line} fold
+ */
 function overlap(edge, [c, d], [p, q]) {
   const along = unit(minus(d, c));
   const [s, t] = edge.map((point) => dot(minus(mirrored(point, p, q), c), along)).sort((one, other) => one - other);
   return Math.min(t, distance(c, d)) - Math.max(s, 0);
 }
 
-/** The edge nearest to a point, if it is within reach. @param {Point} p @param {Point[][]} rings @param {number} reach_m */
+/**
+ * The edge nearest to a point, if it is within reach.
+ * @param {Point} p
+ * @param {Point[][]} rings
+ * @param {number} reach_m
+ */
 export function edgeNear(p, rings, reach_m) {
+  /** @type {{edge: Line, away: number}|null} */
   let best = null;
   for (const edge of rings.flatMap(edgesOf)) {
     const away = distance(p, nearestOn(p, edge[0], edge[1]));
@@ -100,6 +119,8 @@ export function endsOnto(from, rings) {
   );
 }
 
+/** @param {Line} one @param {Line} other */
 const isSame = ([a, b], [c, d]) => a === c && b === d;
 
+/** @param {Line} line @param {Point} point */
 const goesThrough = ([p, q], point) => Math.abs(cross(unit(minus(q, p)), minus(point, p))) < THROUGH_M;

@@ -2,11 +2,13 @@
 
 import { flipFolds, mirrorFolds, paintFolds } from "./edits.js";
 
+/** @import { FoldKind } from "pleat" */
+
 export class FoldPaint {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    /** @type {"blue"|"red"} of the next fold */
+    /** @type {FoldKind} of the next fold */
     this.kind = "blue";
     this.isFlipped = false;
     /** Whether cloth is grabbed also where a stroke would begin at its edge. */
@@ -31,7 +33,7 @@ export class FoldPaint {
     return this.chosen.length || !isJustDrawn ? this.chosen : [tool.last];
   }
 
-  /** @param {"blue"|"red"} kind */
+  /** @param {FoldKind} kind */
   put(kind) {
     const ids = this.chosen;
     this.kind = kind;

@@ -2,10 +2,13 @@
 
 import { boxOf } from "./geometry.js";
 
+/** @import { Point } from "pleat" */
+/** @import { View } from "./view.js" */
+
 /** What is seen of a board with nothing on it: room for a garment, wherever it begins (m). */
 const BLANK = {
-  low: /** @type {[number, number]} */ ([-0.6, -0.45]),
-  high: /** @type {[number, number]} */ ([0.9, 0.85]),
+  low: /** @type {Point} */ ([-0.6, -0.45]),
+  high: /** @type {Point} */ ([0.9, 0.85]),
 };
 const BESIDE_TABLE_M = 0.3;
 const BEFORE_TABLE_M = 0.6;
@@ -13,6 +16,8 @@ const BEYOND_TABLE_M = 0.1;
 const HINT_PX = 24;
 /** A board narrower than this is only looked at: it shows the whole cloth. */
 const INSET_PX = 160;
+
+/** @typedef {Pick<View, "scale"|"origin">} Seen */
 
 export class Framing {
   /** @param {import("./board.js").Board} board */
@@ -23,11 +28,14 @@ export class Framing {
     this.name = "";
     /** What was seen when it was fitted last, and of what. @type {string|null} */
     this.fitted = null;
-    /** The view of the large board while it is an inset. @type {any} */
+    /** The view of the large board while it is an inset. @type {Seen & Pick<View, "width"|"height">|null} */
     this.full = null;
-    /** What was seen before the robot's way was to be seen as well. @type {any} */
+    /** What was seen before the robot's way was to be seen as well. @type {Seen|null} */
     this.narrow = null;
+    /** What was seen with the robot's way. */
     this.wide = "";
+    /** What was seen before the table's axes were. @type {Seen|null} */
+    this.before = null;
   }
 
   fit() {
@@ -71,11 +79,12 @@ export class Framing {
   /**
    * See the robot's way as well, which mostly is beside the cloth; without one, what was seen before unless the view has
    * been moved since.
-   * @param {[number, number][]|null} points article frame
+   * @param {Point[]|null} points article frame
    */
   showAlso(points) {
     const { view, svg } = this.board;
     if (points && !this.narrow && !this.board.isPlacing) {
+      /** @param {Point} px */
       const isSeen = (px) => px[0] > 0 && px[1] > 0 && px[0] < svg.clientWidth && px[1] < svg.clientHeight;
       if (points.every((point) => isSeen(view.toPx(point)))) return;
       const { low, high } = this.clothBox() ?? BLANK;
@@ -99,8 +108,8 @@ export class Framing {
   tableBox() {
     const { depth_m: deep, width_m: wide } = this.board.drawing.scene.table;
     return {
-      low: /** @type {[number, number]} */ ([-wide / 2 - BESIDE_TABLE_M, -deep / 2 - BEFORE_TABLE_M]),
-      high: /** @type {[number, number]} */ ([wide / 2 + BESIDE_TABLE_M, deep / 2 + BEYOND_TABLE_M]),
+      low: /** @type {Point} */ ([-wide / 2 - BESIDE_TABLE_M, -deep / 2 - BEFORE_TABLE_M]),
+      high: /** @type {Point} */ ([wide / 2 + BESIDE_TABLE_M, deep / 2 + BEYOND_TABLE_M]),
     };
   }
 

@@ -1,6 +1,6 @@
 /** Points, segments and rings in the plane. A ring is a list of points, the first not repeated. */
 
-/** @typedef {[number, number]} Point */
+/** @import { Point, Pose } from "pleat" */
 
 /** @param {Point} a @param {Point} b @returns {Point} */
 export const plus = (a, b) => [a[0] + b[0], a[1] + b[1]];
@@ -61,6 +61,7 @@ export const edgesOf = (ring) => ring.map((point, index) => [point, ring[(index 
 
 /** What of a ring is left of a -> b. @param {Point[]} ring @param {Point} a @param {Point} b @returns {Point[]} */
 export function leftPart(ring, a, b) {
+  /** @param {Point} p */
   const side = (p) => cross(minus(b, a), minus(p, a));
   return edgesOf(ring).flatMap(([p, q]) => {
     const [before, after] = [side(p), side(q)];
@@ -81,6 +82,7 @@ export function isInside(p, rings) {
 
 /** The place on the rings' edges that is nearest. @param {Point} p @param {Point[][]} rings @returns {Point|null} */
 export function nearestOnRings(p, rings) {
+  /** @type {Point|null} */
   let best = null;
   for (const [a, b] of rings.flatMap(edgesOf)) {
     const here = nearestOn(p, a, b);
@@ -89,7 +91,12 @@ export function nearestOnRings(p, rings) {
   return best;
 }
 
-/** Where the line through a and b meets the rings: how far along, in lengths of a -> b, in order. */
+/**
+ * Where the line through a and b meets the rings: how far along, in lengths of a -> b, in order.
+ * @param {Point} a
+ * @param {Point} b
+ * @param {Point[][]} rings
+ */
 export function crossings(a, b, rings) {
   const along = minus(b, a);
   const found = [];
@@ -102,10 +109,18 @@ export function crossings(a, b, rings) {
   return found.sort((s, t) => s - t);
 }
 
-/** The chord of the rings on the line through a and b that lies about the middle of both; null without one. */
+/**
+ * The chord of the rings on the line through a and b that lies about the middle of both; null without one.
+ * @param {Point} a
+ * @param {Point} b
+ * @param {Point[][]} rings
+ * @returns {[Point, Point]|null}
+ */
 export function chordAlong(a, b, rings) {
   const at = crossings(a, b, rings);
+  /** @param {number} t */
   const point = (t) => plus(a, times(minus(b, a), t));
+  /** @type {{away: number, ends: [Point, Point]}|null} */
   let best = null;
   for (let index = 0; index + 1 < at.length; index += 1) {
     const middle = (at[index] + at[index + 1]) / 2;
@@ -113,7 +128,7 @@ export function chordAlong(a, b, rings) {
     const away = Math.max(at[index] - 0.5, 0.5 - at[index + 1], 0);
     if (!best || away < best.away) best = { away, ends: [point(at[index]), point(at[index + 1])] };
   }
-  return best?.ends ?? null;
+  return best && best.ends;
 }
 
 /** @param {Point[]} points @returns {{low: Point, high: Point}|null} */
@@ -122,8 +137,6 @@ export function boxOf(points) {
   const [xs, ys] = [points.map((p) => p[0]), points.map((p) => p[1])];
   return { low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] };
 }
-
-/** @typedef {{x_m: number, y_m: number, yaw_rad: number}} Pose */
 
 /** A pose's inner point in its outer frame. @param {Pose} pose @param {Point} p */
 export const toOuter = (pose, p) => plus(turned(p, pose.yaw_rad), [pose.x_m, pose.y_m]);

@@ -2,6 +2,8 @@
  * One drag: shown at once, sent as previews while it lasts, one step of the history when it ends, none if dropped.
  */
 
+/** @import { Change } from "../edit_queue.js" */
+
 const EVERY_MS = 80;
 let count = 0;
 
@@ -11,32 +13,35 @@ export class Gesture {
     this.board = board;
     this.label = label;
     this.key = `drag-${Date.now().toString(36)}-${(count += 1)}`;
-    /** @type {((drawing: any) => void)|null} */
+    /** @type {Change|null} */
     this.change = null;
+    /** @type {Change|null} the one that was sent last */
+    this.sent = null;
     this.isOver = false;
     /** @type {number|undefined} */
     this.timer = undefined;
   }
 
   /**
-   * @param {(drawing: any) => void} change may be made again and again: it says where things shall be, not by how much
+   * @param {Change} change may be made again and again: it says where things shall be, not by how much
    */
   show(change) {
     this.change = change;
     this.board.showDraft(change);
     if (this.timer !== undefined) return;
-    this.send();
+    this.send(change);
     this.timer = setTimeout(() => this.next(), EVERY_MS);
   }
 
   next() {
     this.timer = undefined;
-    if (!this.isOver && this.change !== this.sent) this.show(this.change);
+    if (!this.isOver && this.change && this.change !== this.sent) this.show(this.change);
   }
 
-  send() {
-    this.sent = this.change;
-    this.board.store.edit(this.label, this.change, { phase: "preview", gesture: this.key });
+  /** @param {Change} change */
+  send(change) {
+    this.sent = change;
+    this.board.store.edit(this.label, change, { phase: "preview", gesture: this.key });
   }
 
   async commit() {

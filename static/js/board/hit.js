@@ -2,12 +2,25 @@
 
 import { between, distance, isInside, nearestOn } from "./geometry.js";
 
+/** @import { Corner, Drawing, Point } from "pleat" */
+/** @import { Board } from "./board.js" */
+
 const HIT_PX = 12;
 const TOUCH_PX = 22;
 const LINE_PX = 7;
+const ENDS = /** @type {const} */ (["start", "end"]);
 
-/** @typedef {"vertex"|"end"|"middle"|"fold"|"edge"|"cloth"} Kind */
-/** @typedef {{kind: Kind, id: string, end?: "start"|"end", edge?: string}} Hit */
+/**
+ * What was hit, by its id; cloth has none, and an edge goes by the corner that it starts at.
+ * @typedef {{kind: "end", id: string, end: "start"|"end", edge?: undefined}
+ *   | {kind: "middle"|"edge", id: string, edge: string}
+ *   | {kind: "vertex"|"fold", id: string, edge?: undefined}
+ *   | {kind: "cloth", id: "", edge?: undefined}} Hit
+ */
+/**
+ * What a handle is of, where it is, how far behind others (px).
+ * @typedef {[found: Hit, at: Point, bias: number]} Handle
+ */
 
 /**
  * @param {import("./board.js").Board} board
@@ -20,8 +33,15 @@ export function hit(board, pointer) {
   return handleAt(board, pointer.px, reach) ?? lineAt(board, pointer.px, line) ?? clothAt(board, pointer.at);
 }
 
-/** The nearest handle; of those at one place the selected one, then the corner. */
+/**
+ * The nearest handle; of those at one place the selected one, then the corner.
+ * @param {Board} board
+ * @param {Point} px
+ * @param {number} reach
+ * @returns {Hit|null}
+ */
 function handleAt(board, px, reach) {
+  /** @type {{found: Hit, rank: number}|null} */
   let best = null;
   for (const [found, at, bias] of handles(board)) {
     const away = distance(px, at);
@@ -30,12 +50,13 @@ function handleAt(board, px, reach) {
   return best?.found ?? null;
 }
 
+/** @param {Board} board @returns {Generator<Handle>} */
 function* handles(board) {
   const { drawing, view, step, isSpread } = board;
   for (const [index, fold] of drawing.folds.entries()) {
     if (index < step) continue;
     const bias = board.isSelected("fold", fold.id) ? -4 : 1;
-    for (const end of ["start", "end"]) yield [{ kind: "end", id: fold.id, end }, view.toPx(fold[end].point), bias];
+    for (const end of ENDS) yield [{ kind: "end", id: fold.id, end }, view.toPx(fold[end].point), bias];
   }
   if (!isSpread) return;
   for (const { id, point } of drawing.outline)
@@ -46,25 +67,30 @@ function* handles(board) {
   }
 }
 
+/** @param {Board} board @param {Point} px @param {number} reach @returns {Hit|null} */
 function lineAt(board, px, reach) {
   const { drawing, view, step, isSpread } = board;
-  /** @type {any} */
-  let best = null;
+  /** @type {{found: Hit, away: number}[]} */
+  const near = [];
+  /** @param {Hit} found @param {Point} a @param {Point} b */
   const consider = (found, a, b) => {
     const away = distance(px, nearestOn(px, view.toPx(a), view.toPx(b)));
-    if (away <= reach && (!best || away < best.away)) best = { found, away };
+    if (away <= reach) near.push({ found, away });
   };
   for (const [index, fold] of drawing.folds.entries()) {
     if (index >= step) consider({ kind: "fold", id: fold.id }, fold.start.point, fold.end.point);
   }
   if (isSpread) for (const [a, b] of edges(drawing)) consider({ kind: "edge", id: a.id, edge: a.id }, a.point, b.point);
-  return best?.found ?? null;
+  const least = Math.min(...near.map(({ away }) => away));
+  return near.find(({ away }) => away === least)?.found ?? null;
 }
 
+/** @param {Board} board @param {Point} at @returns {Hit|null} */
 function clothAt(board, at) {
   return isInside(at, board.rings) ? { kind: "cloth", id: "" } : null;
 }
 
+/** @param {Drawing} drawing @returns {[Corner, Corner][]} */
 function edges({ outline }) {
   return outline.length < 2 ? [] : outline.map((corner, index) => [corner, outline[(index + 1) % outline.length]]);
 }

@@ -1,10 +1,15 @@
 /** Keys on the board. With a drawing tool the arrow keys lead a cross and Enter puts a point there. */
 
-import { plus } from "./geometry.js";
+import { plus, times } from "./geometry.js";
+
+/** @import { Point } from "pleat" */
+/** @import { Items } from "./sheet.js" */
+/** @import { Selection } from "../store.js" */
 
 const FINE_M = 0.001;
 const STEP_M = 0.01;
 const WIDE_M = 0.1;
+/** @type {Record<string, Point>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NUMBER = /^[0-9.]$/;
 const DRAWING = new Set(["outline", "fold", "measure"]);
@@ -13,7 +18,7 @@ export class Keyboard {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    /** Where the cross is, article frame (m). @type {[number, number]|null} */
+    /** Where the cross is, article frame (m). @type {Point|null} */
     this.cross = null;
     /** Whether the cross, and not the mouse, leads. */
     this.isOn = false;
@@ -32,7 +37,7 @@ export class Keyboard {
     board.render();
   }
 
-  /** Whether a key is the board's; what it means is done. */
+  /** Whether a key is the board's; what it means is done. @param {KeyboardEvent} event */
   isOurs(event) {
     const { board } = this;
     const { tool } = board;
@@ -52,11 +57,12 @@ export class Keyboard {
     return tool.key(event);
   }
 
+  /** @param {KeyboardEvent} event */
   isOnItem(event) {
     return event.target !== this.board.svg && this.board.tool.name === "select";
   }
 
-  /** Tab goes to the number that is being drawn, or to those of what is selected. */
+  /** Tab goes to the number that is being drawn, or to those of what is selected. @param {KeyboardEvent} event */
   toNumbers(event) {
     const { board } = this;
     if (board.tool.stretch) {
@@ -66,14 +72,12 @@ export class Keyboard {
     return event.target === board.svg && board.store.selection !== null && board.numbers.focus();
   }
 
+  /** @param {KeyboardEvent} event */
   lead(event) {
     const { board } = this;
     const step = event.altKey ? FINE_M : event.shiftKey ? WIDE_M : STEP_M;
     const from = this.cross ?? this.first();
-    const [x, y] = plus(
-      from,
-      ARROWS[event.key].map((way) => way * step),
-    );
+    const [x, y] = plus(from, times(ARROWS[event.key], step));
     this.cross = [round(x), round(y)];
     this.begin(event);
     board.announce(board.whereText(this.cross));
@@ -84,11 +88,11 @@ export class Keyboard {
   begin(event) {
     this.isOn = true;
     this.cross ??= this.first();
-    this.reveal();
+    this.reveal(this.cross);
     this.board.tool.hover(this.pointer(event));
   }
 
-  /** The middle of what is seen, on whole centimetres; for a fold the cloth's first corner. */
+  /** The middle of what is seen, on whole centimetres; for a fold the cloth's first corner. @returns {Point} */
   first() {
     const { view, rings, tool } = this.board;
     const corner = tool.name === "fold" ? rings[0]?.[0] : null;
@@ -97,10 +101,10 @@ export class Keyboard {
     return [Math.round(x / STEP_M) * STEP_M, Math.round(y / STEP_M) * STEP_M];
   }
 
-  /** Keep the cross on the board. */
-  reveal() {
+  /** Keep the cross on the board. @param {Point} cross */
+  reveal(cross) {
     const { view } = this.board;
-    const [x, y] = view.toPx(this.cross);
+    const [x, y] = view.toPx(cross);
     const margin = 24;
     view.pan([
       Math.max(margin - x, 0) - Math.max(x - (view.width - margin), 0),
@@ -125,19 +129,20 @@ export class Keyboard {
   /** How far an arrow key moves what is selected (m); null for other keys. @param {KeyboardEvent} event */
   nudge(event) {
     const way = ARROWS[event.key];
-    return way && !event.altKey ? way.map((part) => part * (event.shiftKey ? STEP_M : FINE_M)) : null;
+    return way && !event.altKey ? times(way, event.shiftKey ? STEP_M : FINE_M) : null;
   }
 
-  /** A corner or fold that gets the focus is selected. */
+  /** A corner or fold that gets the focus is selected. @param {FocusEvent} event */
   focused(event) {
     const { board } = this;
     const target = /** @type {SVGElement} */ (event.target);
-    if (event.relatedTarget && !board.root.contains(event.relatedTarget))
+    if (event.relatedTarget instanceof Node && !board.root.contains(event.relatedTarget))
       board.svg.classList.toggle("is-pointed", !target.matches(":focus-visible"));
     const { kind, id } = target.dataset;
-    if (kind && id) board.store.select({ kind: /** @type {any} */ (kind), ids: [id] });
+    if (kind && id) board.store.select({ kind: /** @type {Selection["kind"]} */ (kind), ids: [id] });
   }
 
+  /** @returns {Items} */
   items() {
     if (!this.isOn || !this.cross || !DRAWING.has(this.board.tool.name)) return [];
     const [x, y] = this.board.view.toPx(this.cross);
@@ -145,4 +150,5 @@ export class Keyboard {
   }
 }
 
+/** @param {number} metres */
 const round = (metres) => Math.round(metres * 1e6) / 1e6;

@@ -5,6 +5,8 @@ import { isInside } from "./geometry.js";
 import { legendRows, SWATCH } from "./legend_rows.js";
 import { svg } from "./sheet.js";
 
+/** @import { Point } from "pleat" */
+
 /** The corners of the board, the best first where they are alike; on a phone the inset is in the last. */
 const CORNERS = ["is-top is-right", "is-top is-left", "is-bottom is-left", "is-bottom is-right"];
 const IS_PHONE = matchMedia("(max-width: 720px)");
@@ -59,6 +61,7 @@ export class Legend {
   /** Two columns where one is too high; where there is no room for them either, it is only read out. */
   column() {
     const most = MOST * this.board.place.height;
+    /** @param {string} className */
     const fits = (className) => {
       this.root.className = className;
       return this.root.offsetHeight <= most;
@@ -70,11 +73,12 @@ export class Legend {
   cloth() {
     const { svg: sheet, view, shown } = this.board;
     const [here, there] = [this.root.getBoundingClientRect(), sheet.getBoundingClientRect()];
+    /** @param {number} n */
     const share = (n) => n / (LOOKS - 1);
     const looks = Array.from({ length: LOOKS ** 2 }, (_, n) => [share(n % LOOKS), share(Math.floor(n / LOOKS))]);
     return looks.filter(([u, v]) => {
       const at = [here.x - there.x + u * here.width, here.y - there.y + v * here.height];
-      return isInside(view.toM(/** @type {[number, number]} */ (at)), shown.silhouette);
+      return isInside(view.toM(/** @type {Point} */ (at)), shown.silhouette);
     }).length;
   }
 }

@@ -5,10 +5,15 @@ import { drawChecks } from "./draw_findings.js";
 import { fullness } from "./draw_overlays.js";
 import { length } from "./units.js";
 
+/** @import { Overlays, Places } from "pleat" */
+
 /** A swatch is so large, in the units that its marks are written in. */
 export const SWATCH = { width: 34, height: 18 };
 
-/** @typedef {Record<string, unknown> & {tag: string}} Mark what a swatch is drawn of: an SVG element and its attributes */
+/**
+ * What a swatch is drawn of: an SVG element and its attributes.
+ * @typedef {Record<string, unknown> & {tag: "path"|"rect"|"circle"}} Mark
+ */
 /** @typedef {{words: string, marks: Mark[]}} Row */
 
 /** @param {import("./board.js").Board} board @returns {Row[]} */
@@ -26,8 +31,11 @@ export function legendRows(board) {
 /** A path of one point leaves no trace. @param {import("./sheet.js").Item} item */
 const isSeen = ({ tag, d }) => tag !== "path" || /[Lh]/.test(String(d));
 
-const line = (className, d = "M1 9L33 9") => ({ tag: "path", class: className, d });
-const cell = (className, x, width = 15) => ({ tag: "rect", class: className, x, y: 2, width, height: 14 });
+/** @param {string} className @param {string} d */
+const line = (className, d = "M1 9L33 9") => /** @type {const} */ ({ tag: "path", class: className, d });
+/** @param {string} className @param {number} x @param {number} width */
+const cell = (className, x, width = 15) =>
+  /** @type {const} */ ({ tag: "rect", class: className, x, y: 2, width, height: 14 });
 
 /** What means the same at every moment. @type {{words: string, marks: (Mark & {class: string})[]}[]} */
 const PLAIN = [
@@ -44,11 +52,17 @@ const PLAIN = [
   { words: "Where a hand takes it", marks: [{ tag: "circle", class: "grip", cx: 17, cy: 9, r: 8 }] },
 ];
 
+/** @param {string} className */
 function end(className) {
-  return { tag: "circle", class: className, cx: 26, cy: 9, r: 6 };
+  return /** @type {const} */ ({ tag: "circle", class: className, cx: 26, cy: 9, r: 6 });
 }
 
-/** Shades with comfort, where they overlap twice as strong; and a line round what is within reach at all. */
+/**
+ * Shades with comfort, where they overlap twice as strong; and a line round what is within reach at all.
+ * @param {Overlays|null} found
+ * @param {Set<string>} drawn
+ * @returns {Row[]}
+ */
 function reach(found, drawn) {
   const arms = (found?.reach ?? []).filter(({ arm }) => drawn.has(`reach is-${arm}`));
   const letters = arms.map(({ arm }) => arm[0].toUpperCase());
@@ -63,7 +77,7 @@ function reach(found, drawn) {
   ]);
 }
 
-/** @param {any} places */
+/** @param {Places|null} places @returns {Row[]} */
 function costs(places) {
   const known = (places?.cells ?? []).map(({ cost_s }) => cost_s).filter((cost) => cost !== null);
   const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => `${cost.toFixed(1)}\u00A0s`);

@@ -1,6 +1,10 @@
 /** A frame pulled open round corners. */
 
-/** @param {[[number, number], [number, number]]} frame two opposite corners (px) */
+/** @import { Point } from "pleat" */
+
+/** @typedef {[Point, Point]} Frame two opposite corners (px) */
+
+/** @param {Frame} frame */
 export function marquee([[ax, ay], [bx, by]]) {
   return {
     key: "frame",
@@ -16,10 +20,11 @@ export function marquee([[ax, ay], [bx, by]]) {
 /**
  * The corners within, or else the folds whose ends both are.
  * @param {import("./board.js").Board} board
- * @param {[[number, number], [number, number]]} frame
+ * @param {Frame} frame
  * @returns {import("../store.js").Selection|null}
  */
 export function cornersWithin(board, [[ax, ay], [bx, by]]) {
+  /** @param {Point} point */
   const isIn = (point) => {
     const [x, y] = board.view.toPx(point);
     return (x - ax) * (x - bx) <= 0 && (y - ay) * (y - by) <= 0;

@@ -5,6 +5,8 @@ import { Blank } from "./blank.js";
 import { Board } from "./board.js";
 import { Rail } from "./rail.js";
 
+/** @import { ToolName } from "./tools/tool.js" */
+
 /**
  * @param {import("../store.js").Store} store
  * @param {{togglePlay: () => void, startNew: () => void, startImport: () => void}} verbs
@@ -17,12 +19,19 @@ export function mountBoard(store, verbs) {
   return board;
 }
 
-/** Take up the tool that the address names, as soon as the document is there; later it is the reader's choice. */
+/**
+ * Take up the tool that the address names, as soon as the document is there; later it is the reader's choice.
+ * @param {Board} board
+ * @param {string} name
+ */
 function takeUp(board, name) {
-  if (!board.tools[name]) return;
+  if (!isTool(board, name)) return;
   history.replaceState(null, "", location.pathname);
   board.store.addEventListener("document", () => board.choose(name), { once: true });
 }
+
+/** @param {Board} board @param {string} name @returns {name is ToolName} */
+const isTool = (board, name) => name in board.tools;
 
 /** The board's own keys, by letter. @param {Board} board */
 export function boardKeys(board) {

@@ -8,9 +8,13 @@ import { atLength } from "./snap.js";
 import { laid } from "./tools/place.js";
 import { evaluated, number, parsed, problemOf, unit } from "./units.js";
 
+/** @import { Drawing, Fold, Point } from "pleat" */
+
 const DEGREE = Math.PI / 180;
 
 /** @typedef {{label: string, name: string, value: string, put: (text: string) => string}} Field */
+/** @typedef {(metres: number, drawing: Drawing) => void} Put */
+/** @typedef {{key: string, at: Point, fields: Field[]}|null} Found */
 
 export class Numbers {
   /** @param {import("./board.js").Board} board */
@@ -21,7 +25,9 @@ export class Numbers {
     this.root.setAttribute("aria-label", "Numbers");
     this.root.hidden = true;
     this.shown = "";
-    /** @type {[number, number]} */
+    /** @type {Field[]} */
+    this.fields = [];
+    /** @type {Point} */
     this.side = [1, 1];
     board.root.append(this.root);
   }
@@ -36,19 +42,19 @@ export class Numbers {
     }
     const names = `${found.key} ${found.fields.map(({ name }) => name)} ${unit.name}`;
     const isNew = names !== this.shown;
-    if (isNew) this.root.replaceChildren(...found.fields.map((_, index) => this.row(index)));
-    this.shown = names;
     this.fields = found.fields;
+    if (isNew) this.root.replaceChildren(...found.fields.map((field, index) => this.row(field, index)));
+    this.shown = names;
     for (const [index, input] of [...this.root.querySelectorAll("input")].entries()) {
       if (document.activeElement !== input) input.value = found.fields[index].value;
     }
     this.put(found.at, isNew);
   }
 
-  /** Beside its place; on which side is chosen when it appears. @param {[number, number]} at px @param {boolean} isNew */
+  /** Beside its place; on which side is chosen when it appears. @param {Point} at px @param {boolean} isNew */
   put(at, isNew) {
     const { width, height, top } = this.board.place;
-    const size = /** @type {[number, number]} */ ([this.root.offsetWidth, this.root.offsetHeight]);
+    const size = /** @type {Point} */ ([this.root.offsetWidth, this.root.offsetHeight]);
     if (isNew) this.side = sideOf(at, size, [width, height], this.board.pointer.last);
     const [x, y] = placeOf(at, size, [width, height], this.side);
     this.root.style.left = `${x}px`;
@@ -62,11 +68,11 @@ export class Numbers {
     return Boolean(input);
   }
 
-  row(index) {
+  /** @param {Field} field @param {number} index */
+  row({ label, name }, index) {
     const input = /** @type {HTMLInputElement} */ (element("input", "field"));
     input.type = "text";
     input.autocomplete = "off";
-    const { label, name } = (this.fields = this.found().fields)[index];
     input.setAttribute("aria-label", name);
     input.addEventListener("focus", () => input.select());
     input.addEventListener("change", () => this.take(index, input));
@@ -74,6 +80,7 @@ export class Numbers {
     return element("label", "number-at", element("span", "", label), input);
   }
 
+  /** @param {number} index @param {HTMLInputElement} input */
   take(index, input) {
     const problem = this.fields[index].put(input.value);
     if (!problem) return;
@@ -81,7 +88,12 @@ export class Numbers {
     input.value = this.fields[index].value;
   }
 
-  /** With Enter or Escape the field is left, and what was written in it changes something as it always does then. */
+  /**
+   * With Enter or Escape the field is left, and what was written in it changes something as it always does then.
+   * @param {KeyboardEvent} event
+   * @param {number} index
+   * @param {HTMLInputElement} input
+   */
   key(event, index, input) {
     event.stopPropagation();
     if (event.key === "Escape") input.value = this.fields[index].value;
@@ -91,7 +103,7 @@ export class Numbers {
     }
   }
 
-  /** @returns {{key: string, at: [number, number], fields: Field[]}|null} */
+  /** @returns {Found} */
   found() {
     const { kind, ids } = this.board.store.selection ?? {};
     if (this.board.isPlacing) return this.ofPlacement();
@@ -102,9 +114,11 @@ export class Numbers {
     return kind === "fold" ? this.ofFold(id) : null;
   }
 
+  /** @param {string} id @returns {Found} */
   ofCorner(id) {
     const corner = this.board.drawing.outline.find((other) => other.id === id);
     if (!corner) return null;
+    /** @param {0|1} axis @returns {Field} */
     const field = (axis) => ({
       label: "xy"[axis],
       name: `${"xy"[axis]} of the vertex`,
@@ -113,9 +127,8 @@ export class Numbers {
         this.move(
           text,
           (metres, drawing) => {
-            const point = /** @type {[number, number]} */ ([...drawing.outline.find((other) => other.id === id).point]);
-            point[axis] = metres;
-            moveCorners(drawing, new Map([[id, point]]));
+            const now = drawing.outline.find((other) => other.id === id)?.point ?? corner.point;
+            moveCorners(drawing, new Map([[id, withPart(now, axis, metres)]]));
           },
           "Move vertex",
         ),
@@ -123,11 +136,13 @@ export class Numbers {
     return { key: id, at: this.board.view.toPx(corner.point), fields: [field(0), field(1)] };
   }
 
+  /** @param {string} id @returns {Found} */
   ofEdge(id) {
     const { outline } = this.board.drawing;
     const index = outline.findIndex((corner) => corner.id === id);
     const next = outline[(index + 1) % outline.length];
     const [a, b] = [outline[index].point, next.point];
+    /** @type {Field} */
     const field = {
       label: "length",
       name: "Length of the edge",
@@ -143,20 +158,29 @@ export class Numbers {
     return { key: id, at: this.board.view.toPx(between(a, b)), fields: [field] };
   }
 
+  /** @param {string} id @returns {Found} */
   ofFold(id) {
     const fold = this.board.fold(id);
-    const fields = ["start", "end"].flatMap((end) => this.ofEnd(fold, end));
+    if (!fold) return null;
+    const fields = [...this.ofEnd(fold, "start"), ...this.ofEnd(fold, "end")];
     return fields.length ? { key: id, at: this.board.view.toPx(fold.end.point), fields } : null;
   }
 
-  /** How far along its edge an end is; of an end at a corner or on a crease there is nothing to say. */
+  /**
+   * How far along its edge an end is; of an end at a corner or on a crease there is nothing to say.
+   * @param {Fold} fold
+   * @param {"start"|"end"} end
+   * @returns {Field[]}
+   */
   ofEnd(fold, end) {
     const { on } = fold[end];
-    const [from, to] = ["from", "to"].map(
-      (side) => this.board.drawing.outline.find(({ id }) => id === on?.[side])?.point,
-    );
-    if (on?.kind !== "edge" || !from || !to) return [];
+    if (on?.kind !== "edge") return [];
+    const { outline } = this.board.drawing;
+    const from = outline.find((corner) => corner.id === on.from)?.point;
+    const to = outline.find((corner) => corner.id === on.to)?.point;
+    if (!from || !to) return [];
     const whole = distance(from, to);
+    /** @type {Put} */
     const put = (metres, drawing) =>
       moveFold(drawing, fold.id, {
         [end]: { point: fold[end].point, on: { ...on, fraction: Math.min(metres / whole, 1) } },
@@ -171,12 +195,14 @@ export class Numbers {
     ];
   }
 
+  /** @returns {Found} */
   ofPlacement() {
     const { drawing, view } = this.board;
     if (!drawing.outline.length) return null;
     const middle = middleOf(drawing);
     const { placement } = drawing;
     const centre = toOuter(placement, middle);
+    /** @param {0|1} axis @returns {Field} */
     const place = (axis) => ({
       label: ["ahead", "left"][axis],
       name: ["Ahead of the table's middle", "Left of the table's middle"][axis],
@@ -185,13 +211,12 @@ export class Numbers {
         this.move(
           text,
           (metres, changed) => {
-            const at = /** @type {[number, number]} */ ([...centre]);
-            at[axis] = metres;
-            changed.placement = laid(at, middle, placement.yaw_rad);
+            changed.placement = laid(withPart(centre, axis, metres), middle, placement.yaw_rad);
           },
           "Place garment",
         ),
     });
+    /** @type {Field} */
     const turn = {
       label: "turn \u00B0",
       name: "Turn in degrees",
@@ -206,13 +231,30 @@ export class Numbers {
         return "";
       },
     };
-    return { key: "place", at: /** @type {[number, number]} */ ([view.width, 0]), fields: [place(0), place(1), turn] };
+    return { key: "place", at: [view.width, 0], fields: [place(0), place(1), turn] };
   }
 
-  /** Make a change of a length that was written, or tell what is wrong with it. @returns {string} */
+  /**
+   * Make a change of a length that was written, or tell what is wrong with it.
+   * @param {string} text
+   * @param {Put} change
+   * @param {string} label the name of the step
+   * @param {number} [least] (m)
+   * @returns {string}
+   */
   move(text, change, label, least = undefined) {
     const problem = problemOf(text, least);
-    if (!problem) this.board.store.edit(label, (drawing) => change(parsed(text), drawing));
+    const metres = parsed(text);
+    if (!problem && metres !== null) this.board.store.edit(label, (drawing) => change(metres, drawing));
     return problem;
   }
 }
+
+/**
+ * A point with one of its coordinates replaced.
+ * @param {Point} point
+ * @param {0|1} axis
+ * @param {number} value
+ * @returns {Point}
+ */
+const withPart = ([x, y], axis, value) => (axis === 0 ? [value, y] : [x, value]);

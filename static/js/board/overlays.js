@@ -1,7 +1,10 @@
 /** "See why": asks the server for what is switched on, at the moment that is looked at. */
 
+import { present } from "../present.js";
 import { drawOver, drawUnder } from "./draw_overlays.js";
 import { reasonWithPlace } from "./draw_reason.js";
+
+/** @import { Overlays as Found, Places } from "pleat" */
 
 /** What the server's overlays are made of; grips come with the plan. */
 const PARTS = ["reach", "slip", "base", "paths"];
@@ -12,16 +15,16 @@ export class Overlays {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    /** @type {any} */
+    /** @type {Found|null} */
     this.found = null;
-    /** @type {any} */
+    /** @type {Places|null} */
     this.places = null;
     this.asked = "";
     this.askedPlaces = "";
     /** @type {string[]} what `found` was asked for */
     this.known = [];
     this.isMapping = false;
-    /** The map that was made last, and for which version. */
+    /** The map that was made last, and for which version. @type {{version: string, places: Places|null}} */
     this.mapped = { version: "", places: null };
     /** @type {import("./sheet.js").Item[]} what was drawn last beneath the cloth */
     this.beneath = [];
@@ -57,6 +60,7 @@ export class Overlays {
   get query() {
     const { store, isPlacing, drawing } = this.board;
     const show = this.wanted.join(",");
+    /** @type {Record<string, string>} */
     const moment = isPlacing
       ? { station: drawing.start_station }
       : store.hoverTime !== null
@@ -92,14 +96,14 @@ export class Overlays {
 
   async lookForPlaces() {
     const { store } = this.board;
-    const isOn = store.overlays.has("places") && store.state;
-    const key = isOn ? String(store.state.version) : "";
+    const state = store.overlays.has("places") ? store.state : null;
+    const key = state ? String(state.version) : "";
     if (key === this.askedPlaces) return;
     this.askedPlaces = key;
     this.places = null;
     this.isMapping = false;
     this.stopPlaces.abort();
-    if (!isOn || store.state.gesture) return;
+    if (!state || state.gesture) return;
     if (key === this.mapped.version) {
       this.places = this.mapped.places;
       this.board.render();
@@ -118,12 +122,12 @@ export class Overlays {
   }
 
   under() {
-    this.beneath = drawUnder(this.board, this.shown.length ? this.found : null, this.places).filter(Boolean);
+    this.beneath = present(drawUnder(this.board, this.shown.length ? this.found : null, this.places));
     return this.beneath;
   }
 
   over() {
-    this.above = drawOver(this.board, this.shown.length ? this.found : null).filter(Boolean);
+    this.above = present(drawOver(this.board, this.shown.length ? this.found : null));
     return this.above;
   }
 
@@ -133,7 +137,11 @@ export class Overlays {
   }
 }
 
-/** What the server answers; null where it does not, or is not waited for. @param {string} url @param {RequestInit} how */
+/**
+ * What the server answers; null where it does not, or is not waited for.
+ * @param {string} url
+ * @param {RequestInit} how
+ */
 const told = (url, how = {}) =>
   fetch(url, how)
     .then((answer) => (answer.ok ? answer.json() : null))

@@ -68,6 +68,7 @@ export class Photo {
   keep() {
     this.onChange();
     clearTimeout(this.timer);
+    if (!this.shown) return;
     const { url: _, ...kept } = this.shown;
     this.timer = setTimeout(() => this.transact("readwrite", (store) => store.put(kept, this.id)).catch(() => {}), 200);
   }

@@ -5,6 +5,8 @@
 
 import { between, distance, minus } from "./geometry.js";
 
+/** @import { Point } from "pleat" */
+
 const DRAG_PX = 4;
 const TOUCH_DRAG_PX = 6;
 const ZOOM_PER_PX = 0.0016;
@@ -14,8 +16,8 @@ const PINCH = 5;
 
 /**
  * @typedef {object} Pointer
- * @property {[number, number]} px from the board's top left
- * @property {[number, number]} at article frame (m)
+ * @property {Point} px from the board's top left
+ * @property {Point} at article frame (m)
  * @property {boolean} isTouch
  * @property {boolean} isKeyboard
  * @property {boolean} ctrl
@@ -27,15 +29,17 @@ export class PointerInput {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    /** @type {Map<number, [number, number]>} fingers on the board */
+    /** @type {Map<number, Point>} fingers on the board */
     this.fingers = new Map();
-    /** @type {{id: number, px: [number, number], hasMoved: boolean}|null} */
+    /** @type {{id: number, px: Point, hasMoved: boolean}|null} */
     this.pressed = null;
-    /** @type {{id: number, px: [number, number]}|null} */
+    /** @type {{id: number, px: Point}|null} */
     this.panning = null;
-    /** Where a pointer was last. @type {[number, number]|null} */
+    /** Where a pointer was last. @type {Point|null} */
     this.last = null;
     this.isSpaceDown = false;
+    /** Whether the board was moved since the space bar was pressed. */
+    this.hasPanned = false;
     this.isOver = false;
     const { svg } = board;
     svg.addEventListener("pointerdown", (event) => this.down(event));
@@ -46,7 +50,7 @@ export class PointerInput {
     svg.addEventListener("pointerleave", () => this.leave());
     svg.addEventListener("dblclick", (event) => board.tool.twice(this.pointer(event)));
     svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    svg.addEventListener("contextmenu", (event) => event.pointerType === "touch" && event.preventDefault());
+    svg.addEventListener("contextmenu", (event) => isTouch(event) && event.preventDefault());
     window.addEventListener("keydown", (event) => this.space(event, true), true);
     window.addEventListener("keyup", (event) => this.space(event, false), true);
   }
@@ -54,16 +58,18 @@ export class PointerInput {
   /** @param {MouseEvent} event @returns {Pointer} */
   pointer(event) {
     const px = (this.last = this.place(event));
-    const isTouch = /** @type {PointerEvent} */ (event).pointerType === "touch";
     const { ctrlKey, metaKey, shiftKey: shift, altKey: alt } = event;
-    return { px, at: this.board.view.toM(px), isTouch, isKeyboard: false, ctrl: ctrlKey || metaKey, shift, alt };
+    const at = this.board.view.toM(px);
+    return { px, at, isTouch: isTouch(event), isKeyboard: false, ctrl: ctrlKey || metaKey, shift, alt };
   }
 
+  /** @param {MouseEvent} event @returns {Point} */
   place(event) {
     const box = this.board.svg.getBoundingClientRect();
-    return /** @type {[number, number]} */ ([event.clientX - box.left, event.clientY - box.top]);
+    return [event.clientX - box.left, event.clientY - box.top];
   }
 
+  /** @param {PointerEvent} event */
   down(event) {
     this.board.svg.classList.add("is-pointed"); // no ring round the board for those who point
     this.board.svg.focus({ preventScroll: true });
@@ -89,6 +95,7 @@ export class PointerInput {
     this.board.render();
   }
 
+  /** @param {PointerEvent} event */
   move(event) {
     if (this.fingers.has(event.pointerId) && this.fingers.size === 2) {
       this.pinch(event);
@@ -108,14 +115,18 @@ export class PointerInput {
     this.board.render();
   }
 
+  /** @param {PointerEvent} event */
   drag(event) {
+    const { pressed } = this;
+    if (!pressed) return;
     const pointer = this.pointer(event);
     const threshold = pointer.isTouch ? TOUCH_DRAG_PX : DRAG_PX;
-    this.pressed.hasMoved ||= distance(pointer.px, this.pressed.px) >= threshold;
+    pressed.hasMoved ||= distance(pointer.px, pressed.px) >= threshold;
     this.board.loupe.show(pointer.isTouch ? pointer : null);
-    if (this.pressed.hasMoved) this.board.tool.drag(pointer);
+    if (pressed.hasMoved) this.board.tool.drag(pointer);
   }
 
+  /** @param {PointerEvent} event */
   up(event) {
     this.fingers.delete(event.pointerId);
     if (this.panning?.id === event.pointerId) this.endPan();
@@ -127,6 +138,7 @@ export class PointerInput {
     this.board.render();
   }
 
+  /** @param {PointerEvent} event */
   cancel(event) {
     this.fingers.delete(event.pointerId);
     if (this.panning?.id === event.pointerId) this.endPan();
@@ -152,10 +164,11 @@ export class PointerInput {
     this.board.svg.classList.remove("is-panning");
   }
 
+  /** @param {PointerEvent} event */
   pinch(event) {
     const [[, there]] = [...this.fingers].filter(([id]) => id !== event.pointerId);
-    const before = this.fingers.get(event.pointerId);
     const now = this.place(event);
+    const before = this.fingers.get(event.pointerId) ?? now;
     this.fingers.set(event.pointerId, now);
     const { view } = this.board;
     view.pan(minus(between(now, there), between(before, there)));
@@ -163,6 +176,7 @@ export class PointerInput {
     this.board.render();
   }
 
+  /** @param {WheelEvent} event */
   wheel(event) {
     event.preventDefault();
     const px = (event.deltaMode === 1 ? LINE_PX : 1) * (event.ctrlKey ? PINCH : 1);
@@ -171,7 +185,11 @@ export class PointerInput {
     this.board.render();
   }
 
-  /** Over the board the space bar pans with the mouse, and plays if it was only pressed. */
+  /**
+   * Over the board the space bar pans with the mouse, and plays if it was only pressed.
+   * @param {KeyboardEvent} event
+   * @param {boolean} isDown
+   */
   space(event, isDown) {
     if (event.key !== " " || (isDown && (!this.isOver || !this.board.isOurs(event)))) return;
     if (isDown) {
@@ -184,3 +202,6 @@ export class PointerInput {
     this.board.svg.classList.toggle("can-pan", isDown);
   }
 }
+
+/** @param {MouseEvent} event */
+const isTouch = (event) => event instanceof PointerEvent && event.pointerType === "touch";

@@ -3,7 +3,9 @@
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 
-/** Name, label, key, drawing. */
+/** @import { ToolName } from "./tools/tool.js" */
+
+/** Name, label, key. @type {[ToolName, string, string][]} */
 const TOOLS = [
   ["select", "Select", "V"],
   ["outline", "Draw outline", "P"],
@@ -46,6 +48,7 @@ export class Rail {
   }
 }
 
+/** @param {Parameters<typeof icon>[0]} name @param {string} label @param {string} title @param {() => void} onClick */
 function railButton(name, label, title, onClick) {
   const made = button("rail-button", onClick, icon(name), element("span", "rail-word", label));
   made.setAttribute("aria-label", label);

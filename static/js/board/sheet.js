@@ -1,10 +1,20 @@
 /** SVG elements kept from one drawing to the next by their keys, so that focus and listeners outlive a change. */
 
+import { present } from "../present.js";
+
+/** @import { Point } from "pleat" */
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** @typedef {{key: string, tag: string, text?: string, [attribute: string]: unknown}} Item */
+/** @typedef {(Item|null|false|undefined)[]} Items some of which may be missing */
 
-/** @param {string} tag @param {Record<string, unknown>} attributes @returns {SVGElement} */
+/**
+ * @template {keyof SVGElementTagNameMap} T
+ * @param {T} tag
+ * @param {Record<string, unknown>} attributes
+ * @returns {SVGElementTagNameMap[T]}
+ */
 export function svg(tag, attributes = {}) {
   const made = document.createElementNS(SVG, tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
@@ -20,9 +30,9 @@ export class Sheet {
     this.kept = new Map();
   }
 
-  /** Show these items and nothing else, in this order. @param {(Item|null|false|undefined)[]} items */
+  /** Show these items and nothing else, in this order. @param {Items} items */
   draw(items) {
-    const wanted = /** @type {Item[]} */ (items.filter(Boolean));
+    const wanted = present(items);
     const keys = new Set(wanted.map((item) => item.key));
     for (const [key, { node }] of this.kept) {
       if (keys.has(key)) continue;
@@ -40,7 +50,8 @@ export class Sheet {
   /** @param {Item} item */
   put({ key, tag, text, ...attributes }) {
     const known = this.kept.get(key);
-    const entry = known?.node.tagName === tag ? known : { node: svg(tag), shown: {} };
+    const name = /** @type {keyof SVGElementTagNameMap} */ (tag);
+    const entry = known?.node.tagName === tag ? known : { node: svg(name), shown: {} };
     if (entry !== known) known?.node.remove();
     for (const name of new Set([...Object.keys(entry.shown), ...Object.keys(attributes)])) {
       const value = attributes[name];
@@ -55,7 +66,7 @@ export class Sheet {
   }
 }
 
-/** A path through points on the screen. @param {[number, number][]} points @param {boolean} isClosed */
+/** A path through points on the screen. @param {Point[]} points @param {boolean} isClosed */
 export function path(points, isClosed = true) {
   if (!points.length) return "";
   return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}${isClosed ? "Z" : ""}`;

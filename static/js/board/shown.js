@@ -2,23 +2,71 @@
 
 import { cross } from "./geometry.js";
 
-const EMPTY = { outline: [], folds: [], placement: { x_m: 0, y_m: 0, yaw_rad: 0 } };
+/** @import { Drawing, FoldKind, Layer, Point, Step } from "pleat" */
+/** @import { Change } from "../edit_queue.js" */
+/** @import { Tool } from "./tools/tool.js" */
+/** @import { Selection } from "../store.js" */
+
+/** What is drawn where no document is known yet: no cloth, no table. @type {Drawing} */
+const EMPTY = {
+  name: "",
+  title: "",
+  outline: [],
+  areal_density_kg_m2: 0,
+  grip_radius_m: 0,
+  folds: [],
+  placement: { x_m: 0, y_m: 0, yaw_rad: 0 },
+  scene: {
+    table: { depth_m: 0, width_m: 0, height_m: 0 },
+    stations: {},
+    torso_m: 0,
+    friction: 0,
+    support_angle_rad: 0,
+    approach_cone_rad: 0,
+    back_off_max_m: 0,
+    edge_clear_m: 0,
+    arm_motion_s: 0,
+    grip_dwell_s: 0,
+    base_speed_m_s: 0,
+    base_turn_rad_s: 0,
+  },
+  start_station: "",
+  comfort_radius_m: 0,
+};
+
+/** @typedef {Pick<Step, "silhouette"|"flap">} Cloth the outlines of the cloth at a moment, and of its last flap */
+
+/** @type {Cloth} */
 const NOTHING = { silhouette: [], flap: [] };
 
 export class Shown {
   /** @param {import("../store.js").Store} store */
   constructor(store) {
     this.store = store;
-    /** @type {any} the drawing as it is while it is dragged */
+    /** @type {Drawing|null} the drawing as it is while it is dragged */
     this.draft = null;
-    /** @type {((drawing: any) => void)|null} what makes it of the drawing that the server knows */
+    /** @type {Change|null} what makes it of the drawing that the server knows */
     this.change = null;
-    /** @type {import("./tools/tool.js").Tool|null} */
-    this.tool = null;
-    /** @type {import("./fold_paint.js").FoldPaint|null} */
-    this.paint = null;
-    /** @type {import("./layers.js").Layers|null} */
-    this.layerStack = null;
+  }
+
+  /** The tool in hand; none while the board is being built. @returns {Tool|null} */
+  get toolInHand() {
+    return null;
+  }
+
+  /** What the next fold takes. @returns {FoldKind} */
+  get kindOfNext() {
+    return "blue";
+  }
+
+  /** The layers of the stack at the moment that is shown, bottom to top; null while they are not known. */
+  get layers() {
+    return this.layersAt(this.step);
+  }
+
+  /** @param {number} _step @returns {Layer[]|null} */
+  layersAt(_step) {
+    return null;
   }
 
   /** Draw soon. */
@@ -41,15 +89,16 @@ export class Shown {
   }
 
   get isPlacing() {
-    return this.tool?.name === "place";
+    return this.toolInHand?.name === "place";
   }
 
-  /** The cloth at the moment that is shown. */
+  /** The cloth at the moment that is shown. @returns {Cloth} */
   get shown() {
     if (this.isSpread) return { silhouette: this.spreadRings, flap: [] };
     return this.state?.steps[this.step] ?? NOTHING;
   }
 
+  /** @returns {Point[][]} */
   get spreadRings() {
     const ring = this.drawing.outline.map(({ point }) => point);
     return ring.length >= 3 ? [ring] : [];
@@ -57,11 +106,7 @@ export class Shown {
 
   /** What a fold that is drawn now would end on. */
   get rings() {
-    return this.tool?.name === "fold" && this.paint.kind === "red" ? this.shown.flap : this.shown.silhouette;
-  }
-
-  get layers() {
-    return this.layerStack.at(this.step);
+    return this.toolInHand?.name === "fold" && this.kindOfNext === "red" ? this.shown.flap : this.shown.silhouette;
   }
 
   get foldEnds() {
@@ -81,16 +126,18 @@ export class Shown {
     return overlays.has("grips") ? this.step : null;
   }
 
+  /** @param {Selection["kind"]} kind @param {string} id */
   isSelected(kind, id) {
     const { selection } = this.store;
     return selection?.kind === kind && selection.ids.includes(id);
   }
 
+  /** @param {string} id */
   fold(id) {
     return this.drawing.folds.find((fold) => fold.id === id);
   }
 
-  /** The outlines that a fold ends on. */
+  /** The outlines that a fold ends on. @param {string} id */
   ringsOf(id) {
     const index = this.drawing.folds.findIndex((fold) => fold.id === id);
     const steps = this.state?.steps ?? [];
@@ -98,14 +145,14 @@ export class Shown {
     return this.fold(id)?.kind === "red" ? step.flap : step.silhouette;
   }
 
-  /** @param {(drawing: any) => void} change */
+  /** @param {Change} change */
   showDraft(change) {
     this.change = change;
     this.redraft();
     this.render();
   }
 
-  /** @param {any} [change] only if this is the one shown */
+  /** @param {Change|null} [change] only if this is the one shown */
   dropDraft(change = this.change) {
     if (change === this.change) this.draft = this.change = null;
     this.render();
@@ -114,7 +161,7 @@ export class Shown {
   /** Make the change again to what the server said last: folds have gone along. */
   redraft() {
     if (!this.change || !this.state) return;
-    this.draft = structuredClone(this.state.drawing);
-    this.change(this.draft);
+    const draft = structuredClone(this.state.drawing);
+    this.draft = this.change(draft) ?? draft;
   }
 }

@@ -18,8 +18,13 @@ import {
 } from "./geometry.js";
 import { spacing } from "./draw_grid.js";
 
+/** @import { Point } from "pleat" */
+/** @import { View } from "./view.js" */
+
 /** How near each kind has to be (px), the strongest first. */
 export const REACH_PX = { close: 12, vertex: 10, dropped: 8, fraction: 9, bisector: 8, edge: 8, guides: 6, guide: 6, grid: 4, line: 4 };
+/** @typedef {keyof typeof REACH_PX} Kind */
+const KINDS = /** @type {Kind[]} */ (Object.keys(REACH_PX));
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
@@ -32,14 +37,13 @@ const FRACTIONS = [
 ];
 const TURN_RAD = Math.PI / 12;
 
-/** @typedef {[number, number]} Point */
 /**
  * @typedef {object} Snapped article frame (m)
  * @property {Point} at
  * @property {string} name
  * @property {string} key
  * @property {boolean} isOnCloth
- * @property {string} [kind] of REACH_PX; none where nothing snaps
+ * @property {Kind} [kind] none where nothing snaps
  * @property {Point} [where] it is shown, where that is not the same
  */
 /**
@@ -52,6 +56,8 @@ const TURN_RAD = Math.PI / 12;
  * @property {import("./edge_onto_edge.js").Laid[]} [laid] where an edge would be laid on another
  * @property {boolean} [onlyCloth] whether grid and guides are left out
  */
+
+/** @typedef {{at: Point, isTouch: boolean, isKeyboard: boolean, ctrl: boolean, shift: boolean}} Pointed */
 
 export class Snapper {
   constructor() {
@@ -66,8 +72,8 @@ export class Snapper {
   }
 
   /**
-   * @param {import("./view.js").View} view
-   * @param {{at: Point, isTouch: boolean, isKeyboard: boolean, ctrl: boolean, shift: boolean}} pointer
+   * @param {View} view
+   * @param {Pointed} pointer
    * @param {Targets} targets
    * @returns {Snapped}
    */
@@ -80,9 +86,11 @@ export class Snapper {
     return found ?? free;
   }
 
+  /** @param {View} view @param {Pointed} pointer @param {Targets} targets @returns {Snapped|null} */
   strongest(view, pointer, targets) {
     const wide = pointer.isKeyboard ? KEYS : pointer.isTouch ? TOUCH : 1;
-    for (const kind of Object.keys(REACH_PX)) {
+    for (const kind of KINDS) {
+      /** @type {(Snapped & {away: number})|null} */
       let best = null;
       for (const candidate of CANDIDATES[kind](pointer.at, targets, view)) {
         const away = distance(candidate.where ?? candidate.at, pointer.at) * view.scale;
@@ -95,6 +103,7 @@ export class Snapper {
   }
 }
 
+/** @type {Record<Kind, (at: Point, targets: Targets, view: View) => Snapped[]>} */
 const CANDIDATES = {
   close: (_, { close }) => (close ? [{ at: close, name: "close", key: "close", isOnCloth: false }] : []),
   vertex: (_, { rings, points }) => [
@@ -126,14 +135,21 @@ const CANDIDATES = {
   line: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view).slice(1)),
 };
 
+/** @param {Point} at @param {Point} where @returns {Snapped} */
 const onto = (at, where) => ({ at, where, name: "edge onto edge", key: `o${at}`, isOnCloth: false });
 
-/** A place on an edge, moved to where the edge crosses a line of the grid if that is near. */
+/**
+ * A place on an edge, moved to where the edge crosses a line of the grid if that is near.
+ * @param {Point} p
+ * @param {Point} a
+ * @param {Point} b
+ * @param {View} view
+ */
 function roundOnEdge(p, a, b, view) {
   const { step } = spacing(view.scale);
   let best = p;
   let least = REACH_PX.grid / view.scale;
-  for (const axis of [0, 1]) {
+  for (const axis of /** @type {const} */ ([0, 1])) {
     const share = (Math.round(p[axis] / step) * step - a[axis]) / (b[axis] - a[axis]);
     if (!(share >= 0 && share <= 1)) continue;
     const crossing = between(a, b, share);
@@ -142,15 +158,19 @@ function roundOnEdge(p, a, b, view) {
   return best;
 }
 
-/** Where the lines plumb to and level with the nearest corners cross, and the place on each of the two. */
+/**
+ * Where the lines plumb to and level with the nearest corners cross, and the place on each of the two.
+ * @param {Point} p
+ * @param {Point[]} guides
+ * @returns {Snapped[]}
+ */
 function inLine(p, guides) {
+  const [first] = guides;
+  if (!first) return [];
+  /** @param {0|1} axis */
   const nearest = (axis) =>
-    guides.reduce(
-      (best, g) => (!best || Math.abs(g[axis] - p[axis]) < Math.abs(best[axis] - p[axis]) ? g : best),
-      null,
-    );
+    guides.reduce((best, g) => (Math.abs(g[axis] - p[axis]) < Math.abs(best[axis] - p[axis]) ? g : best), first);
   const [plumb, level] = [nearest(0), nearest(1)];
-  if (!plumb || !level) return [];
   return [
     { at: /** @type {Point} */ ([plumb[0], level[1]]), name: "in line", key: `i${plumb}${level}`, isOnCloth: false },
     { at: /** @type {Point} */ ([plumb[0], p[1]]), name: "plumb", key: `x${plumb}`, isOnCloth: false },
@@ -158,10 +178,15 @@ function inLine(p, guides) {
   ];
 }
 
-/** Where two lines of the grid cross, and the place on each of the two. */
+/**
+ * Where two lines of the grid cross, and the place on each of the two.
+ * @param {Point} p
+ * @param {View} view
+ * @returns {Snapped[]}
+ */
 function onGrid(p, view) {
   const { step } = spacing(view.scale);
-  const [x, y] = p.map((value) => Math.round(value / step) * step);
+  const [x, y] = [Math.round(p[0] / step) * step, Math.round(p[1] / step) * step];
   return [
     { at: /** @type {Point} */ ([x, y]), name: "grid", key: `g${x},${y}`, isOnCloth: false },
     { at: /** @type {Point} */ ([x, p[1]]), name: "grid line", key: `gx${x}`, isOnCloth: false },

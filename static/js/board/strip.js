@@ -4,6 +4,8 @@ import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 import { unit } from "./units.js";
 
+/** @import { FoldKind } from "pleat" */
+
 export class Strip {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
@@ -61,6 +63,7 @@ export class Strip {
   }
 }
 
+/** @param {string} name @param {...Node} parts */
 function group(name, ...parts) {
   const made = element("div", "strip-group", ...parts);
   made.setAttribute("role", "group");
@@ -68,6 +71,7 @@ function group(name, ...parts) {
   return made;
 }
 
+/** @param {Parameters<typeof icon>[0]} name @param {string} label @param {() => void} onClick */
 function iconButton(name, label, onClick) {
   const made = button("icon-button is-small", onClick, icon(name));
   made.setAttribute("aria-label", label);
@@ -75,6 +79,7 @@ function iconButton(name, label, onClick) {
   return made;
 }
 
+/** @param {FoldKind} kind @param {string} label @param {string} word @param {() => void} onClick */
 function paint(kind, label, word, onClick) {
   const made = button(
     `strip-button paint is-${kind}`,

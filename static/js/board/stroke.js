@@ -15,7 +15,7 @@ import {
   plus,
 } from "./geometry.js";
 
-/** @typedef {[number, number]} Point */
+/** @import { Fold, Point } from "pleat" */
 
 /**
  * The fold's line as it was drawn, or the crease that takes a point to where it was dropped.
@@ -29,7 +29,13 @@ export function lineOf({ isGrab, from, to }, rings, isFlipped) {
   return isFlipped ? [b, a] : [a, b];
 }
 
-/** The bisector, as far as it runs through the cloth; the point that was grabbed is on its left. */
+/**
+ * The bisector, as far as it runs through the cloth; the point that was grabbed is on its left.
+ * @param {Point} from
+ * @param {Point} to
+ * @param {Point[][]} rings
+ * @returns {[Point, Point]}
+ */
 function crease(from, to, rings) {
   const middle = between(from, to);
   const along = left(minus(to, from));
@@ -45,6 +51,7 @@ function crease(from, to, rings) {
  * @param {number} near (m)
  */
 export function reachesCloth({ from, to }, rings, near) {
+  /** @param {Point} p */
   const isNear = (p) => isInside(p, rings) || distance(p, nearestOnRings(p, rings) ?? p) <= near;
   return crossings(from, to, rings).some((t) => t >= 0 && t <= 1) || isNear(from) || isNear(to);
 }
@@ -57,7 +64,11 @@ export function ghostOf([a, b], rings) {
 
 const GIVEN = /^(left over|right over|top down|bottom up)( \d+)?$/;
 
-/** What a fold is called once its other side moves: a name that tells the side goes along, any other stays. */
+/**
+ * What a fold is called once its other side moves: a name that tells the side goes along, any other stays.
+ * @param {Fold} fold
+ * @param {Fold[]} others
+ */
 export function nameFlipped({ name, start, end }, others) {
   return GIVEN.test(name) ? nameOf(end.point, start.point, others) : name;
 }

@@ -20,7 +20,8 @@ import {
   unit,
 } from "./geometry.js";
 
-/** @typedef {import("./geometry.js").Point} Point */
+/** @import { Point } from "pleat" */
+
 /** @typedef {[Point, Point]} Axis upwards, or else to the right; what is left of it is the half that is kept */
 
 /** An outline this near to its mirror image is the same, as a part of the garment's size. */
@@ -29,7 +30,9 @@ const CORNERS_MAX = 48;
 const SAMPLES = 200;
 /** So many axes that carry most corners to corners are looked at closely. */
 const CLOSELY = 8;
-/** What upright, level and slanting axes are worth, and how many of the corners have to be alike at least, as a share. */
+/**
+ * What upright, level and slanting axes are worth, and how many of the corners have to be alike at least, as a share.
+ */
 const UPRIGHT = { worth: 1, least: 0.4 };
 const LEVEL = { worth: 0.9, least: 0.4 };
 const SLANTING = { worth: 0.8, least: 0.8 };
@@ -45,7 +48,11 @@ let known = {
   ]),
 };
 
-/** The axis of an outline; upright through the middle of its box where it has none. @param {Point[]} ring @returns {Axis} */
+/**
+ * The axis of an outline; upright through the middle of its box where it has none.
+ * @param {Point[]} ring
+ * @returns {Axis}
+ */
 export function axisOf(ring) {
   const key = String(ring);
   if (key !== known.key) known = { key, axis: found(ring) };
@@ -74,7 +81,7 @@ function found(ring) {
   const fine = rough
     .slice(0, CLOSELY)
     .map(({ axis, worth }) => ({ axis, worth: worth + OUTLINE_WORTH * shareOf(points, ring, axis, alike) }));
-  return fine.reduce((most, one) => (!most || one.worth > most.worth ? one : most), null)?.axis ?? upright;
+  return fine.toSorted((one, other) => other.worth - one.worth)[0]?.axis ?? upright;
 }
 
 /** The lines midway between every two corners. @param {Point[]} corners @returns {Axis[]} */
@@ -92,22 +99,35 @@ function axesBetween(corners) {
 /** @param {Point} way @returns {Point} */
 const upwards = (way) => (way[1] < -STRAIGHT || (way[1] <= STRAIGHT && way[0] < 0) ? times(way, -1) : way);
 
+/** @param {Axis} axis */
 function kindOf([a, b]) {
   const [x, y] = unit(minus(b, a));
   if (Math.abs(x) < STRAIGHT) return UPRIGHT;
   return Math.abs(y) < STRAIGHT ? LEVEL : SLANTING;
 }
 
-/** How many of the corners an axis carries to corners, as a share. */
+/**
+ * How many of the corners an axis carries to corners, as a share.
+ * @param {Point[]} corners
+ * @param {Axis} axis
+ * @param {number} alike how near is the same (m)
+ */
 function shareOfCorners(corners, [a, b], alike) {
   const images = corners.map((point) => mirrored(point, a, b));
   return images.filter((image) => corners.some((corner) => distance(image, corner) <= alike)).length / corners.length;
 }
 
-/** How much of the outline an axis carries to the outline, as a share. */
+/**
+ * How much of the outline an axis carries to the outline, as a share.
+ * @param {Point[]} points
+ * @param {Point[]} ring
+ * @param {Axis} axis
+ * @param {number} alike how near is the same (m)
+ */
 function shareOf(points, ring, [a, b], alike) {
   const edges = edgesOf(ring);
   const images = points.map((point) => mirrored(point, a, b));
+  /** @param {Point} image */
   const isOn = (image) => edges.some(([p, q]) => distance(image, nearestOn(image, p, q)) <= alike);
   return images.filter(isOn).length / points.length;
 }
@@ -118,10 +138,16 @@ function spread(ring, most) {
   return Array.from({ length: Math.min(ring.length, most) }, (_, n) => ring[Math.floor(n * step)]);
 }
 
-/** Places along the outline, equally far from each other. @param {Point[]} ring @param {number} count @returns {Point[]} */
+/**
+ * Places along the outline, equally far from each other.
+ * @param {Point[]} ring
+ * @param {number} count
+ * @returns {Point[]}
+ */
 function along(ring, count) {
   const edges = edgesOf(ring);
   const step = edges.reduce((sum, [a, b]) => sum + distance(a, b), 0) / count;
+  /** @type {Point[]} */
   const points = [];
   let ahead = step / 2;
   for (const [a, b] of edges) {

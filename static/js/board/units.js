@@ -1,5 +1,8 @@
 /** Lengths as people write them: centimetres unless they say otherwise. */
 
+/** @typedef {{words: string[], at: number}} Read the words of a sum, and the next one */
+
+/** @type {Record<string, number>} */
 const METRES = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, '"': 0.0254 };
 const KEY = "pleat-unit";
 const SUM = /^[-+*/().\d\s]+$/;
@@ -33,7 +36,9 @@ export function parsed(text) {
   return times(suffix ? METRES[suffix] : unit.metres, evaluated(sum ?? ""));
 }
 
+/** @param {number} metres @param {number|null} value */
 const times = (metres, value) => (value === null ? null : metres * value);
+/** @param {string} _ @param {string} value @param {string} suffix */
 const inUnit = (_, value, suffix) => `(${value}*${METRES[suffix] / unit.metres})`;
 
 /** No length is larger, either way (m). */
@@ -60,6 +65,7 @@ export function evaluated(sum) {
   return value !== null && read.at === words.length && Number.isFinite(value) ? value : null;
 }
 
+/** @param {Read} read @returns {number|null} */
 function terms(read) {
   let value = factors(read);
   while (value !== null && "+-".includes(read.words[read.at] ?? "?")) {
@@ -70,6 +76,7 @@ function terms(read) {
   return value;
 }
 
+/** @param {Read} read @returns {number|null} */
 function factors(read) {
   let value = single(read);
   while (value !== null && "*/".includes(read.words[read.at] ?? "?")) {
@@ -80,6 +87,7 @@ function factors(read) {
   return value;
 }
 
+/** @param {Read} read @returns {number|null} */
 function single(read) {
   const word = read.words[read.at++];
   if (word === "-" || word === "+") {

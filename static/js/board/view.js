@@ -5,6 +5,8 @@
 
 import { minus, plus, times, turned } from "./geometry.js";
 
+/** @import { Point, Pose } from "pleat" */
+
 const CLOSEST_PX_PER_M = 20000;
 const FURTHEST_PX_PER_M = 40;
 const MARGIN = 0.13;
@@ -14,59 +16,59 @@ export class View {
     this.width = 1;
     this.height = 1;
     this.scale = 500;
-    /** Where the plane's origin is, from the top left (px). @type {[number, number]} */
+    /** Where the plane's origin is, from the top left (px). @type {Point} */
     this.origin = [0, 0];
     /** The article frame in the plane. */
-    this.pose = { at: /** @type {[number, number]} */ ([0, 0]), turn: 0 };
+    this.pose = { at: /** @type {Point} */ ([0, 0]), turn: 0 };
   }
 
-  /** @param {[number, number]} p of the article frame (m) @returns {[number, number]} px */
+  /** @param {Point} p of the article frame (m) @returns {Point} px */
   toPx(p) {
     return this.planeToPx(plus(turned(p, this.pose.turn), this.pose.at));
   }
 
-  /** @param {[number, number]} px @returns {[number, number]} article frame (m) */
+  /** @param {Point} px @returns {Point} article frame (m) */
   toM(px) {
     return turned(minus(this.pxToPlane(px), this.pose.at), -this.pose.turn);
   }
 
-  /** @param {[number, number]} p of the plane that is shown (m) */
+  /** @param {Point} p of the plane that is shown (m) */
   planeToPx([x, y]) {
-    return /** @type {[number, number]} */ ([this.origin[0] + x * this.scale, this.origin[1] - y * this.scale]);
+    return /** @type {Point} */ ([this.origin[0] + x * this.scale, this.origin[1] - y * this.scale]);
   }
 
-  /** @param {[number, number]} px */
+  /** @param {Point} px */
   pxToPlane([x, y]) {
-    return /** @type {[number, number]} */ ([(x - this.origin[0]) / this.scale, (this.origin[1] - y) / this.scale]);
+    return /** @type {Point} */ ([(x - this.origin[0]) / this.scale, (this.origin[1] - y) / this.scale]);
   }
 
-  /** Points of the table's frame, its far side up. @param {[number, number]} p */
+  /** Points of the table's frame, its far side up. @param {Point} p */
   tableToPx([x, y]) {
     return this.planeToPx([-y, x]);
   }
 
-  /** Lay the article down as it is on the table; null: its own axes are shown. @param {any} placement */
+  /** Lay the article down as it is on the table; null: its own axes are shown. @param {Pose|null} placement */
   lay(placement) {
     this.pose = placement
-      ? { at: /** @type {[number, number]} */ ([-placement.y_m, placement.x_m]), turn: placement.yaw_rad + Math.PI / 2 }
-      : { at: /** @type {[number, number]} */ ([0, 0]), turn: 0 };
+      ? { at: /** @type {Point} */ ([-placement.y_m, placement.x_m]), turn: placement.yaw_rad + Math.PI / 2 }
+      : { at: /** @type {Point} */ ([0, 0]), turn: 0 };
   }
 
-  /** @param {[number, number]} px stays where it is @param {number} factor */
+  /** @param {Point} px stays where it is @param {number} factor */
   zoomAt(px, factor) {
     const scale = Math.min(Math.max(this.scale * factor, FURTHEST_PX_PER_M), CLOSEST_PX_PER_M);
     this.origin = plus(px, times(minus(this.origin, px), scale / this.scale));
     this.scale = scale;
   }
 
-  /** @param {[number, number]} by px */
+  /** @param {Point} by px */
   pan(by) {
     this.origin = plus(this.origin, by);
   }
 
   /**
    * Show a box of the plane whole.
-   * @param {{low: [number, number], high: [number, number]}} box
+   * @param {{low: Point, high: Point}} box
    * @param {{top: number, bottom: number}} covered how much of the board other things cover (px)
    */
   fit({ low, high }, covered) {

@@ -4,6 +4,8 @@ import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 import { inWords } from "../messages/in_words.js";
 
+/** @import { Problem } from "pleat" */
+
 /**
  * @param {string} title
  * @param {string} className
@@ -26,7 +28,7 @@ export function openDialog(title, className, ...children) {
   return dialog;
 }
 
-/** What a server's problem says, as a sentence. @param {any} problem */
+/** What a server's problem says, as a sentence. @param {Problem} problem */
 export function sentenceOf(problem) {
   const [first] = problem.errors ?? [];
   const text = first ? inWords(first, []) : String(problem.detail ?? problem.title ?? "The server refused this.");

@@ -1,10 +1,12 @@
 /** Documents: each has its own address, and the page goes there. */
 
+/** @import { Garment } from "pleat" */
+
 /** @param {string} id of a document */
 export const goTo = (id) => location.assign(`../d/${id}`);
 
 /**
- * @param {any} wanted `{garment}` or nothing for a blank board
+ * @param {{garment?: string|Garment}} wanted `{garment}` or nothing for a blank board
  * @param {string} tool the board's tool that is at hand there
  * @returns {Promise<Response>} what the server answered, if it was no new document
  */

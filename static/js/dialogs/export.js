@@ -4,6 +4,9 @@ import { button, element, sayable } from "../dom.js";
 import { inWords } from "../messages/in_words.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 
+/** @import { FileEntry } from "pleat" */
+/** @import { Store } from "../store.js" */
+
 /** Files that take a while to be made. */
 const SLOW = new Set(["recording.html"]);
 
@@ -23,8 +26,12 @@ export async function showExport(store) {
     const mine = ++asked;
     const [files, problem] = await filesOf(store);
     if (mine !== asked || signal.aborted) return;
-    const said = files.map((file) => [JSON.stringify(file), file]);
-    rows = new Map(said.map(([text, file]) => [text, rows.get(text) ?? row(store, file, signal)]));
+    const before = rows;
+    rows = new Map();
+    for (const file of files) {
+      const text = JSON.stringify(file);
+      rows.set(text, before.get(text) ?? row(store, file, signal));
+    }
     const shown = [...rows.values(), ...(problem ? [element("li", "dialog-problem", problem)] : [])];
     for (const item of [...list.children]) if (!shown.includes(item)) item.remove();
     for (const [place, item] of shown.entries())
@@ -35,13 +42,18 @@ export async function showExport(store) {
   await look();
 }
 
-/** What the document can be made into now, and why that is not known. @returns {Promise<[any[], string]>} */
+/**
+ * What the document can be made into now, and why that is not known.
+ * @param {Store} store
+ * @returns {Promise<[FileEntry[], string]>}
+ */
 async function filesOf(store) {
   const answer = await fetch(`${store.path}/files`).catch(() => null);
   if (!answer) return [[], OFFLINE];
   return answer.ok ? [await answer.json(), ""] : [[], sentenceOf(await answer.json())];
 }
 
+/** @param {Store} store @param {FileEntry} file @param {AbortSignal} signal when the dialog is closed */
 function row(store, file, signal) {
   const url = `${store.path}/files/${file.what}`;
   const said = element("small", "", file.available ? file.text : whyNot(store, file));
@@ -49,12 +61,13 @@ function row(store, file, signal) {
   return element("li", "export", name, verb(url, file, said, signal));
 }
 
-/** Why a file is not there now, as a sentence. */
+/** Why a file is not there now, as a sentence. @param {Store} store @param {FileEntry} file */
 function whyNot(store, { reason, says }) {
-  const text = inWords({ says, message: reason }, store.state?.drawing.folds ?? []);
-  return text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
+  const text = inWords({ says, message: reason ?? "" }, store.state?.drawing.folds ?? []);
+  return text.charAt(0).toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
 }
 
+/** @param {string} url @param {FileEntry} file @param {HTMLElement} said @param {AbortSignal} signal */
 function verb(url, file, said, signal) {
   if (!file.available || SLOW.has(file.what)) {
     const slow = button("plain-button", () => record(slow, url, file, said, signal), "Save");
@@ -69,7 +82,14 @@ function verb(url, file, said, signal) {
   return link;
 }
 
-/** Fetch what takes a while, saying so. */
+/**
+ * Fetch what takes a while, saying so.
+ * @param {HTMLButtonElement} pressed
+ * @param {string} url
+ * @param {FileEntry} file
+ * @param {HTMLElement} said
+ * @param {AbortSignal} signal
+ */
 async function record(pressed, url, file, said, signal) {
   pressed.disabled = true;
   said.textContent = "Being recorded...";

@@ -8,12 +8,19 @@ import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
 
+/** @import { Garment, Imported } from "pleat" */
+/** @import { Told } from "../messages/in_words.js" */
+/** @import { Store } from "../store.js" */
+
 const KINDS = ".json,.svg,.dxf";
 const UNITS = ["mm", "cm", "m", "in"];
+/** @typedef {NonNullable<Imported["creases"]>} Creases */
+/** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
+
 /** No garment is shorter or longer (m). */
 const [LEAST_M, MOST_M] = [0.01, 10];
 
-/** @param {import("../store.js").Store} store @param {File|null} first a file that was dropped */
+/** @param {Store} store @param {File|null} first a file that was dropped */
 export function showImport(store, first = null) {
   const body = element("div", "import");
   openDialog("Import", "", body);
@@ -21,8 +28,9 @@ export function showImport(store, first = null) {
   else ask(store, body);
 }
 
-/** Take files that are dropped anywhere on the page. @param {import("../store.js").Store} store */
+/** Take files that are dropped anywhere on the page. @param {Store} store */
 export function acceptDrops(store) {
+  /** @param {DragEvent} event */
   const hasFiles = (event) => event.dataTransfer?.types.includes("Files");
   addEventListener("dragover", (event) => {
     if (hasFiles(event)) event.preventDefault();
@@ -36,6 +44,7 @@ export function acceptDrops(store) {
   });
 }
 
+/** @param {Store} store @param {HTMLElement} body @param {string} problem */
 function ask(store, body, problem = "") {
   const input = /** @type {HTMLInputElement} */ (element("input", ""));
   input.type = "file";
@@ -64,10 +73,10 @@ function ask(store, body, problem = "") {
 
 /**
  * What is to be said beside the file to read it; without it the file says so itself.
- * @typedef {{units?: string, scale?: number, creases?: "folded"|"flat"}} How
+ * @typedef {{units?: string, scale?: number, creases?: Creases}} How
  */
 
-/** @param {How} how */
+/** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
 async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", `Reading ${file.name}...`));
   const query = new URLSearchParams({ filename: file.name });
@@ -79,9 +88,19 @@ async function read(store, body, file, how) {
   else ask(store, body, told ? `${file.name}: ${sentenceOf(told)}` : OFFLINE);
 }
 
-/** How large the garment is: by one of the units, or by its width. */
+/**
+ * How large the garment is: by one of the units, or by its width.
+ * @param {Store} store
+ * @param {HTMLElement} body
+ * @param {File} file
+ * @param {How} how
+ * @param {Sizes} sizes
+ * @param {string} why
+ */
 function askSize(store, body, file, how, sizes, why) {
+  /** @param {How} size */
   const readAs = (size) => read(store, body, file, { ...how, ...size });
+  /** @param {[number, number]} sides */
   const isPossible = (sides) => Math.min(...sides) > 0 && Math.max(...sides) >= LEAST_M && Math.max(...sides) <= MOST_M;
   const choices = UNITS.filter((name) => sizes[name] && isPossible(sizes[name])).map((name) => {
     const [wide, tall] = sizes[name].map((metres) => length(metres));
@@ -109,19 +128,33 @@ function askSize(store, body, file, how, sizes, why) {
   );
 }
 
-/** The unit and the scale of it that make a garment so wide; the scale that is nearest to 1. @returns {How} */
+/**
+ * The unit and the scale of it that make a garment so wide; the scale that is nearest to 1.
+ * @param {number} width_m
+ * @param {Sizes} sizes
+ * @param {number} scale of the sizes
+ * @returns {How}
+ */
 function scaledTo(width_m, sizes, scale) {
   const ways = UNITS.filter((name) => sizes[name]).map((units) => ({ units, scale: (scale * width_m) / sizes[units][0] }));
   return ways.reduce((best, way) => (Math.abs(Math.log(way.scale)) < Math.abs(Math.log(best.scale)) ? way : best));
 }
 
-/** @param {How} how */
+/**
+ * Show what was read.
+ * @param {Store} store
+ * @param {HTMLElement} body
+ * @param {File} file
+ * @param {How} how
+ * @param {Imported} imported
+ */
 function found(store, body, file, how, { garment, notes, says, creases, sizes }) {
   const said = element("p", "dialog-problem");
   const here = button("main-button", () => open(store, body, file, garment), "Open here");
   const anew = button("plain-button", () => create(garment, said), "As a new document");
-  const other = () => askSize(store, body, file, how, sizes, `the garment is ${sizeOf(garment)}`);
-  const verbs = sizes ? [button("plain-button", other, "Another size")] : [];
+  /** @param {Sizes} known */
+  const other = (known) => askSize(store, body, file, how, known, `the garment is ${sizeOf(garment)}`);
+  const verbs = sizes ? [button("plain-button", () => other(sizes), "Another size")] : [];
   body.replaceChildren(
     element(
       "div",
@@ -143,15 +176,20 @@ function found(store, body, file, how, { garment, notes, says, creases, sizes })
   here.focus();
 }
 
-/** What would be gone from this document, where anything is drawn in it. */
+/** What would be gone from this document, where anything is drawn in it. @param {Store} store */
 function replaces({ state }) {
-  const { outline, title, name } = state?.drawing ?? { outline: [] };
-  if (!outline.length) return [];
+  if (!state?.drawing.outline.length) return [];
+  const { title, name } = state.drawing;
   return [element("p", "dialog-text", `Opened here it replaces \u201C${title || name}\u201D; Undo brings that back.`)];
 }
 
-/** On which cloth the fold lines are drawn, where that matters. */
+/**
+ * On which cloth the fold lines are drawn, where that matters.
+ * @param {Creases} creases
+ * @param {(chosen: Creases) => void} onChoice
+ */
 function onWhichCloth(creases, onChoice) {
+  /** @param {Creases} value @param {string} text */
   const choice = (value, text) => {
     const input = /** @type {HTMLInputElement} */ (element("input", ""));
     Object.assign(input, { type: "radio", name: "creases", value, checked: value === creases });
@@ -167,25 +205,29 @@ function onWhichCloth(creases, onChoice) {
   );
 }
 
+/** @param {Garment} garment */
 function sizeOf({ outline }) {
   const box = boxOf(outline);
   return box ? `${length(box.high[0] - box.low[0])} by ${length(box.high[1] - box.low[1])}` : "";
 }
 
-/** What is to be said of how the garment was read. */
+/** What is to be said of how the garment was read. @param {Told} told @param {{name?: string}[]} folds */
 function note(told, folds) {
   const text = inWords(told, folds);
   return element("li", "", text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : "."));
 }
 
+/** @param {Garment} garment */
 const counted = ({ outline, folds }) =>
   `${outline.length} corners, ${folds.length} ${folds.length === 1 ? "fold" : "folds"}`;
 
+/** @param {Store} store @param {HTMLElement} body @param {File} file @param {Garment} garment */
 async function open(store, body, file, garment) {
   const state = await store.open(garment, `Import ${file.name}`);
-  if (state) body.closest("dialog").close();
+  if (state) body.closest("dialog")?.close();
 }
 
+/** @param {Garment} garment @param {HTMLElement} said */
 async function create(garment, said) {
   const answer = await goToNew({ garment }).catch(() => null);
   if (!answer) said.textContent = OFFLINE;

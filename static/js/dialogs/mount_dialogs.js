@@ -16,6 +16,12 @@ export function mountDialogs(store) {
     help: () => showHelp(),
     save: () => save(store),
   };
+  /**
+   * @param {string} id of the button
+   * @param {Parameters<typeof icon>[0]} name of its icon
+   * @param {string} word
+   * @param {() => void} verb
+   */
   const put = (id, name, word, verb) => {
     byId(id).append(icon(name), ...(word ? [element("span", "word", word)] : []));
     byId(id).addEventListener("click", verb);

@@ -6,6 +6,8 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
 
+/** @import { Garment, Made, Measure, Template } from "pleat" */
+
 const WAIT_MS = 120;
 
 /** Where keys lead in the list of templates. @type {Record<string, (index: number) => number>} */
@@ -25,15 +27,19 @@ export async function showNew() {
   list.setAttribute("aria-label", "Templates");
   openDialog("New garment", "is-wide", element("div", "new", list, detail));
   const answer = await fetch("../api/templates").catch(() => null);
+  /** @type {Template[]} */
   const templates = answer?.ok ? await answer.json() : [];
+  /** @type {(Template|null)[]} of which null is the blank board */
   const entries = [...templates, null];
   const options = entries.map((template, index) => tile(template, () => choose(index)));
+  /** @param {number} index */
   const choose = (index) => {
     for (const [n, option] of options.entries()) {
       option.setAttribute("aria-selected", String(n === index));
       option.tabIndex = n === index ? 0 : -1;
     }
-    detail.replaceChildren(...(entries[index] ? measures(entries[index]) : blank(answer?.ok ? "" : OFFLINE)));
+    const template = entries[index];
+    detail.replaceChildren(...(template ? measures(template) : blank(answer?.ok ? "" : OFFLINE)));
   };
   list.addEventListener("keydown", (event) => {
     const to = STEPS[event.key]?.(options.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement)));
@@ -48,6 +54,7 @@ export async function showNew() {
   options[0].focus();
 }
 
+/** @param {Template|null} template @param {() => void} onClick */
 function tile(template, onClick) {
   const shown = template ? picture(template.outline, template.folds) : picture([], []);
   const made = button("template", onClick, shown, element("span", "", template?.title ?? "Blank board"));
@@ -55,6 +62,7 @@ function tile(template, onClick) {
   return made;
 }
 
+/** @param {string} problem */
 function blank(problem) {
   const said = element("p", "dialog-problem", problem);
   const go = button("main-button", () => create({}, said, "outline"), "Start drawing");
@@ -66,13 +74,13 @@ function blank(problem) {
   ];
 }
 
-/** The fields of a template, with the garment that they come to. */
+/** The fields of a template, with the garment that they come to. @param {Template} template */
 function measures(template) {
   const said = element("p", "dialog-problem");
   said.setAttribute("role", "alert");
   const shown = element("div", "template-picture", picture(template.outline, template.folds));
   const fields = template.measures.map((measure) => field(measure));
-  /** @type {any} */
+  /** @type {Garment|null} */
   let garment = null;
   let turn = 0;
   const ask = async () => {
@@ -81,15 +89,18 @@ function measures(template) {
     said.textContent = fields.map(({ problem }) => problem()).find(Boolean) ?? "";
     if (said.textContent) return;
     const written = fields.filter(({ isWritten }) => isWritten());
-    const made = await garmentOf(template.name, Object.fromEntries(written.map(({ name, value }) => [name, value()])));
+    const values = Object.fromEntries(written.map(({ name, value }) => [name, value() ?? 0]));
+    const made = await garmentOf(template.name, values);
     if (mine !== turn) return;
-    garment = made.garment ?? null;
-    said.textContent = made.problem ?? "";
-    if (!garment) return;
+    if (typeof made === "string") {
+      said.textContent = made;
+      return;
+    }
+    garment = made.garment;
     shown.replaceChildren(picture(garment.outline, garment.folds));
     for (const { name, follow } of fields) follow(made.measures[name]);
   };
-  let timer;
+  let timer = 0;
   const soon = () => {
     clearTimeout(timer);
     timer = setTimeout(ask, WAIT_MS);
@@ -111,7 +122,7 @@ function measures(template) {
   ];
 }
 
-/** One measure: what nobody has written keeps its proportion to what somebody has. */
+/** One measure: what nobody has written keeps its proportion to what somebody has. @param {Measure} measure */
 function field({ name, label, text, default_m: first, min_m: least }) {
   const input = /** @type {HTMLInputElement} */ (element("input", "field"));
   input.value = number(first);
@@ -125,23 +136,31 @@ function field({ name, label, text, default_m: first, min_m: least }) {
   );
   let shown = input.value;
   const isWritten = () => input.value !== shown;
+  /** @param {number} metres */
   const follow = (metres) => {
     if (!isWritten()) input.value = shown = number(metres);
   };
   return { name, row, follow, isWritten, value: () => parsed(input.value), problem: () => problemOf(input.value, least) };
 }
 
+/**
+ * What a template makes of measures, or why it makes nothing.
+ * @param {string} name the template's
+ * @param {Record<string, number>} measures
+ * @returns {Promise<Made|string>}
+ */
 async function garmentOf(name, measures) {
   const answer = await fetch(`../api/templates/${name}`, {
     method: "POST",
     headers: { "content-type": "application/json" },
     body: JSON.stringify({ measures }),
   }).catch(() => null);
-  if (!answer) return { problem: OFFLINE };
+  if (!answer) return OFFLINE;
   const told = await answer.json();
-  return answer.ok ? told : { problem: sentenceOf(told) };
+  return answer.ok ? told : sentenceOf(told);
 }
 
+/** @param {{garment?: Garment}} wanted @param {HTMLElement} said @param {string} tool */
 async function create(wanted, said, tool = "") {
   const answer = await goToNew(wanted, tool).catch(() => null);
   if (!answer) said.textContent = OFFLINE;

@@ -3,12 +3,14 @@
 import { boxOf } from "../board/geometry.js";
 import { path, svg } from "../board/sheet.js";
 
+/** @import { Point } from "pleat" */
+
 const SIZE = 100;
 const MARGIN = 8;
 
 /**
- * @param {[number, number][]} outline
- * @param {{kind: string, start: [number, number], end: [number, number]}[]} folds
+ * @param {Point[]} outline
+ * @param {{kind: string, start: Point, end: Point}[]} folds
  * @returns {SVGElement}
  */
 export function picture(outline, folds) {
@@ -20,11 +22,11 @@ export function picture(outline, folds) {
   }
   const [wide, tall] = [box.high[0] - box.low[0], box.high[1] - box.low[1]];
   const scale = (SIZE - 2 * MARGIN) / Math.max(wide, tall);
-  const place = ([x, y]) =>
-    /** @type {[number, number]} */ ([
-      SIZE / 2 + (x - (box.low[0] + box.high[0]) / 2) * scale,
-      SIZE / 2 - (y - (box.low[1] + box.high[1]) / 2) * scale,
-    ]);
+  /** @param {Point} at @returns {Point} */
+  const place = ([x, y]) => [
+    SIZE / 2 + (x - (box.low[0] + box.high[0]) / 2) * scale,
+    SIZE / 2 - (y - (box.low[1] + box.high[1]) / 2) * scale,
+  ];
   made.append(svg("path", { class: "picture-cloth", d: path(outline.map(place)) }));
   for (const { kind, start, end } of folds)
     made.append(svg("path", { class: `picture-fold is-${kind}`, d: path([place(start), place(end)], false) }));

@@ -12,6 +12,8 @@ export class BestPlace {
   constructor(store) {
     this.store = store;
     this.search = new SuggestionSearch();
+    /** @type {number|null} the version that it is looked for */
+    this.version = null;
     this.button = button("chip", () => this.begin(), "Best place");
     this.button.title = "Look for a place on the table where the plan is quicker";
     this.note = element("p", "hint search-note");
@@ -24,8 +26,10 @@ export class BestPlace {
   }
 
   begin() {
-    this.version = this.store.state.version;
-    this.search.start(this.store.state, { limit_s: LIMIT_S });
+    const { state } = this.store;
+    if (!state) return;
+    this.version = state.version;
+    this.search.start(state, { limit_s: LIMIT_S });
   }
 
   /** What was found is about one drawing only. */
@@ -41,7 +45,7 @@ export class BestPlace {
 
   show() {
     const { found, isRunning, fault } = this.search;
-    const best = found.reduce((least, one) => (least && least.cost_s <= one.cost_s ? least : one), undefined);
+    const [best] = found.toSorted((one, other) => one.cost_s - other.cost_s);
     this.root.hidden = this.version === null;
     this.button.disabled = isRunning;
     this.note.classList.toggle("is-searching", isRunning);
@@ -53,4 +57,5 @@ export class BestPlace {
   }
 }
 
+/** @param {string} fault */
 const outcome = (fault) => (fault ? `Nothing could be looked for: ${fault}.` : "No quicker place was found.");

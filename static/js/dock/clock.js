@@ -8,7 +8,7 @@ export class Clock extends EventTarget {
     this.told = { t_s: 0, duration_s: 0, playing: false, speed: 1 };
     this.toldAt = 0;
     this.isRunning = false;
-    store.addEventListener("playback", () => this.set(store.playback));
+    store.addEventListener("playback", () => store.playback && this.set(store.playback));
   }
 
   /** @param {{t_s: number, duration_s: number, playing: boolean, speed: number}} told by the server */

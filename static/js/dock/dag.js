@@ -6,10 +6,16 @@ import { before, waitsFor } from "./fold_states.js";
 import { svg } from "./icons.js";
 import { COLOURS, foldName } from "./words.js";
 
+/** @import { Fold, Plan } from "pleat" */
+/** @import { Place } from "./dag_layout.js" */
+
 const NODE = { height: 34, gapX: 20, gapY: 8, edge: 8, line: 13 };
 /** Nodes are as wide as fits, within these (px); so much of that is not for letters, and a letter takes so much. */
 const WIDTH = { least: 78, most: 130, frame: 28, letter: 6.2 };
+/** @type {Record<string, string>} */
 const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits" };
+
+/** @typedef {{x: number, y: number}} Corner the upper left one of a node (px) */
 
 export class Dag {
   /** @param {(id: string) => void} onSelect */
@@ -25,12 +31,19 @@ export class Dag {
     /** @type {Set<string>} ids */
     this.selected = new Set();
     this.shown = "";
+    /** @type {Fold[]|null} of the drawing; null before any is known */
+    this.folds = null;
+    /** @type {Plan|null} */
+    this.plan = null;
+    /** How wide a node is, and the whole as it was drawn last (px). */
+    this.width = WIDTH.most;
+    this.drawn = 0;
     new ResizeObserver(() => this.draw()).observe(this.root);
   }
 
   /**
-   * @param {any[]} folds of the drawing
-   * @param {any} plan or null
+   * @param {Fold[]} folds of the drawing
+   * @param {Plan|null} plan
    */
   show(folds, plan) {
     const wanted = JSON.stringify([folds.map(({ id, name, kind }) => [id, name, kind]), plan?.dag]);
@@ -51,7 +64,7 @@ export class Dag {
     if (!folds || !width || width === this.drawn) return;
     this.drawn = width;
     const missing = folds.length ? "Known once the folds can be made." : "No folds yet.";
-    if (plan && folds.length) this.root.replaceChildren(this.graph(), this.key());
+    if (plan && folds.length) this.root.replaceChildren(this.graph(folds, plan), this.key());
     else this.root.replaceChildren(element("p", "hint", missing));
     this.showStates(this.states);
     this.showSelection(this.selected);
@@ -60,10 +73,12 @@ export class Dag {
   /** @param {string[]} states by fold */
   showStates(states) {
     this.states = states;
+    const { folds } = this;
+    if (!folds) return;
     this.nodes.forEach((node, fold) => {
       if (node.dataset.state === states[fold]) return;
       node.dataset.state = states[fold];
-      node.setAttribute("aria-label", this.label(fold, states[fold]));
+      node.setAttribute("aria-label", this.label(folds, fold, states[fold]));
     });
     for (const { from, line } of this.edges) line.classList.toggle("is-done", states[from] === "done");
   }
@@ -71,57 +86,59 @@ export class Dag {
   /** @param {Set<string>} ids of the folds that are selected */
   showSelection(ids) {
     this.selected = ids;
-    this.nodes.forEach((node, fold) => node.setAttribute("aria-pressed", String(ids.has(this.folds[fold].id))));
+    this.nodes.forEach((node, fold) => node.setAttribute("aria-pressed", String(ids.has(this.folds?.[fold].id ?? ""))));
   }
 
-  graph() {
-    const { edges } = this.plan.dag;
-    const laid = columns(this.folds.length, edges);
+  /** @param {Fold[]} folds @param {Plan} plan */
+  graph(folds, plan) {
+    const { edges } = plan.dag;
+    const laid = columns(folds.length, edges);
     const tallest = Math.max(...laid.map((column) => column.length));
     const room = (this.root.clientWidth - 2 * NODE.edge + NODE.gapX) / laid.length - NODE.gapX;
     this.width = Math.min(Math.max(Math.floor(room), WIDTH.least), WIDTH.most);
     const width = laid.length * (this.width + NODE.gapX) - NODE.gapX + 2 * NODE.edge;
     const height = tallest * (NODE.height + NODE.gapY) - NODE.gapY + 2 * NODE.edge;
+    /** @param {Place} place */
     const at = (place) => this.at(place, height);
     this.edges = edges.map(([from, to]) => ({ from, to, line: this.link(wayOf(laid, from, to).map(at)) }));
-    const own = new Map(laid.flat().flatMap((place) => (place.to < 0 ? [[place.fold, at(place)]] : [])));
-    this.nodes = this.folds.map((_, fold) => this.node(fold, own.get(fold)));
+    const own = laid.flat().filter(({ to }) => to < 0);
+    const places = own.toSorted((a, b) => a.fold - b.fold).map(at); // one for each fold
+    this.nodes = folds.map((fold, index) => this.node(fold, index, places[index]));
     const drawn = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" });
-    drawn.setAttribute("aria-label", `Fold-DAG of ${this.folds.length} in ${laid.length} steps`);
+    drawn.setAttribute("aria-label", `Fold-DAG of ${folds.length} in ${laid.length} steps`);
     const lines = svg("g", { "aria-hidden": "true" }, ...this.edges.map(({ line }) => line));
     drawn.append(lines, ...this.nodes);
     return element("div", "dag-scroll", drawn);
   }
 
-  node(fold, { x, y }) {
-    const { kind } = this.folds[fold];
-    const name = foldName(this.folds[fold], fold);
+  /** @param {Fold} fold @param {number} index @param {Corner} corner */
+  node(fold, index, { x, y }) {
+    const name = foldName(fold, index);
     const lines = twoLines(name, Math.floor((this.width - WIDTH.frame) / WIDTH.letter));
     const top = NODE.height / 2 + 4 - ((lines.length - 1) * NODE.line) / 2;
     const made = svg(
       "g",
-      { class: "dag-node", "data-kind": kind, transform: `translate(${x} ${y})`, tabindex: 0, role: "button" },
+      { class: "dag-node", "data-kind": fold.kind, transform: `translate(${x} ${y})`, tabindex: 0, role: "button" },
       svg("title", {}, name),
       svg("rect", { width: this.width, height: NODE.height, rx: 6 }),
       svg("path", { class: "dag-stroke", d: `M1.5 5v${NODE.height - 10}` }),
-      svg("text", { class: "dag-number", x: 13, y: NODE.height / 2 + 4 }, String(fold + 1)),
-      ...lines.map((line, index) => svg("text", { x: 23, y: top + index * NODE.line }, line)),
+      svg("text", { class: "dag-number", x: 13, y: NODE.height / 2 + 4 }, String(index + 1)),
+      ...lines.map((line, row) => svg("text", { x: 23, y: top + row * NODE.line }, line)),
     );
-    made.addEventListener("click", () => this.onSelect(this.folds[fold].id));
+    made.addEventListener("click", () => this.onSelect(fold.id));
     made.addEventListener("keydown", (event) => this.onKey(event, fold));
-    for (const [name, target] of [["pointerenter", fold], ["focus", fold], ["pointerleave", -1], ["blur", -1]]) {
-      made.addEventListener(String(name), () => this.highlight(Number(target)));
-    }
+    for (const name of ["pointerenter", "focus"]) made.addEventListener(name, () => this.highlight(index));
+    for (const name of ["pointerleave", "blur"]) made.addEventListener(name, () => this.highlight(-1));
     return made;
   }
 
-  /** The upper left corner of a place. */
+  /** The upper left corner of a place. @param {Place} place @param {number} height */
   at({ depth, row }, height) {
     const x = NODE.edge + depth * (this.width + NODE.gapX);
     return { x, y: (height - NODE.height) / 2 + row * (NODE.height + NODE.gapY) };
   }
 
-  /** An arrow from one node to another by way of the places between. */
+  /** An arrow from one node to another by way of the places between. @param {Corner[]} places */
   link(places) {
     const ends = places.map(({ x, y }) => ({ x0: x, x1: x + this.width, y: y + NODE.height / 2 }));
     const [first, ...rest] = ends;
@@ -138,21 +155,28 @@ export class Dag {
     return svg("path", { class: "dag-edge", d: d + tip });
   }
 
-  /** Folds in words: what screen readers hear of a node. */
-  label(fold, state) {
-    const names = (others) => others.map((other) => foldName(this.folds[other], other)).join(" and ");
+  /**
+   * Folds in words: what screen readers hear of a node.
+   * @param {Fold[]} folds
+   * @param {number} fold
+   * @param {string} state
+   */
+  label(folds, fold, state) {
+    /** @param {number[]} others */
+    const names = (others) => others.map((other) => foldName(folds[other], other)).join(" and ");
     const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
-    const about = [foldName(this.folds[fold], fold), COLOURS[this.folds[fold].kind], STATES[state] ?? ""];
+    const about = [foldName(folds[fold], fold), COLOURS[folds[fold].kind], STATES[state] ?? ""];
     if (after.length) about.push(`after ${names(after)}`);
     if (first.length) about.push(`before ${names(first)}`);
     return about.filter(Boolean).join(", ");
   }
 
+  /** @param {KeyboardEvent} event @param {Fold} fold */
   onKey(event, fold) {
     if (event.key !== "Enter" && event.key !== " ") return;
     event.preventDefault();
     event.stopPropagation();
-    this.onSelect(this.folds[fold].id);
+    this.onSelect(fold.id);
   }
 
   /** Show a fold with what comes right before and after it. @param {number} fold -1: none */
@@ -171,14 +195,16 @@ export class Dag {
   }
 }
 
-/** A name broken into at most two lines, shortened where it is longer. */
+/** A name broken into at most two lines, shortened where it is longer. @param {string} name @param {number} letters */
 function twoLines(name, letters) {
+  /** @param {string} text */
   const cut = (text) => (text.length > letters ? `${text.slice(0, letters - 1)}\u2026` : text);
   if (name.length <= letters) return [name];
   const space = name.lastIndexOf(" ", letters);
   return space > 0 ? [name.slice(0, space), cut(name.slice(space + 1))] : [cut(name)];
 }
 
+/** @param {string} state @param {string} word */
 function entry(state, word) {
   const sample = element("span", "dag-sample");
   sample.dataset.state = state;

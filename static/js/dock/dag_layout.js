@@ -10,9 +10,11 @@
  * @typedef {{fold: number, to: number, depth: number, row: number}} Place
  */
 
+/** @typedef {[from: number, to: number]} Edge */
+
 /**
  * @param {number} count of folds
- * @param {[number, number][]} edges from a fold to one that waits for it; from lower to higher numbers
+ * @param {Edge[]} edges from a fold to one that waits for it; from lower to higher numbers
  * @returns {Place[][]} the places of each column, from top to bottom
  */
 export function columns(count, edges) {
@@ -34,11 +36,12 @@ export function columns(count, edges) {
  */
 export function wayOf(laid, from, to) {
   const places = laid.flat();
+  /** @param {number} fold */
   const own = (fold) => places.filter((place) => place.fold === fold && place.to < 0);
   return [...own(from), ...places.filter((place) => place.fold === from && place.to === to), ...own(to)];
 }
 
-/** The length of the longest way to each fold. */
+/** The length of the longest way to each fold. @param {number} count @param {Edge[]} edges @returns {number[]} */
 function depths(count, edges) {
   const depth = new Array(count).fill(0);
   const inOrder = edges.toSorted(([a], [b]) => a - b);
@@ -46,16 +49,28 @@ function depths(count, edges) {
   return depth;
 }
 
-/** Put a column in the order of what leads to it, and count its rows from the middle. */
+/**
+ * Put a column in the order of what leads to it, and count its rows from the middle.
+ * @param {Place[]} column
+ * @param {Place[]} before
+ * @param {Edge[]} edges
+ */
 function arrange(column, before, edges) {
   const wish = new Map(column.map((place) => [place, middle(place, before, edges)]));
-  column.sort((a, b) => wish.get(a) - wish.get(b) || a.fold - b.fold || a.to - b.to);
+  column.sort((a, b) => (wish.get(a) ?? 0) - (wish.get(b) ?? 0) || a.fold - b.fold || a.to - b.to);
   column.forEach((place, row) => (place.row = row - (column.length - 1) / 2));
 }
 
-/** The mean row of what leads to a place from the column before. */
+/**
+ * The mean row of what leads to a place from the column before.
+ * @param {Place} place
+ * @param {Place[]} before
+ * @param {Edge[]} edges
+ */
 function middle(place, before, edges) {
+  /** @param {Place} other */
   const passes = (other) => (other.to < 0 || other.to === place.to) && other.fold === place.fold;
+  /** @param {Place} other */
   const arrives = (other) =>
     other.to < 0 ? edges.some(([from, to]) => from === other.fold && to === place.fold) : other.to === place.fold;
   const rows = before.filter(place.to < 0 ? arrives : passes).map((other) => other.row);

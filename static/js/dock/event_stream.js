@@ -34,6 +34,7 @@ function eventIn(block) {
   return data.length ? { event, data: JSON.parse(data.join("\n")) } : null;
 }
 
+/** @param {Response} answer @returns {Promise<string|undefined>} */
 async function problemOf(answer) {
   try {
     return (await answer.json()).detail;

@@ -1,9 +1,11 @@
 /** What can be done to the folds of a drawing. Folds go by their ids, so a change holds on a newer drawing too. */
 
+/** @import { Drawing, Fold, FoldKind } from "pleat" */
+
 /**
  * @param {string} id
- * @param {(fold: any, drawing: any) => void} alter
- * @returns {(drawing: any) => void} nothing happens where the fold is gone
+ * @param {(fold: Fold, drawing: Drawing) => void} alter
+ * @returns {(drawing: Drawing) => void} nothing happens where the fold is gone
  */
 function withFold(id, alter) {
   return (drawing) => {
@@ -15,7 +17,7 @@ function withFold(id, alter) {
 /** @param {string} id @param {string} name */
 export const renamed = (id, name) => withFold(id, (fold) => (fold.name = name));
 
-/** @param {string} id @param {"blue"|"red"} kind */
+/** @param {string} id @param {FoldKind} kind */
 export const recoloured = (id, kind) => withFold(id, (fold) => (fold.kind = kind));
 
 /** @param {string} id @param {number|null} radius metres; null: the article's */

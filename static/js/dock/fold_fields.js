@@ -6,6 +6,10 @@ import { iconButton, relabel } from "./buttons.js";
 import { length } from "../messages/lengths.js";
 import { COLOURS, MOVED } from "./words.js";
 
+/** @import { Fold, FoldKind } from "pleat" */
+
+/** @type {FoldKind[]} */
+const KINDS = ["blue", "red"];
 /** Fingers that hold less hold nothing (m). */
 const LEAST_GRIP_M = 0.001;
 
@@ -16,7 +20,7 @@ export class FoldFields {
    */
   constructor(verbs, onRename) {
     this.verbs = verbs;
-    this.colours = Object.keys(COLOURS).map((kind) => this.colour(kind));
+    this.colours = KINDS.map((kind) => this.colour(kind));
     this.radios = element("div", "segments", ...this.colours);
     this.radios.setAttribute("role", "radiogroup");
     this.radios.addEventListener("keydown", (event) => this.turn(event));
@@ -25,6 +29,8 @@ export class FoldFields {
     this.radius.addEventListener("input", () => (this.isTyped = true));
     this.radius.addEventListener("change", () => this.grip());
     this.isTyped = false;
+    /** The radius that the fold has, as it is written. */
+    this.told = "";
     this.radius.addEventListener("keydown", (event) => event.stopPropagation());
     this.up = iconButton("up", "", () => verbs.onMove(-1));
     this.down = iconButton("down", "", () => verbs.onMove(1));
@@ -36,7 +42,7 @@ export class FoldFields {
   }
 
   /**
-   * @param {any} fold of the drawing
+   * @param {Fold} fold of the drawing
    * @param {{called: string, isFirst: boolean, isLast: boolean, articleRadius: number}} now
    */
   show(fold, { called, isFirst, isLast, articleRadius }) {
@@ -59,6 +65,7 @@ export class FoldFields {
     this.down.disabled = isLast;
   }
 
+  /** @param {FoldKind} kind */
   colour(kind) {
     const radio = button("segment", () => this.verbs.onColour(kind), COLOURS[kind]);
     radio.dataset.kind = kind;
@@ -84,6 +91,6 @@ export class FoldFields {
     const problem = text === "" ? "" : problemOf(text, LEAST_GRIP_M);
     if (!problem) this.verbs.onGrip(text === "" ? null : parsed(text));
     else this.verbs.onRefuse(problem);
-    if (problem) this.radius.value = this.told ?? "";
+    if (problem) this.radius.value = this.told;
   }
 }

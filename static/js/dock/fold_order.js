@@ -3,6 +3,8 @@
 const SLACK_PX = 4;
 const TOUCH_HANDLE = ".fold-number";
 
+/** @typedef {{row: HTMLElement, pointer: number, y: number, to: number, isOn: boolean}} Pull */
+
 export class FoldOrder {
   /**
    * @param {HTMLElement} list its children have `data-fold`
@@ -13,8 +15,10 @@ export class FoldOrder {
     this.list = list;
     this.onMove = onMove;
     this.onEnd = onEnd;
-    /** @type {{row: HTMLElement, pointer: number, y: number, to: number, isOn: boolean}|null} */
+    /** @type {Pull|null} */
     this.pull = null;
+    /** Whether the click that is to come ends a pull. */
+    this.wasPulled = false;
     list.addEventListener("pointerdown", (event) => this.begin(event));
     list.addEventListener("pointermove", (event) => this.go(event));
     list.addEventListener("pointerup", (event) => this.end(event, true));
@@ -27,6 +31,7 @@ export class FoldOrder {
     return this.pull?.isOn ?? false;
   }
 
+  /** @param {PointerEvent} event */
   begin(event) {
     this.wasPulled = false;
     const part = /** @type {Element} */ (event.target);
@@ -36,6 +41,7 @@ export class FoldOrder {
     this.pull = { row, pointer: event.pointerId, y: event.clientY, to: this.index(row), isOn: false };
   }
 
+  /** @param {PointerEvent} event */
   go(event) {
     const { pull } = this;
     if (!pull || event.pointerId !== pull.pointer) return;
@@ -49,13 +55,13 @@ export class FoldOrder {
     this.mark(pull);
   }
 
-  /** Where the row would come to stand. */
+  /** Where the row would come to stand. @param {Element} row @param {number} y */
   target(row, y) {
     const others = [...this.list.children].filter((child) => child !== row);
     return others.filter((child) => middle(child) < y).length;
   }
 
-  /** Show between which rows it would come. */
+  /** Show between which rows it would come. @param {Pull} pull */
   mark(pull) {
     const others = [...this.list.children].filter((child) => child !== pull.row);
     others.forEach((child, index) => {
@@ -64,6 +70,7 @@ export class FoldOrder {
     });
   }
 
+  /** @param {PointerEvent} event @param {boolean} isKept */
   end(event, isKept) {
     const { pull } = this;
     if (!pull || event.pointerId !== pull.pointer) return;
@@ -75,7 +82,7 @@ export class FoldOrder {
     this.onEnd();
   }
 
-  /** A pull ends with a click, which is not meant as one. */
+  /** A pull ends with a click, which is not meant as one. @param {Event} event */
   swallow(event) {
     if (!this.wasPulled) return;
     this.wasPulled = false;
@@ -83,6 +90,7 @@ export class FoldOrder {
     event.preventDefault();
   }
 
+  /** @param {KeyboardEvent} event */
   giveUp(event) {
     if (!this.isDragging || event.key !== "Escape") return;
     event.stopPropagation();
@@ -99,11 +107,13 @@ export class FoldOrder {
     }
   }
 
+  /** @param {Element} row */
   index(row) {
     return [...this.list.children].indexOf(row);
   }
 }
 
+/** @param {Element} child */
 function middle(child) {
   const box = child.getBoundingClientRect();
   return box.top + box.height / 2;

@@ -8,6 +8,8 @@ import { FoldFields } from "./fold_fields.js";
 import { icon } from "./icons.js";
 import { COLOURS, foldName, MOVED } from "./words.js";
 
+/** @import { Fold } from "pleat" */
+
 const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits", none: "" };
 
 /**
@@ -51,10 +53,20 @@ export class FoldRow {
     this.line = element("div", "fold-line", this.mark, this.stroke, this.name, marks, this.eye);
     this.root = element("li", "fold-row", this.line, this.fields.root);
     this.root.dataset.fold = id;
+    /** @type {Fold|null} as it was shown last */
+    this.fold = null;
+    this.index = 0;
+    this.problem = "";
+    /** The names of what it waits for. */
+    this.waiting = "";
+    /** @type {keyof typeof STATES} */
+    this.state = "none";
+    /** @type {HTMLInputElement|null} in which it is being renamed */
+    this.field = null;
   }
 
   /**
-   * @param {any} fold of the drawing
+   * @param {Fold} fold of the drawing
    * @param {Now} now
    */
   show(fold, { index, count, articleRadius, isAssumed, waits, problem }) {
@@ -65,7 +77,7 @@ export class FoldRow {
     this.root.dataset.kind = fold.kind;
     this.root.classList.toggle("is-illegal", problem !== "");
     this.name.title = problem || `${COLOURS[fold.kind]}, ${MOVED[fold.kind]}`;
-    const assumed = isAssumed ? `grip ${length(fold.grip_radius_m)}` : "";
+    const assumed = isAssumed ? `grip ${length(fold.grip_radius_m ?? articleRadius)}` : "";
     if (assumed !== this.assumed.dataset.text) {
       this.assumed.dataset.text = assumed;
       this.assumed.replaceChildren(...(assumed ? [assumptionChip(assumed, () => this.verbs.onGrip(null))] : []));
@@ -76,7 +88,7 @@ export class FoldRow {
     this.problem = problem;
     this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, articleRadius });
     relabel(this.eye, `Show the cloth before ${called}`);
-    this.showState(this.state ?? "none", true);
+    this.showState(this.state, true);
   }
 
   /**
@@ -91,7 +103,7 @@ export class FoldRow {
     this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? icon("tick") : String(this.index + 1));
     const told = [
       `${this.index + 1}`,
-      `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
+      this.fold && `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
       this.problem || STATES[state],
       this.waiting && `after ${this.waiting}`,
     ];
@@ -113,7 +125,7 @@ export class FoldRow {
 
   /** Turn the name into a field until Enter, Escape or leaving it. */
   rename() {
-    if (this.field) return;
+    if (this.field || !this.fold) return;
     const field = /** @type {HTMLInputElement} */ (element("input", "field fold-rename"));
     field.value = this.fold.name;
     field.maxLength = 200;
@@ -136,13 +148,13 @@ export class FoldRow {
   endRename(isKept) {
     const { field } = this;
     if (!field) return;
-    this.field = undefined; // first: removing it blurs it
+    this.field = null; // first: removing it blurs it
     const hadFocus = document.activeElement === field;
     const name = field.value.trim();
     field.remove();
     this.name.hidden = false;
     if (hadFocus) this.name.focus();
-    if (!isKept || name === this.fold.name) return;
+    if (!isKept || name === this.fold?.name) return;
     this.name.textContent = foldName({ name }, this.index);
     this.verbs.onRename(name);
   }

@@ -1,11 +1,13 @@
 /** How far each fold is at a time of the plan. */
 
+/** @import { Plan } from "pleat" */
+
 /** @typedef {"done"|"current"|"available"|"waiting"} FoldState */
 
 const INSTANT_S = 1e-9;
 
 /**
- * @param {any} plan as in the message of kind `plan`, or null
+ * @param {Plan|null} plan
  * @param {number} t_s
  * @returns {FoldState[]} one for each fold of the plan; without a plan none
  */
@@ -13,8 +15,9 @@ export function foldStates(plan, t_s) {
   if (!plan) return [];
   const done = new Set();
   let current = -1;
-  for (const { kind, fold, start_s: start, duration_s: duration } of plan.primitives) {
-    if (kind !== "fold") continue;
+  for (const primitive of plan.primitives) {
+    if (primitive.kind !== "fold") continue;
+    const { fold, start_s: start, duration_s: duration } = primitive;
     if (t_s >= start + duration - INSTANT_S) done.add(fold);
     else if (t_s > start) current = fold;
   }
@@ -26,7 +29,7 @@ export function foldStates(plan, t_s) {
 }
 
 /**
- * @param {any} plan or null
+ * @param {Plan|null} plan
  * @param {number} fold
  * @returns {number[]} the folds that come right before it
  */
@@ -35,7 +38,7 @@ export function waitsFor(plan, fold) {
 }
 
 /**
- * @param {any} plan or null
+ * @param {Plan|null} plan
  * @param {number} fold
  * @returns {number[]} the folds that come right after it
  */
@@ -43,5 +46,5 @@ export function before(plan, fold) {
   return edges(plan).flatMap(([from, to]) => (from === fold ? [to] : []));
 }
 
-/** @param {any} plan or null @returns {[number, number][]} */
+/** @param {Plan|null} plan @returns {[number, number][]} */
 const edges = (plan) => plan?.dag.edges ?? [];

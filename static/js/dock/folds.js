@@ -10,6 +10,7 @@ import { FoldRow } from "./fold_row.js";
 import { foldStates, waitsFor } from "./fold_states.js";
 import { foldName } from "./words.js";
 
+/** @type {Record<string, number>} */
 const ARROWS = { ArrowUp: -1, ArrowDown: 1 };
 
 export class Folds {

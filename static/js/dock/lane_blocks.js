@@ -4,6 +4,8 @@ import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
 import { foldName, hands, seconds, where, whole } from "./words.js";
 
+/** @import { Fold, Plan, Primitive } from "pleat" */
+
 /**
  * What an arm or the base does in a primitive: `name` and, where there is room, `rest`, or where there is little a
  * fold's `number`; `about` is all of it.
@@ -20,15 +22,18 @@ import { foldName, hands, seconds, where, whole } from "./words.js";
  * @property {boolean} isHolding whether the hands hold on after it
  */
 
+/** @typedef {{name: string, number?: string, rest?: string, kind?: string, colour?: string, base?: string}} Told */
+
 const MOVED_M = 0.001;
 
 /**
- * @param {any} plan or null
- * @param {any[]} folds the garment's
+ * @param {Plan|null} plan
+ * @param {Fold[]} folds the garment's
  * @returns {{base: Block[], left: Block[], right: Block[]}}
  */
 export function laneBlocks(plan, folds) {
   const primitives = plan?.primitives ?? [];
+  /** @param {string} name */
   const arm = (name) =>
     primitives.flatMap((primitive, index) =>
       primitive.grips.some((grip) => grip.arm === name) ? [armBlock(primitive, index, folds)] : [],
@@ -37,14 +42,22 @@ export function laneBlocks(plan, folds) {
   return { base, left: arm("left"), right: arm("right") };
 }
 
+/** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @returns {Block} */
 function armBlock(primitive, index, folds) {
-  const isFold = primitive.kind === "fold";
-  const name = isFold ? foldName(folds[primitive.fold], primitive.fold) : "drag";
-  const number = isFold ? String(primitive.fold + 1) : "";
-  return block(primitive, index, folds, { name, number, colour: (isFold && folds[primitive.fold]?.kind) || "" });
+  if (primitive.kind !== "fold") return block(primitive, index, folds, { name: "drag" });
+  const { fold } = primitive;
+  const told = { name: foldName(folds[fold], fold), number: String(fold + 1), colour: folds[fold]?.kind ?? "" };
+  return block(primitive, index, folds, told);
 }
 
-/** What the base does meanwhile; during a fold it may back off or come nearer. */
+/**
+ * What the base does meanwhile; during a fold it may back off or come nearer.
+ * @param {Primitive} primitive
+ * @param {number} index
+ * @param {Primitive[]} primitives
+ * @param {Fold[]} folds
+ * @returns {Block|null}
+ */
 function baseBlock(primitive, index, primitives, folds) {
   if (primitive.kind === "move") return block(primitive, index, folds, { name: place(primitive.to), kind: "move" });
   const further = primitive.base.back_off_m - (primitives[index - 1]?.base.back_off_m ?? 0);
@@ -53,9 +66,11 @@ function baseBlock(primitive, index, primitives, folds) {
   return block(primitive, index, folds, { name, rest, kind: "move", base: `the base drives ${name} ${rest}` });
 }
 
+/** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @param {Told} told @returns {Block} */
 function block(primitive, index, folds, told) {
   const { name, number = "", rest = "", kind = primitive.kind, colour = "", base = "" } = told;
-  const { start_s: start, duration_s: duration, holds } = primitive;
+  const { start_s: start, duration_s: duration } = primitive;
+  const holds = primitive.kind !== "move" && primitive.holds;
   const by = hands(primitive);
   const parts = [whole(primitive, folds), by && `by ${by}`, `at ${where(primitive)}`, base, holds ? "holds on" : ""];
   const when = `${seconds(start)} to ${seconds(start + duration)}`;
@@ -65,7 +80,7 @@ function block(primitive, index, folds, told) {
 }
 
 /**
- * @param {any} plan or null
+ * @param {Plan|null} plan
  * @param {number} t_s
  * @returns {number} the primitive that is going on, -1 without one; at the end the last
  */

@@ -7,6 +7,8 @@ import { axisTicks } from "./time_axis.js";
 import { place } from "../messages/names.js";
 import { hands, seconds, whole } from "./words.js";
 
+/** @import { Fold, Primitive } from "pleat" */
+
 const LANES = /** @type {const} */ ([
   ["base", "", "Base"],
   ["left", "L", "Left arm"],
@@ -34,6 +36,12 @@ export class Lanes {
     over.setAttribute("aria-hidden", "true");
     const time = element("div", "lanes-time", this.axis, slider.root);
     this.root = element("div", "lanes", element("span", "lane-name"), time);
+    /** What is shown: plan, folds and unit. */
+    this.shown = "";
+    /** The primitive that is going on, -1 for none. */
+    this.current = -1;
+    /** How long the plan takes (s). */
+    this.duration = 0;
     /** @type {Map<string, HTMLElement>} */
     this.lanes = new Map(LANES.map(([name, letter, words]) => [name, this.lane(name, letter, words)]));
     this.root.append(over);
@@ -62,6 +70,7 @@ export class Lanes {
       this.lanes.get(name)?.replaceChildren(...blocks.map((block) => this.block(block)));
     }
     this.stopAt(this.root.querySelector(".block"));
+    this.current = -1; // the blocks are new
     this.axis.replaceChildren(...axisTicks(this.duration).map((t_s) => this.tickMark(t_s)));
     this.root.classList.toggle("is-empty", this.duration === 0);
     this.tick();
@@ -78,6 +87,7 @@ export class Lanes {
     }
   }
 
+  /** @param {string} name @param {string} letter @param {string} words */
   lane(name, letter, words) {
     const label = element("span", "lane-name", letter && element("b", "arm", letter), element("span", "", words));
     const lane = element("div", "lane");
@@ -159,27 +169,37 @@ export class Lanes {
     for (const block of blocks) block.tabIndex = block === stop ? 0 : -1;
   }
 
-  /** Arrows go from block to block along a lane and from lane to lane. */
+  /**
+   * Arrows go from block to block along a lane and from lane to lane.
+   * @param {KeyboardEvent} event
+   * @param {HTMLElement} made
+   */
   walk(event, made) {
     const lanes = [...this.lanes.values()].filter((lane) => lane.children.length);
-    const lane = lanes.indexOf(made.parentElement);
-    const along = { ArrowLeft: made.previousElementSibling, ArrowRight: made.nextElementSibling }[event.key];
-    const across = { ArrowUp: lanes[lane - 1], ArrowDown: lanes[lane + 1] }[event.key];
-    const target = along ?? (across && nearest(across, made));
-    if (!target) return;
+    const lane = lanes.findIndex((one) => one === made.parentElement);
+    const { previousElementSibling: before, nextElementSibling: after } = made;
+    /** @type {Record<string, Element|null>} */
+    const along = { ArrowLeft: before, ArrowRight: after };
+    /** @type {Record<string, HTMLElement|undefined>} */
+    const across = { ArrowUp: lanes[lane - 1], ArrowDown: lanes[lane + 1] };
+    const other = across[event.key];
+    const target = along[event.key] ?? (other && nearest(other, made));
+    if (!(target instanceof HTMLElement)) return;
     event.preventDefault();
     target.focus();
   }
 }
 
-/** A primitive in a line: what, by which hands, from where. */
+/** A primitive in a line: what, by which hands, from where. @param {Primitive} primitive @param {Fold[]} folds */
 function doing(primitive, folds) {
   const at = primitive.kind === "move" ? "" : place(primitive.base.station);
   return [whole(primitive, folds), hands(primitive), at].filter(Boolean).join(", ");
 }
 
-/** The block of a lane that begins closest to another block. */
+/** The block of a lane that begins closest to another block. @param {HTMLElement} lane @param {HTMLElement} made */
 function nearest(lane, made) {
+  /** @param {HTMLElement} block */
   const gap = (block) => Math.abs(parseFloat(block.style.left) - parseFloat(made.style.left));
-  return [...lane.children].reduce((best, block) => (gap(block) < gap(best) ? block : best));
+  const blocks = /** @type {HTMLElement[]} */ ([...lane.children]);
+  return blocks.reduce((best, block) => (gap(block) < gap(best) ? block : best));
 }

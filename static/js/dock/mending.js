@@ -1,5 +1,8 @@
 /** What would mend a drawing that cannot be planned: asks the server once the drawing rests. */
 
+/** @import { Mends, Says } from "pleat" */
+/** @import { Preview } from "../store.js" */
+
 /** @typedef {import("./suggestion_search.js").Suggestion} Suggestion */
 
 export class Mending extends EventTarget {
@@ -16,7 +19,7 @@ export class Mending extends EventTarget {
   /** Ask while the drawing rests with something wrong; anything else forgets what was found. */
   follow() {
     const { plan: message, state } = this.store;
-    const isWrong = message?.status === "illegal" && message.version === state?.version;
+    const isWrong = state && message?.status === "illegal" && message.version === state.version;
     const wanted = isWrong && !state.gesture && state.drawing.outline.length ? state.version : null;
     if (wanted === this.version) return;
     this.version = wanted;
@@ -25,8 +28,10 @@ export class Mending extends EventTarget {
     if (wanted !== null) this.ask(wanted);
   }
 
+  /** @param {number} version */
   async ask(version) {
     const answer = await fetch(`${this.store.path}/mends`).catch(() => null);
+    /** @type {Mends|null} */
     const told = answer?.ok ? await answer.json() : null;
     if (this.version !== version || told?.version !== version) return;
     this.take(told.mends.map(({ label, says, drawing }) => suggestion(label, says, { drawing, version })));
@@ -40,7 +45,13 @@ export class Mending extends EventTarget {
   }
 }
 
-/** A mend has no plan yet, and so no cost. @returns {Suggestion} */
+/**
+ * A mend has no plan yet, and so no cost.
+ * @param {string} message
+ * @param {Says} says
+ * @param {Preview} change
+ * @returns {Suggestion}
+ */
 function suggestion(message, says, change) {
   return { kind: "mend", is_assumption: false, message, says, change, size: 0, cost_s: null };
 }

@@ -6,11 +6,19 @@ import { details, explanation } from "./reasons.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { ranked, SuggestionSearch } from "./suggestion_search.js";
 
+/** @import { DocumentState, PlanMessage } from "pleat" */
+/** @import { Suggestion } from "./suggestion_search.js" */
+
 const SHOWN_MAX = 3;
 const REST_MS = 500;
 /** How long is looked when that is asked for: some changes take long to be proven (s). */
 const LONG_S = 60;
 const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
+
+/** @typedef {(one: Suggestion, index: number) => HTMLElement} Make makes a suggestion's button */
+
+/** What each button offers. @type {WeakMap<Element, Suggestion>} */
+const OFFERED = new WeakMap();
 
 export class NoPlan {
   /** @param {import("../store.js").Store} store */
@@ -18,6 +26,10 @@ export class NoPlan {
     this.store = store;
     this.search = new SuggestionSearch();
     this.mending = new Mending(store);
+    /** @type {number|null|undefined} the version that is searched for; undefined before any is known */
+    this.searched = undefined;
+    /** Whether more time was given to the search. */
+    this.isLong = false;
     this.sentence = element("p", "reason");
     this.longer = button("chip look-longer", () => this.lookLonger());
     this.longer.hidden = true;
@@ -48,8 +60,8 @@ export class NoPlan {
   }
 
   /**
-   * @param {any} message of kind `plan`, without a plan
-   * @param {any} state of kind `document`
+   * @param {PlanMessage} message without a plan
+   * @param {DocumentState} state
    */
   show(message, state) {
     this.sentence.textContent = explanation(message, state);
@@ -65,14 +77,14 @@ export class NoPlan {
     this.mending.follow();
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
-    const rests = isAnswered && SEARCHABLE.has(message?.status ?? "");
-    const wanted = rests ? state.version : null;
+    const resting = isAnswered && SEARCHABLE.has(message.status) ? state : null;
+    const wanted = resting && resting.version;
     if (wanted === this.searched) return;
     this.searched = wanted;
     this.isLong = false;
     this.unfold(false);
     this.store.setPreview(null);
-    if (rests) this.search.start(state, { delay_ms: REST_MS });
+    if (resting) this.search.start(resting, { delay_ms: REST_MS });
     else this.search.stop();
   }
 
@@ -80,6 +92,7 @@ export class NoPlan {
     const { found, isRunning, fault } = this.search;
     const order = [...this.mending.found, ...ranked(found)];
     const offered = order.slice(0, SHOWN_MAX);
+    /** @type {Make} */
     const make = (one, index) => suggestionButton(this.store, one, index === 0 ? "is-first" : "");
     if (!isUnderHand(this.help, order)) fill(this.help, offered, make);
     fill(this.more, order.slice(SHOWN_MAX), make);
@@ -92,15 +105,20 @@ export class NoPlan {
 
   lookLonger() {
     this.isLong = true;
-    this.search.start(this.store.state, { limit_s: LONG_S });
+    if (this.store.state) this.search.start(this.store.state, { limit_s: LONG_S });
   }
 
-  /** Nothing was found: there is more time for it, once, or another try. */
+  /**
+   * Nothing was found: there is more time for it, once, or another try.
+   * @param {boolean} isNothing
+   * @param {string} fault
+   */
   offerLonger(isNothing, fault) {
-    this.longer.hidden = !isNothing || (Boolean(this.isLong) && !fault);
+    this.longer.hidden = !isNothing || (this.isLong && !fault);
     this.longer.textContent = fault ? "Look again" : "Look longer";
   }
 
+  /** @param {string} fault */
   nothing(fault) {
     if (fault) return `Nothing could be looked for: ${fault}.`;
     if (!this.search.isComplete) return "Nothing has been found yet: the time for looking ran out.";
@@ -115,19 +133,29 @@ export class NoPlan {
   }
 }
 
-/** What is said while the search goes on; beside suggestions its bar says enough. */
+/** What is said while the search goes on; beside suggestions its bar says enough. @param {number} offered */
 const looking = (offered) => (offered ? "" : "Looking for what would help\u2026");
 
-/** Whether somebody is about to press one of the buttons, which had better stay where they are as long as they hold. */
+/**
+ * Whether somebody is about to press one of the buttons, which had better stay where they are as long as they hold.
+ * @param {HTMLElement} root
+ * @param {Suggestion[]} found
+ */
 function isUnderHand(root, found) {
   return found.length > 0 && root.children.length > 0 && root.matches(":hover, :focus-within");
 }
 
-/** Buttons for suggestions; those that are there already are kept, so that the hand on one of them stays there. */
+/**
+ * Buttons for suggestions; those that are there already are kept, so that the hand on one of them stays there.
+ * @param {HTMLElement} root
+ * @param {Suggestion[]} suggestions
+ * @param {Make} make
+ */
 function fill(root, suggestions, make) {
-  const known = new Map([...root.children].map((child) => [child.suggestion, child]));
+  const known = [...root.children];
   const wanted = suggestions.map((one, index) => {
-    const made = known.get(one) ?? Object.assign(make(one, index), { suggestion: one });
+    const made = known.find((child) => OFFERED.get(child) === one) ?? make(one, index);
+    OFFERED.set(made, one);
     made.classList.toggle("is-first", index === 0);
     return made;
   });

@@ -3,28 +3,36 @@
 import { element } from "../dom.js";
 import { KINDS, seconds } from "./words.js";
 
+/** @import { Plan, PlanBefore, Statistics } from "pleat" */
+
 const NOTICEABLE_S = 0.05;
-const COUNTERS = [
+/**
+ * Of the time that a kind of primitive takes (s).
+ * @typedef {{kind: string, name: string, count: number, spent: number}} Share
+ */
+
+const COUNTERS = /** @type {const} */ ([
   ["Expanded", "expanded"],
   ["Explored", "explored"],
   ["IK queries", "ik_queries"],
-];
-const TIMES = [
+]);
+const TIMES = /** @type {const} */ ([
   ["Search", "search_time_s"],
   ["of it, IK", "ik_time_s"],
   ["Joint paths", "joint_time_s"],
-];
+]);
 
 /**
- * @param {any} plan that is solved
- * @param {any} before the figures of the plan before, or null
+ * @param {Plan} plan that is solved
+ * @param {PlanBefore|null} before the figures of the plan before
  * @returns {HTMLElement[]}
  */
 export function numbers(plan, before) {
   const parts = sharesOf(plan);
-  const change = difference(plan.cost_s, before);
-  const cost = element("p", "total", seconds(plan.cost_s), element("span", "total-change", change));
-  return [cost, bar(parts, plan.cost_s), partList(parts), counters(plan.statistics)];
+  const cost_s = plan.cost_s ?? 0;
+  const change = difference(cost_s, before);
+  const cost = element("p", "total", seconds(cost_s), element("span", "total-change", change));
+  return [cost, bar(parts, cost_s), partList(parts), counters(plan.statistics)];
 }
 
 /**
@@ -40,7 +48,7 @@ export function difference(cost_s, before) {
   return `${seconds(Math.abs(more))} ${more > 0 ? "more" : "less"} than before`;
 }
 
-/** What each kind of primitive adds up to (s). */
+/** What each kind of primitive adds up to (s). @param {Plan} plan @returns {Share[]} */
 function sharesOf(plan) {
   return Object.entries(KINDS).flatMap(([kind, name]) => {
     const own = plan.primitives.filter((primitive) => primitive.kind === kind);
@@ -49,6 +57,7 @@ function sharesOf(plan) {
   });
 }
 
+/** @param {Share[]} parts @param {number} cost_s */
 function bar(parts, cost_s) {
   const shown = element("div", "cost-bar");
   shown.setAttribute("aria-hidden", "true");
@@ -61,6 +70,7 @@ function bar(parts, cost_s) {
   return shown;
 }
 
+/** @param {Share[]} parts */
 function partList(parts) {
   const list = element("dl", "figures is-parts");
   for (const { kind, name, count, spent } of parts) {
@@ -71,10 +81,24 @@ function partList(parts) {
   return list;
 }
 
+/** @param {Statistics} statistics */
 function counters(statistics) {
   const list = element("dl", "figures");
+  /** @param {string} name @param {string} value */
   const add = (name, value) => list.append(element("dt", "", name), element("dd", "", value));
   for (const [name, key] of COUNTERS) add(name, statistics[key].toLocaleString("en"));
   for (const [name, key] of TIMES) add(name, `${Math.round(1000 * statistics[key]).toLocaleString("en")} ms`);
   return list;
+}
+
+/**
+ * How much quicker a plan may be that was not found. Where both times read the same, the difference is told.
+ * @param {number} cost_s
+ * @param {number} least_s what any plan takes
+ */
+export function quicker(cost_s, least_s) {
+  const least = seconds(least_s);
+  if (seconds(cost_s) !== least) return `There may be a quicker plan; none takes less than ${least}.`;
+  const by_s = Math.max(Math.ceil(100 * (cost_s - least_s) - 1e-6) / 100, 0.01);
+  return `There may be a quicker plan, by ${by_s.toFixed(2)} s at most.`;
 }

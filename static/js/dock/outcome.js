@@ -3,12 +3,13 @@
 import { button, element } from "../dom.js";
 import { BestPlace } from "./best_place.js";
 import { NoPlan } from "./no_plan.js";
-import { numbers } from "./numbers.js";
+import { numbers, quicker } from "./numbers.js";
 import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
 import { Refining } from "./refining.js";
-import { seconds } from "./words.js";
+
+/** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
 
 export class Outcome {
   /**
@@ -57,21 +58,19 @@ export class Outcome {
     const plan = this.store.plan?.plan;
     const isOpen = plan?.status === "solved" && plan.is_final && plan.at_least_s !== null;
     const searched = `Searched ${(plan?.statistics?.ways ?? 0).toLocaleString("en")} ways.`;
-    const least = `There may be a quicker plan; none takes less than ${seconds(plan?.at_least_s ?? 0)}.`;
-    const open = isOpen ? `${searched} ${least}` : "";
+    const open = isOpen ? `${searched} ${quicker(plan.cost_s ?? 0, plan.at_least_s ?? 0)}` : "";
     this.refined.textContent = this.refining.isLong ? "Looking for a quicker plan\u2026" : open;
     this.longer.hidden = this.refining.isLong || !isOpen || !this.store.plan?.may_look_longer;
   }
 
   show() {
     const { plan: message, state } = this.store;
-    const isNone = Boolean(message && state && NO_PLAN.has(message.status));
     const plan = message?.plan?.status === "solved" ? message.plan : null;
     this.place.follow();
     this.none.follow();
     if (message && message.status === "planning" && !plan) this.wait();
-    else if (isNone) this.showNone(message, state);
-    else if (plan) this.showPlan(plan, message?.before);
+    else if (message && state && NO_PLAN.has(message.status)) this.showNone(message, state);
+    else if (plan) this.showPlan(plan, message?.before ?? null);
   }
 
   /** There is neither a plan nor a reason why not; a reason of before stays until then. */
@@ -85,6 +84,7 @@ export class Outcome {
     this.place.button.hidden = true;
   }
 
+  /** @param {PlanMessage} message @param {DocumentState} state */
   showNone(message, state) {
     this.turn(true);
     this.list.show(null, []);
@@ -92,6 +92,7 @@ export class Outcome {
     this.place.button.hidden = true;
   }
 
+  /** @param {Plan} plan @param {PlanBefore|null} before */
   showPlan(plan, before) {
     this.turn(false);
     this.list.show(plan, this.shown.folds);

@@ -2,10 +2,13 @@
 
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { place } from "../messages/names.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
+
+/** @import { Fold, Plan, Primitive } from "pleat" */
 
 export class PlanList {
   /**
@@ -19,13 +22,17 @@ export class PlanList {
     this.onSeek = onSeek;
     this.root = element("ol", "plan-list");
     this.root.setAttribute("aria-label", "Plan");
+    /** What is shown: plan, folds and unit. */
+    this.shown = "";
+    /** @type {Plan|null} */
+    this.plan = null;
     this.current = -1;
     clock.addEventListener("tick", () => this.tick());
   }
 
   /**
-   * @param {any} plan or null
-   * @param {any[]} folds of the drawing
+   * @param {Plan|null} plan
+   * @param {Fold[]} folds of the drawing
    */
   show(plan, folds) {
     const wanted = JSON.stringify([unit.name, plan?.id, folds.map(({ name, kind }) => [name, kind])]);
@@ -71,11 +78,12 @@ export class PlanList {
     if (box.bottom > seen.bottom) frame.scrollTop += box.bottom - seen.bottom;
   }
 
+  /** @param {Primitive} primitive @param {Fold[]} folds */
   row(primitive, folds) {
     const name = element("span", "plan-name", briefly(primitive, folds));
     const by = hands(primitive);
     const at = primitive.kind === "move" ? "" : place(primitive.base.station);
-    const about = element("span", "plan-about", ...[by && element("b", "arm", by), at].filter(Boolean));
+    const about = element("span", "plan-about", ...present([by && element("b", "arm", by), at]));
     const shown = button(
       "plan-row",
       () => this.onSeek(primitive.start_s),
@@ -93,10 +101,11 @@ export class PlanList {
   }
 }
 
-/** A row as it is read out. */
+/** A row as it is read out. @param {Primitive} primitive @param {Fold[]} folds */
 function told(primitive, folds) {
   const by = hands(primitive);
-  const how = [by && `by ${by}`, `at ${where(primitive)}`, primitive.holds ? "holds on" : ""];
+  const holds = primitive.kind !== "move" && primitive.holds;
+  const how = [by && `by ${by}`, `at ${where(primitive)}`, holds ? "holds on" : ""];
   const parts = [whole(primitive, folds), ...how, seconds(primitive.duration_s)];
   return parts.filter(Boolean).join(", ");
 }

@@ -3,12 +3,14 @@
 const NOTICED_MS = 200;
 const LONG_MS = 1000;
 
+/** @typedef {""|"short"|"noticed"|"long"} Wait */
+
 export class Planning extends EventTarget {
   /** @param {import("../store.js").Store} store */
   constructor(store) {
     super();
     this.store = store;
-    /** @type {""|"short"|"noticed"|"long"} */
+    /** @type {Wait} */
     this.wait = "";
     /** @type {number[]} */
     this.timers = [];
@@ -28,6 +30,7 @@ export class Planning extends EventTarget {
 
   begin() {
     this.wait = "short";
+    /** @param {Wait} wait @param {number} millis */
     const after = (wait, millis) => setTimeout(() => this.become(wait), millis);
     this.timers = [after("noticed", NOTICED_MS), after("long", LONG_MS)];
   }
@@ -37,6 +40,7 @@ export class Planning extends EventTarget {
     this.become("");
   }
 
+  /** @param {Wait} wait */
   become(wait) {
     if (wait === this.wait) return;
     this.wait = wait;

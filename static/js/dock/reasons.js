@@ -5,7 +5,10 @@ import { enough, length } from "../messages/lengths.js";
 import { called, place } from "../messages/names.js";
 import { capital, foldName } from "./words.js";
 
-/** The fold that a reason is about, in front of what is said of it. */
+/** @import { DocumentState, Drawing, DrawingProblem, PlanMessage, Reason, Says } from "pleat" */
+/** @import { Named } from "../messages/names.js" */
+
+/** The fold that a reason is about, in front of what is said of it. @param {Reason} reason @param {Named[]} folds */
 const of = ({ fold }, folds) => (fold === null ? "" : `${called(folds, fold)}: `);
 
 /** Statuses for which there is no plan and nothing is being worked out. */
@@ -15,6 +18,7 @@ const UP_DOWN = 0.5;
 /** A shorter drag need not be told (m). */
 const DRAGGED_M = 1e-3;
 
+/** @type {Record<string, (reason: Reason) => string>} */
 const SAYS = {
   out_of_reach: outOfReach,
   too_many_grips: ({ needed_grip_radius_m: radius }) =>
@@ -31,8 +35,8 @@ const SAYS = {
 };
 
 /**
- * @param {any} reason
- * @param {{name?: string}[]} folds
+ * @param {Reason} reason
+ * @param {Named[]} folds
  */
 export function sentence(reason, folds) {
   const says = SAYS[reason.code];
@@ -42,8 +46,8 @@ export function sentence(reason, folds) {
 
 /**
  * What stands in the way first, in words.
- * @param {any} message of kind `plan`
- * @param {any} state of kind `document`
+ * @param {PlanMessage} message
+ * @param {DocumentState} state
  */
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
@@ -56,8 +60,8 @@ export function headline(message, state) {
 /**
  * The same with all that helps where there is more room: how far a search came that did not come to an end, how far the
  * cloth had been dragged by then.
- * @param {any} message of kind `plan`
- * @param {any} state of kind `document`
+ * @param {PlanMessage} message
+ * @param {DocumentState} state
  */
 export function explanation(message, state) {
   if (message.status === "budget_exceeded") return told(message);
@@ -66,21 +70,22 @@ export function explanation(message, state) {
   return headline(message, state).replace(/\.$/, `${after}.`);
 }
 
-/** How many ways were looked at before the search was given up. */
+/** How many ways were looked at before the search was given up. @param {PlanMessage} message */
 const ways = (message) => {
   const count = message.plan?.statistics?.ways ?? 0;
   return `${count.toLocaleString("en")} ${count === 1 ? "way" : "ways"}`;
 };
 
+/** @param {PlanMessage} message */
 const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
 
-/** What the server says, as a sentence. */
+/** What the server says, as a sentence. @param {PlanMessage} message */
 const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
 
 /**
  * Everything that is known about why, with all the numbers.
- * @param {any} message of kind `plan`
- * @param {any} state of kind `document`
+ * @param {PlanMessage} message
+ * @param {DocumentState} state
  */
 export function details(message, state) {
   const { folds } = state.drawing;
@@ -90,6 +95,7 @@ export function details(message, state) {
   return all.map((reason) => `${of(reason, folds)}${inWords(reason, folds)}.`).map(capital);
 }
 
+/** @param {DrawingProblem|undefined} problem @param {Drawing} drawing */
 function problemSentence(problem, drawing) {
   if (!problem) return "The drawing is not finished.";
   if (problem.code === "outline_unfinished") {
@@ -100,14 +106,15 @@ function problemSentence(problem, drawing) {
   return `${capital(what)}: ${inWords(problem, drawing.folds)}.`;
 }
 
+/** @param {string} field */
 function subject(field) {
   return field.startsWith("outline") ? "outline" : field.replaceAll("_", " ");
 }
 
-/** How the cloth lies at the start, in the page's unit; nothing of what comes later. */
+/** How the cloth lies at the start, in the page's unit; nothing of what comes later. @param {Reason} reason */
 function atRest({ says }) {
   if (says.code !== "at_start") return "";
-  const { code, edge, beyond_m: beyond, off_m: off } = says.what;
+  const { code, edge, beyond_m: beyond, off_m: off } = /** @type {Says} */ (says.what);
   if (code === "hangs_loose") {
     return `the cloth hangs ${length(beyond)} over the table\u2019s ${edge} edge, and nothing holds it there`;
   }
@@ -115,6 +122,7 @@ function atRest({ says }) {
   return code === "corner_covered" ? "the cloth hangs over two edges of the table at a corner" : "";
 }
 
+/** @param {Reason} reason */
 function outOfReach(reason) {
   const { arm, station, short_by_m: short, is_at_least: isAtLeast, comfort_m: comfort } = reason;
   if (reason.cause === "comfort_only") {
@@ -125,9 +133,12 @@ function outOfReach(reason) {
   return `the ${arm ?? "nearest"} hand is ${by}${why ? ` (${why})` : ""}${from(station)}`;
 }
 
+/** @param {string|null} station */
 const from = (station) => (station ? `, at best from ${place(station)}` : "");
+/** @param {Reason} reason */
 const limit = ({ joint }) => (joint ? `${joint} limit` : "");
 
+/** @param {Reason} reason */
 function cause({ cause: name, towards }) {
   const up = towards && Math.abs(towards[2]) > UP_DOWN ? (towards[2] < 0 ? " up" : " down") : "";
   if (name === "too_far") return `too far${up}`;

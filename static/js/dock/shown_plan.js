@@ -5,14 +5,16 @@
  * colours by then.
  */
 
+/** @import { Fold, Plan } from "pleat" */
+
 export class ShownPlan extends EventTarget {
   /** @param {import("../store.js").Store} store */
   constructor(store) {
     super();
     this.store = store;
-    /** @type {any} the plan in the message of kind `plan`, solved or not; null: there is none */
+    /** @type {Plan|null} the plan in the message of kind `plan`, solved or not; null: there is none */
     this.plan = null;
-    /** @type {any[]} the folds of the drawing that it is a plan of */
+    /** @type {Fold[]} the folds of the drawing that it is a plan of */
     this.folds = [];
     for (const name of ["document", "plan"]) store.addEventListener(name, () => this.look());
     addEventListener("unit", () => this.look());

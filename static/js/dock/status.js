@@ -36,7 +36,12 @@ export function mountStatus(store, pill) {
   show();
 }
 
-/** What to say, and of which kind it is; null: what was said still holds. @returns {[string|null, string]} */
+/**
+ * What to say, and of which kind it is; null: what was said still holds.
+ * @param {import("../store.js").Store} store
+ * @param {Planning} planning
+ * @returns {[string|null, string]}
+ */
 function told(store, planning) {
   const { plan, state, isLive } = store;
   if (store.queue.isHeld && isLive) return ["Not sent yet, trying again...", "lost"];

@@ -13,10 +13,10 @@ import { capital, seconds } from "./words.js";
  */
 export function suggestionButton(store, suggestion, className) {
   const { change, cost_s: cost, is_assumption: isAssumed } = suggestion;
-  const what = capital(inWords(suggestion, store.state.drawing.folds));
+  const what = capital(inWords(suggestion, store.state?.drawing.folds ?? []));
   const apply = () => {
     store.setPreview(null);
-    const isStillMeant = () => !change.drawing || change.version === store.state.version;
+    const isStillMeant = () => !change.drawing || change.version === store.state?.version;
     store.edit(label(what), (drawing) => (isStillMeant() ? applyChange(drawing, change) : drawing));
   };
   const parts = [element("span", "suggestion-what", what)];
@@ -30,4 +30,5 @@ export function suggestionButton(store, suggestion, className) {
 }
 
 const LONGEST = 200;
+/** @param {string} what */
 const label = (what) => what.slice(0, LONGEST);

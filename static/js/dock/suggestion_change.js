@@ -1,21 +1,30 @@
 /** What a suggestion changes, made to a drawing. */
 
+/** @import { Drawing, Fold, FoldEnd, GarmentFold, Point } from "pleat" */
+/** @import { Preview } from "../store.js" */
+
 const SAME_M = 1e-9;
 
 /**
- * @param {any} drawing is altered
- * @param {any} change fields of a plan request, or the whole drawing as it is to be
- * @returns {any} another drawing in place of the altered one, if there is one
+ * @param {Drawing} drawing is altered
+ * @param {Preview} change fields of a plan request, or the whole drawing as it is to be
+ * @returns {Drawing|void} another drawing in place of the altered one, if there is one
  */
 export function applyChange(drawing, change) {
   if (change.drawing) return structuredClone(change.drawing);
-  for (const field of ["placement", "scene", "start_station", "comfort_radius_m"]) {
-    if (change[field] !== undefined) drawing[field] = change[field];
-  }
+  drawing.placement = change.placement ?? drawing.placement;
+  drawing.scene = change.scene ?? drawing.scene;
+  drawing.start_station = change.start_station ?? drawing.start_station;
+  drawing.comfort_radius_m = change.comfort_radius_m ?? drawing.comfort_radius_m;
   if (change.garment) drawing.folds = changedFolds(drawing, change.garment.folds);
 }
 
-/** The drawing's folds in the order and along the lines of a garment's; those that stay keep their ties. */
+/**
+ * The drawing's folds in the order and along the lines of a garment's; those that stay keep their ties.
+ * @param {Drawing} drawing
+ * @param {GarmentFold[]} wanted
+ * @returns {Fold[]}
+ */
 function changedFolds(drawing, wanted) {
   const left = [...drawing.folds];
   const taken = wanted.map((fold, index) => take(left, fold, drawing.folds[index]));
@@ -28,17 +37,30 @@ function changedFolds(drawing, wanted) {
   }));
 }
 
-/** The fold that is meant: the same line, else the one at the same place, else any that is left. */
+/**
+ * The fold that is meant: the same line, else the one at the same place, else any that is left.
+ * @param {Fold[]} left
+ * @param {GarmentFold} fold
+ * @param {Fold} atSamePlace
+ */
 function take(left, fold, atSamePlace) {
+  /** @param {Fold} own */
   const isSame = (own) => own.name === fold.name && is(own.start.point, fold.start) && is(own.end.point, fold.end);
   const found = left.find(isSame) ?? left.find((own) => own === atSamePlace) ?? left[0];
   left.splice(left.indexOf(found), 1);
   return found;
 }
 
-/** An end; where the line or what comes before it has changed, the server ties it anew. */
+/**
+ * An end; where the line or what comes before it has changed, the server ties it anew.
+ * @param {FoldEnd} own
+ * @param {Point} point
+ * @param {boolean} isReordered
+ * @returns {FoldEnd}
+ */
 function end(own, point, isReordered) {
-  return !isReordered && is(own.point, point) ? own : { point };
+  return !isReordered && is(own.point, point) ? own : { point, on: null };
 }
 
+/** @param {Point} a @param {Point} b */
 const is = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]) <= SAME_M;

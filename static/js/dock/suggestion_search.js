@@ -3,13 +3,17 @@
 import { sayable } from "../dom.js";
 import { eventStream } from "./event_stream.js";
 
+/** @import { DocumentState, GarmentFold, Pose, Says, SuggestionEvent } from "pleat" */
+/** @import { Preview } from "../store.js" */
+
 /**
+ * A change that is offered.
  * @typedef {object} Suggestion
  * @property {string} kind
  * @property {boolean} is_assumption
  * @property {string} message
- * @property {import("../messages/in_words.js").Says} says
- * @property {any} change fields of a plan request
+ * @property {Says} says
+ * @property {Preview} change
  * @property {number} size
  * @property {number|null} cost_s of the plan with the change; null if that is not known
  */
@@ -20,17 +24,19 @@ const LIMIT_S = 10;
 export class SuggestionSearch extends EventTarget {
   constructor() {
     super();
-    /** @type {Suggestion[]} in the order of arrival */
+    /** @type {SuggestionEvent[]} in the order of arrival */
     this.found = [];
     this.isRunning = false;
     /** Whether every change that could be tried was, before the time was up. */
     this.isComplete = false;
     this.fault = "";
+    /** @type {AbortController|null} of the search that is running */
+    this.abort = null;
   }
 
   /**
    * Search for a document's drawing, in place of what was searched for before. Tells "change" whenever there is news.
-   * @param {any} state the server's `document` message
+   * @param {DocumentState} state
    * @param {{delay_ms?: number, limit_s?: number}} how how long to wait first, and what the search may take
    */
   async start(state, { delay_ms = 0, limit_s = LIMIT_S } = {}) {
@@ -75,11 +81,13 @@ export class SuggestionSearch extends EventTarget {
   }
 }
 
+/** @param {DocumentState} state */
 function request({ garment, drawing }) {
   const { scene, start_station, comfort_radius_m } = drawing;
   return { garment, scene, start_station, comfort_radius_m };
 }
 
+/** @param {number} delay_ms @param {AbortSignal} signal @returns {Promise<void>} */
 function rest(delay_ms, signal) {
   return new Promise((resolve, reject) => {
     const timer = setTimeout(resolve, delay_ms);
@@ -100,19 +108,23 @@ const EASE = ["placement", "fold_line", "order", "station", "friction", "grip_ra
 /**
  * The order in which suggestions are offered: of each kind the smallest change first, then those that save more; what
  * a person can do before what would have to be assumed.
- * @param {Suggestion[]} found
- * @returns {Suggestion[]}
+ * @param {SuggestionEvent[]} found
+ * @returns {SuggestionEvent[]}
  */
 export function ranked(found) {
   const kinds = [...new Set(found.map((one) => one.kind))];
   kinds.sort((a, b) => EASE.indexOf(a) - EASE.indexOf(b));
   const groups = kinds.map((kind) => cheaperAsTheyGrow(found.filter((one) => one.kind === kind)));
   const isFirst = new Set(groups.map(([first]) => first));
+  /** @param {SuggestionEvent} one */
   const rank = (one) => 2 * Number(one.is_assumption) + Number(!isFirst.has(one));
   return groups.flat().sort((a, b) => rank(a) - rank(b));
 }
 
-/** Smallest first; a larger change only if its plan is cheaper than those of all smaller ones, and of two alike one. */
+/**
+ * Smallest first; a larger change only if its plan is cheaper than those of all smaller ones, and of two alike one.
+ * @param {SuggestionEvent[]} group
+ */
 function cheaperAsTheyGrow(group) {
   const inOrder = group.toSorted((a, b) => a.size - b.size);
   return inOrder
@@ -121,17 +133,23 @@ function cheaperAsTheyGrow(group) {
       const twin = kept.find((other) => isAlike(one, other));
       if (!twin) return [...kept, one];
       return twin.cost_s - one.cost_s > WORTH_S ? kept.map((other) => (other === twin ? one : other)) : kept;
-    }, /** @type {Suggestion[]} */ ([]));
+    }, /** @type {SuggestionEvent[]} */ ([]));
 }
 
-/** Whether the cloth, or the folds, would come to lie nearly the same. */
+/**
+ * Whether the cloth, or the folds, would come to lie nearly the same.
+ * @param {SuggestionEvent} one
+ * @param {SuggestionEvent} other
+ */
 function isAlike({ kind, change: one }, { change: other }) {
   if (kind === "placement") return isNear(place(one.placement), place(other.placement));
-  return kind === "fold_line" && isNear(ends(one.garment), ends(other.garment));
+  return kind === "fold_line" && isNear(ends(one.garment?.folds), ends(other.garment?.folds));
 }
 
-/** A turn counts as the way of what is a metre away. */
-const place = ({ x_m, y_m, yaw_rad }) => [x_m, y_m, Math.cos(yaw_rad), Math.sin(yaw_rad)];
-const ends = ({ folds }) => folds.flatMap(({ start, end }) => [...start, ...end]);
+/** A turn counts as the way of what is a metre away. @param {Pose|null} pose */
+const place = (pose) => (pose ? [pose.x_m, pose.y_m, Math.cos(pose.yaw_rad), Math.sin(pose.yaw_rad)] : []);
+/** @param {GarmentFold[]|undefined} folds */
+const ends = (folds = []) => folds.flatMap(({ start, end }) => [...start, ...end]);
+/** @param {number[]} one @param {number[]} other */
 const isNear = (one, other) =>
   one.length === other.length && one.every((value, index) => Math.abs(value - other[index]) <= SAME_M);

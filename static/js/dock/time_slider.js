@@ -21,6 +21,8 @@ export class TimeSlider {
     this.root.disabled = true;
     this.root.setAttribute("aria-label", "Time");
     this.touchedAt = -Infinity;
+    /** Where the hand was last (s). */
+    this.wanted = 0;
     this.root.addEventListener("input", () => this.scrub(Number(this.root.value)));
     this.root.addEventListener("keydown", (event) => this.step(event));
     clock.addEventListener("change", () => this.showState());
@@ -66,7 +68,8 @@ export class TimeSlider {
 
   /** @param {KeyboardEvent} event */
   step(event) {
-    const target = {
+    /** @type {Record<string, number>} */
+    const targets = {
       ArrowLeft: this.time - STEP_S,
       ArrowDown: this.time - STEP_S,
       ArrowRight: this.time + STEP_S,
@@ -75,7 +78,8 @@ export class TimeSlider {
       PageUp: this.time + LEAP_S,
       Home: 0,
       End: this.clock.told.duration_s,
-    }[event.key];
+    };
+    const target = targets[event.key];
     if (target === undefined) return;
     event.preventDefault();
     this.seek(target);

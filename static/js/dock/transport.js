@@ -24,6 +24,8 @@ export class Transport {
     this.clock = clock;
     this.slider = slider;
     this.shown = shown;
+    /** What the button is called as it is shown. */
+    this.shownName = "";
     this.play = button("main-button play", () => this.toggle());
     this.previous = iconButton("previous", "Previous primitive", () => this.step(-1));
     this.next = iconButton("next", "Next primitive", () => this.step(1));
@@ -65,10 +67,10 @@ export class Transport {
   /** @param {KeyboardEvent} event the comma and the full stop step, as in editors of films */
   onKey(event) {
     if (event.defaultPrevented || isTyping(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
-    const way = { ",": -1, ".": 1 }[event.key];
+    const way = event.key === "," ? -1 : event.key === "." ? 1 : 0;
     if (!way || this.next.disabled || document.querySelector("dialog[open]")) return;
     event.preventDefault();
-    this.step(/** @type {1|-1} */ (way));
+    this.step(way);
   }
 
   showState() {

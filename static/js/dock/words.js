@@ -3,6 +3,8 @@
 import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
 
+/** @import { Primitive } from "pleat" */
+
 export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };
 export const COLOURS = { blue: "Blue", red: "Red" };
 export const MOVED = { blue: "all layers", red: "last flap" };
@@ -24,8 +26,8 @@ export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
 
 /**
  * What a primitive does.
- * @param {any} primitive
- * @param {any[]} folds the garment's
+ * @param {Primitive} primitive
+ * @param {{name?: string}[]} folds the garment's
  */
 export function what(primitive, folds) {
   if (primitive.kind === "fold") return foldName(folds[primitive.fold], primitive.fold);
@@ -35,8 +37,8 @@ export function what(primitive, folds) {
 
 /**
  * The same where space is scarce.
- * @param {any} primitive
- * @param {any[]} folds the garment's
+ * @param {Primitive} primitive
+ * @param {{name?: string}[]} folds the garment's
  */
 export function briefly(primitive, folds) {
   if (primitive.kind === "drag") return `Drag ${length(primitive.distance_m)}`;
@@ -45,14 +47,14 @@ export function briefly(primitive, folds) {
 
 /**
  * The same with what kind of thing it is.
- * @param {any} primitive
- * @param {any[]} folds the garment's
+ * @param {Primitive} primitive
+ * @param {{name?: string}[]} folds the garment's
  */
 export const whole = (primitive, folds) => `${KINDS[primitive.kind]}: ${what(primitive, folds)}`;
 
 /**
  * By which hands, as in `L + R`.
- * @param {any} primitive
+ * @param {Primitive} primitive
  */
 export const hands = (primitive) =>
   primitive.grips
@@ -62,7 +64,7 @@ export const hands = (primitive) =>
 
 /**
  * Where the base ends up.
- * @param {any} primitive
+ * @param {Primitive} primitive
  */
 export function where(primitive) {
   const { station, back_off_m: backOff } = primitive.base;

@@ -4,6 +4,10 @@ import { direction, moved } from "./directions.js";
 import { length, listed } from "./lengths.js";
 import { called, place } from "./names.js";
 
+/** @import { Named } from "./names.js" */
+
+/** @typedef {{fold: number, by_m: number, towards: number[]}} Shift */
+
 const TURNS = ["", "by 90 degrees to the left", "by 180 degrees", "by 90 degrees to the right"];
 
 /** @type {import("./in_words.js").Catalogue} */
@@ -14,10 +18,10 @@ export const CHANGES = {
     return `turn the garment ${TURNS[quarters]}${way ? ` and move it ${way}` : ""}`;
   },
   shift_fold: shiftFold,
-  shift_folds: ({ shifts }, folds) => listed(shifts.map((one) => shiftFold(one, folds))),
+  shift_folds: ({ shifts }, folds) => listed(shifts.map((/** @type {Shift} */ one) => shiftFold(one, folds))),
   fold_before: ({ fold, before }, folds) => `make ${called(folds, fold)} before ${called(folds, before)}`,
   fold_in_order: ({ folds: order }, folds) =>
-    `fold in the order ${order.map((index) => called(folds, index)).join(", ")}`,
+    `fold in the order ${order.map((/** @type {number} */ index) => called(folds, index)).join(", ")}`,
   stand_also_at: ({ station, at }) => {
     const where = moved(at);
     const named = `let the robot also stand at a station \u201C${place(station)}\u201D`;
@@ -28,7 +32,7 @@ export const CHANGES = {
   assume_friction: ({ friction, now }) => `assume a friction coefficient of ${short(friction)}, not ${short(now)}`,
   assume_grip_radius: ({ grip_radius_m: radius, folds: wider }, folds) =>
     `assume that one grip holds the cloth within ${length(radius)} in ` +
-    listed(wider.map((index) => called(folds, index))),
+    listed(wider.map((/** @type {number} */ index) => called(folds, index))),
   make_blue: ({ fold }, folds) => `make ${called(folds, fold)} blue`,
   put_onto_cloth: ({ fold }, folds) => `put ${called(folds, fold)} onto the cloth`,
   put_onto_flap: ({ fold }, folds) => `put ${called(folds, fold)} onto the flap`,
@@ -42,8 +46,10 @@ export const CHANGES = {
   take_back: ({ step }) => `take back \u201C${step}\u201D`,
 };
 
+/** @param {Shift} says @param {Named[]} folds */
 function shiftFold({ fold, by_m: by, towards }, folds) {
   return `shift ${called(folds, fold)} ${length(by)} ${direction(towards)}`;
 }
 
+/** @param {number} number */
 const short = (number) => String(Number(number.toPrecision(3)));

@@ -23,5 +23,7 @@ export function direction([x, y]) {
   return parts.join(" and ");
 }
 
+/** @param {number} x */
 const ahead = (x) => (x > 0 ? "away from the robot" : "towards the robot");
+/** @param {number} y */
 const aside = (y) => (y > 0 ? "to the left" : "to the right");

@@ -3,6 +3,8 @@
 import { area, length, onGarment } from "./lengths.js";
 import { counted, place } from "./names.js";
 
+/** @import { Says } from "pleat" */
+
 /** @type {import("./in_words.js").Catalogue} */
 export const DRAWING = {
   outline_points: ({ points, most }) => `it has ${points} points; it needs 3 to ${most}`,
@@ -32,5 +34,7 @@ export const DRAWING = {
   fewer_folds: ({ asked, legal }) => `it comes after ${asked} folds, but only ${legal} are drawn and legal`,
 };
 
+/** @param {Says} says */
 const measured = ({ label, value_m: value }) => `${label} (${length(value)})`;
+/** @param {Says} says */
 const than = ({ what, than_m: limit, by_m: by }) => `${what.replace("{}", length(by))} (${length(limit)})`;

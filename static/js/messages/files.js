@@ -3,9 +3,17 @@
 import { length, listed } from "./lengths.js";
 import { called } from "./names.js";
 
+/** @import { Named } from "./names.js" */
+/** @import { Catalogue, Told } from "./in_words.js" */
+
+/** @param {[number, number]} sides */
 const size = ([wide, tall]) => `${length(wide)} by ${length(tall)}`;
 
-/** @param {(told: {says?: any, message: string}, folds: any[]) => string} inWords what messages within messages say */
+/**
+ * The words of files.
+ * @param {(told: Told, folds: Named[]) => string} inWords what messages within messages say
+ * @returns {Catalogue}
+ */
 export const files = (inWords) => ({
   curves_replaced: ({ corners, off_m: off }) =>
     `the outline has ${corners} corners; curves were replaced by straight edges that are at most ${length(off)} off`,
@@ -14,7 +22,9 @@ export const files = (inWords) => ({
   unit_taken: ({ unit_m: one, is_said: isSaid, size: sides }) =>
     `one unit of the drawing was taken as ${length(one)}${isSaid ? ", as you said" : ""}: ${size(sides)}`,
   lines_cut: ({ lines }, folds) => {
-    const told = lines.map(({ fold, by_m: by }) => `${called(folds, fold)} by ${length(by)}`);
+    /** @param {{fold: number, by_m: number}} line */
+    const one = ({ fold, by_m: by }) => `${called(folds, fold)} by ${length(by)}`;
+    const told = lines.map(one);
     return `fold lines were made to end at the edge of the cloth: ${listed(told)}`;
   },
   line_does_not_fit: ({ fold, ...told }, folds) =>

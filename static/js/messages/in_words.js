@@ -8,16 +8,19 @@ import { DRAWING } from "./drawing.js";
 import { files } from "./files.js";
 import { REASONS } from "./reasons.js";
 
-/** @typedef {{code: string, [name: string]: any}} Says */
-/** @typedef {{[code: string]: (says: any, folds: {name?: string}[]) => string}} Catalogue */
+/** @import { Says } from "pleat" */
+/** @import { Named } from "./names.js" */
+
+/** @typedef {{says?: Says|null, message: string}} Told a message as it comes */
+/** @typedef {{[code: string]: (says: any, folds: Named[]) => string}} Catalogue */
 
 /** @type {Catalogue} */
 const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES, ...files(inWords) };
 
 /**
  * A message without a capital in front and a full stop behind. One that has no numbers comes as its sentence alone.
- * @param {{says?: Says|null, message: string}} told
- * @param {{name?: string}[]} folds
+ * @param {Told} told
+ * @param {Named[]} folds
  */
 export function inWords({ says, message }, folds) {
   const words = says ? CATALOGUE[says.code] : undefined;

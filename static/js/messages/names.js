@@ -1,7 +1,9 @@
 /** What things are called in messages: folds by name or counted from 1, stations by their words. */
 
+/** @typedef {{name?: string}} Named a fold, as far as it has a name */
+
 /**
- * @param {{name?: string}[]} folds
+ * @param {Named[]} folds
  * @param {number} index
  */
 export const called = (folds, index) =>

@@ -4,9 +4,12 @@ import { moved } from "./directions.js";
 import { area, enough, height, length, listed, onGarment, onTable, point } from "./lengths.js";
 import { called, counted, place } from "./names.js";
 
+/** @import { Says } from "pleat" */
+
 const OBLIQUE = 0.5;
 const LISTED_MAX = 4;
 
+/** @type {Record<string, string>} */
 const MOMENTS = {
   pick: "where it is picked up",
   place: "where it is laid down",
@@ -14,12 +17,14 @@ const MOMENTS = {
   up: "on its way up",
   down: "on its way down",
 };
+/** @type {Record<string, string>} */
 const DEMANDS = {
   alone: "",
   "one orientation": " in the orientation that suits its way best",
   driving: " from where the base is by then",
   "with the other hand": " from where the other hand has what it needs",
 };
+/** @type {Record<string, string>} */
 const CAUSES = {
   too_far: "too far",
   too_near: "too near",
@@ -87,11 +92,11 @@ export const REASONS = {
   wider_grip: ({ grip_radius_m: radius, needed_grip_radius_m: needed }) =>
     `a grip radius of ${enough(needed)} would do, now ${length(radius)}`,
   waits_for: ({ folds: roots }, folds) =>
-    `waits for ${listed(roots.map((root) => called(folds, root)))}, which cannot be done`,
+    `waits for ${listed(roots.map((/** @type {number} */ root) => called(folds, root)))}, which cannot be done`,
   not_with_the_others: () => "can be done, but not together with the others",
 };
 
-/** By how much a point is out of reach, and why. */
+/** By how much a point is out of reach, and why. @param {Says} says */
 function lack({ cause, joint, demand, towards, comfort_m, wanted_comfort_m: wanted, ...by }) {
   const limit = joint ? `${joint} limit` : "";
   const short = `${by.is_at_least ? "at least " : ""}${length(by.short_by_m)}`;
@@ -106,7 +111,7 @@ function lack({ cause, joint, demand, towards, comfort_m, wanted_comfort_m: want
   return `is ${short} out of reach${DEMANDS[demand]} (${[why, limit].filter(Boolean).join(", ")})`;
 }
 
-/** What a person can change, of what the planner has tried. */
+/** What a person can change, of what the planner has tried. @param {Says} says */
 function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
   if (typeof comfort === "number") return `. With ${length(comfort)} of comfort it can be done`;
   if (!movable) return "";
@@ -115,15 +120,16 @@ function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort
   return `. No shift of its way by up to ${length(says.tried_m)} was found that brings it about: fold less at once`;
 }
 
-/** What can be moved so far, by its name, and whether that is up. */
+/** What can be moved so far, by its name, and whether that is up. @param {string[]} movable @param {number} up */
 function how(movable, up) {
   const [table, torso] = up > 0 ? ["raise the table", "lower the torso"] : ["lower the table", "raise the torso"];
   const station = movable.includes("cloth") ? "the station" : "move the station";
+  /** @type {Record<string, string>} */
   const words = { cloth: "move the cloth", station, table, torso };
   return movable.map((name) => words[name]).join(" or ");
 }
 
-/** A direction of the base frame in words. */
+/** A direction of the base frame in words. @param {number[]} towards */
 function whereTo(towards) {
   const words = SIDES.flatMap(([more, less], axis) =>
     Math.abs(towards[axis]) > OBLIQUE ? [towards[axis] > 0 ? more : less] : [],
@@ -131,27 +137,32 @@ function whereTo(towards) {
   return words.join(" and ") || "nearer to its shoulder";
 }
 
-/** Where drags had brought the cloth. */
+/** Where drags had brought the cloth. @param {Says} says */
 function carried({ dragged, is_held: isHeld }) {
   const way = dragged ? moved(dragged) : "";
   return way && ` (the cloth dragged ${way} from where it starts${isHeld ? " and held on to" : ""})`;
 }
 
-/** The drag in which the arms collide. */
+/** The drag in which the arms collide. @param {Says} says */
 const dragging = ({ drag }) => (drag ? `to drag the cloth ${moved(drag)}, ` : "");
 
+/** @param {number[][]} points */
 const several = (points) => `${listed(points.map(point))} of the garment`;
 
-/** All of a few points, else the outermost. */
+/** All of a few points, else the outermost. @param {number[][]} points */
 function outermost(points) {
   if (points.length <= LISTED_MAX) return `at ${several(points)}`;
-  return `from ${point(points[0])} round to ${onGarment(points.at(-1))}`;
+  return `from ${point(points[0])} round to ${onGarment(points[points.length - 1])}`;
 }
 
+/** @param {Says} says */
 function slips({ hanging_m2: hanging, lying_m2: lying, friction, needed_friction: needed }) {
-  const whole = lying + Object.values(hanging).reduce((sum, m2) => sum + m2, 0);
+  /** @type {Record<string, number>} */
+  const areas = hanging;
+  const whole = lying + Object.values(areas).reduce((sum, m2) => sum + m2, 0);
+  /** @param {number} m2 */
   const share = (m2) => `${area(m2)} (${Number(((100 * m2) / whole).toFixed(1))} %)`;
-  const over = Object.entries(hanging).map(([edge, m2]) => `${share(m2)} hang over the ${edge} edge`);
+  const over = Object.entries(areas).map(([edge, m2]) => `${share(m2)} hang over the ${edge} edge`);
   return (
     `the cloth slips: ${over.join(", ")} and ${share(lying)} lie on the table, layers counted. ` +
     `The friction is ${friction.toFixed(2)}, ${(Math.ceil(100 * needed - 1e-6) / 100).toFixed(2)} would hold it`

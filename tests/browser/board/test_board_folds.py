@@ -183,3 +183,22 @@ def test_a_fold_just_drawn_gets_its_twin_by_mirror(page: Page, desk: Desk) -> No
     assert fold(desk, 1)["start"] == pytest.approx([0.45, 0.6], abs=PX_M)
     assert [found["status"] for found in desk.state["solved"]] == ["legal", "legal"]
     expect(page.locator(".strip-moment")).to_have_text("After 2: right over")
+
+
+def test_a_fold_that_goes_while_it_is_pressed_is_dragged_nowhere(page: Page, shirt: Desk) -> None:
+    faults: list[str] = []
+
+    def note(error: object) -> None:
+        faults.append(str(error))
+
+    page.on("pageerror", note)
+    hand = Hand(page)
+    page.mouse.move(*hand.px((0.2, 0.305)))
+    page.mouse.down()
+    shirt.edit(lambda drawing: drawing["folds"].pop(4))
+    expect(page.locator(".fold-focus")).to_have_count(4)
+    page.mouse.move(*hand.px((0.2, 0.25)), steps=3)
+    page.mouse.up()
+    expect_step(page, "Elsewhere")
+    assert faults == []
+    page.remove_listener("pageerror", note)

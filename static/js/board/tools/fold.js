@@ -13,6 +13,13 @@ import { atLength, REACH_PX } from "../snap.js";
 import { ghostOf, lineOf, nameOf, reachesCloth } from "../stroke.js";
 import { Tool } from "./tool.js";
 
+/** @import { Crease, Point } from "pleat" */
+/** @import { Laid } from "../edge_onto_edge.js" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+/** @import { Snapped } from "../snap.js" */
+/** @import { Change } from "../../edit_queue.js" */
+
 const LEAST_M = 0.002;
 /** Cloth that is grabbed so near to an edge is grabbed by that edge (px). */
 const BY_EDGE_PX = 20;
@@ -22,17 +29,53 @@ const BESIDE = "No fold there: the stroke does not touch the cloth.";
 const UNCLOSED = "The outline is not closed yet: go on with Draw outline (P).";
 const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
 
+/**
+ * A stroke across the cloth.
+ * @typedef {object} Stroke
+ * @property {boolean} isGrab whether it takes cloth along; else it is the fold's line
+ * @property {boolean} isEarly whether it began while folds before it were still being made
+ * @property {boolean} isTouch
+ * @property {Point} from
+ * @property {Point} to
+ * @property {Laid[]} laid where it would have to end to lay one edge on another
+ * @property {number} step the moment of the folds at which it began
+ * @property {number} version the document's at that time
+ */
+/**
+ * How far the fold is drawn:
+ * - idle: nothing is begun;
+ * - pulling: its first end is pressed, and the pointer still down;
+ * - leading: its first end was clicked, and the second follows the pointer until the next click.
+ * A press leads from "idle" to "pulling", a release in place from there to "leading"; a release elsewhere, or the next
+ * one, ends the stroke. `isRefused` says that no fold comes of the stroke as it was asked about last.
+ * @typedef {{name: "idle"} | {name: "pulling"|"leading", stroke: Stroke, isRefused: boolean}} State
+ */
+
+/** @type {State} */
+const IDLE = { name: "idle" };
+
 export class FoldTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "fold", "crosshair");
     this.question = new CreaseQuestion(board);
+    /** @type {State} */
+    this.state = IDLE;
+    /** @type {number|null} a length that was typed (m) */
     this.typed = null;
-    /** Settled when all strokes so far are folds; how many there were, and how many are. */
+    /** Settled when all strokes so far are folds. */
     this.finished = Promise.resolve();
-    this.begun = 0;
-    this.done = 0;
-    this.drop();
+    /** How many strokes are done and not yet folds. */
+    this.unmade = 0;
+  }
+
+  /** The stroke that is being drawn. */
+  get stroke() {
+    return this.state.name === "idle" ? null : this.state.stroke;
+  }
+
+  get isRefused() {
+    return this.state.name !== "idle" && this.state.isRefused;
   }
 
   get hint() {
@@ -46,14 +89,12 @@ export class FoldTool extends Tool {
   }
 
   get isBusy() {
-    return this.stroke !== null;
+    return this.state.name !== "idle";
   }
 
+  /** Begin nothing, or end what is begun without a fold. */
   drop() {
-    /** @type {any} from where to where, and whether it is a grab */
-    this.stroke = null;
-    /** Whether the server has refused the stroke as it was last. */
-    this.isRefused = false;
+    this.state = IDLE;
     this.question.forget();
     this.board.ghost = null;
   }
@@ -63,9 +104,11 @@ export class FoldTool extends Tool {
     board.store.select(null);
     board.store.showStep(board.store.moments - 1);
     this.last = "";
-    if (this.stroke && (this.stroke.step !== board.step || this.stroke.version !== board.state.version)) this.drop();
+    const { stroke } = this;
+    if (stroke && (stroke.step !== board.step || stroke.version !== board.state?.version)) this.drop();
   }
 
+  /** @param {Pointer} pointer */
   hover(pointer) {
     this.board.hover = null;
     const { isGrab = false, from = null, laid = [] } = this.stroke ?? {};
@@ -77,21 +120,23 @@ export class FoldTool extends Tool {
     return snapped;
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     const snapped = this.hover(pointer);
-    if (this.stroke) return;
-    if (!this.board.rings.length) {
-      this.board.store.refuse(this.noCloth());
+    const { board } = this;
+    if (this.state.name !== "idle" || !board.state) return;
+    if (!board.rings.length) {
+      board.store.refuse(this.noCloth());
       return;
     }
     const isGrab = this.isGrab(snapped, pointer);
-    const isEarly = this.begun > this.done && !this.isToGrab(pointer);
+    const isEarly = this.unmade > 0 && !this.isToGrab(pointer);
     const { isTouch } = pointer;
     const laid = this.laid(isGrab, snapped, isTouch);
-    this.isRefused = false;
-    const { step, state } = this.board;
+    const { step, state } = board;
     const { version } = state;
-    this.stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, isArmed: false, laid, step, version };
+    const stroke = { isGrab, isEarly, isTouch, from: snapped.at, to: snapped.at, laid, step, version };
+    this.state = { name: "pulling", stroke, isRefused: false };
   }
 
   /** Why there is nothing to draw a fold on. */
@@ -101,37 +146,53 @@ export class FoldTool extends Tool {
     return tools.outline.isBusy ? UNCLOSED : "There is no cloth yet: draw an outline first.";
   }
 
-  /** Whether a stroke that begins there takes cloth along: inside it always, at its edges and corners when told to. */
+  /**
+   * Whether a stroke that begins there takes cloth along: inside it always, at its edges and corners when told to.
+   * @param {Snapped} snapped
+   * @param {Pointer} pointer
+   */
   isGrab({ at, isOnCloth }, pointer) {
     return isOnCloth ? this.isToGrab(pointer) : isInside(at, this.board.rings);
   }
 
+  /** @param {Pointer} pointer */
   isToGrab({ alt }) {
     return alt || this.board.paint.grabs;
   }
 
-  /** Where a stroke would have to end to lay one edge on another. */
+  /**
+   * Where a stroke would have to end to lay one edge on another.
+   * @param {boolean} isGrab
+   * @param {Snapped} snapped
+   * @param {boolean} isTouch
+   * @returns {Laid[]}
+   */
   laid(isGrab, { at, kind }, isTouch) {
     const { rings, view } = this.board;
     if (!isGrab) return endsOnto(at, rings);
-    const edge = POINTS.has(kind) ? null : edgeNear(at, rings, ((isTouch ? 2 : 1) * BY_EDGE_PX) / view.scale);
+    const reach_m = ((isTouch ? 2 : 1) * BY_EDGE_PX) / view.scale;
+    const edge = kind !== undefined && POINTS.has(kind) ? null : edgeNear(at, rings, reach_m);
     return edge ? dropsOnto(at, edge, rings) : [];
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
     this.hover(pointer);
   }
 
+  /** @param {Pointer} pointer @param {boolean} hasMoved */
   release(pointer, hasMoved) {
-    if (!this.stroke) return;
+    if (this.state.name === "idle") return;
     this.hover(pointer);
-    if (hasMoved || this.stroke.isArmed) this.finish();
-    else this.stroke.isArmed = true;
+    if (hasMoved || this.state.name === "leading") this.finish();
+    else this.state.name = "leading";
   }
 
+  /** @param {Point} at */
   lead(at) {
-    const { from } = this.stroke;
-    this.stroke.to = this.typed !== null ? atLength(from, at, this.typed) : at;
+    const { stroke } = this;
+    if (!stroke) return;
+    stroke.to = this.typed !== null ? atLength(stroke.from, at, this.typed) : at;
     this.ask();
   }
 
@@ -143,45 +204,48 @@ export class FoldTool extends Tool {
       this.refuse(BESIDE);
       return;
     }
-    if (!this.isRefused) board.ghost = ghostOf(this.line(), board.rings);
+    if (!this.isRefused) board.ghost = ghostOf(this.line(stroke), board.rings);
     if (board.store.queue.isBusy) return; // the cloth that the server knows is not yet the one that is seen
     this.question.ask(stroke, (answer) => {
       if (!answer.ok) {
         this.refuse(answer.told.detail);
         return;
       }
-      if (this.stroke) board.ghost = answer.told;
-      this.isRefused = false;
+      if (this.state.name !== "idle") {
+        board.ghost = answer.told;
+        this.state.isRefused = false;
+      }
       this.cursor = "crosshair";
       board.say("");
       board.render();
     });
   }
 
-  /** No fold comes of the stroke as it is now: nothing is shown but why. */
+  /** No fold comes of the stroke as it is now: nothing is shown but why. @param {string} why */
   refuse(why) {
-    this.isRefused = true;
+    if (this.state.name !== "idle") this.state.isRefused = true;
     this.cursor = "not-allowed";
     this.board.ghost = null;
     this.board.say(why);
     this.board.render();
   }
 
-  /** Whether a stroke is drawn beside the cloth. */
+  /** Whether a stroke is drawn beside the cloth. @param {Stroke} stroke */
   isBeside(stroke) {
     const { rings, view } = this.board;
     const near = ((stroke.isTouch ? 2 : 1) * REACH_PX.edge) / view.scale;
     return !stroke.isGrab && !reachesCloth(stroke, rings, near);
   }
 
-  /** The fold's line; what lies to its left moves. */
-  line() {
-    return lineOf(this.stroke, this.board.rings, this.board.paint.isFlipped);
+  /** The fold's line; what lies to its left moves. @param {Stroke} stroke */
+  line(stroke) {
+    return lineOf(stroke, this.board.rings, this.board.paint.isFlipped);
   }
 
   /** The stroke is done; a next one may begin before the server has answered. */
   finish() {
     const { stroke, board } = this;
+    if (!stroke) return;
     board.closeTyped();
     board.snapped = null;
     const isBeside = this.isBeside(stroke);
@@ -190,21 +254,21 @@ export class FoldTool extends Tool {
       if (isBeside) board.store.refuse(BESIDE);
       return;
     }
-    this.stroke = null;
+    this.state = IDLE;
     this.question.forget();
-    this.begun += 1;
+    this.unmade += 1;
     this.finished = this.finished.then(() => this.complete(stroke)).catch((error) => this.fail(error));
   }
 
-  /** A stroke was lost to a fault of the page; the next ones are none the worse. */
+  /** A stroke was lost to a fault of the page; the next ones are none the worse. @param {unknown} error */
   fail(error) {
-    this.done += 1;
-    if (!this.stroke) this.drop();
+    this.unmade -= 1;
+    if (this.state.name === "idle") this.drop();
     this.board.store.refuse("The fold could not be drawn. Draw it again, or reload the page.");
     console.error(error);
   }
 
-  /** Add the fold to those that are there by then. */
+  /** Add the fold to those that are there by then. @param {Stroke} stroke */
   async complete(stroke) {
     const { board } = this;
     await board.store.settled();
@@ -212,19 +276,25 @@ export class FoldTool extends Tool {
     const answer = await this.question.answer(stroke);
     if (answer.ok) await this.add(answer.told);
     else board.store.refuse(answer.told.detail);
-    if (!this.stroke) board.say("");
-    this.done += 1;
-    if (!this.stroke) this.drop();
+    this.unmade -= 1;
+    if (this.state.name === "idle") {
+      board.say("");
+      this.drop();
+    }
     board.render();
   }
 
-  /** Whether a stroke that was quicker than the server begins at an edge of the cloth as it has become. */
+  /**
+   * Whether a stroke that was quicker than the server begins at an edge of the cloth as it has become.
+   * @param {Stroke} stroke
+   */
   isOnEdge({ from, isTouch }) {
     const { rings, view } = this.board;
     const near = nearestOnRings(from, rings);
     return near !== null && distance(near, from) * view.scale <= (isTouch ? 2 : 1) * REACH_PX.edge;
   }
 
+  /** @param {Crease} crease */
   async add({ start, end }) {
     const { board } = this;
     const index = board.step;
@@ -233,6 +303,7 @@ export class FoldTool extends Tool {
     const fold = { id, name, kind: board.paint.kind, start, end };
     this.last = id;
     board.paint.turnOver(false);
+    /** @type {Change} */
     const insert = (drawing) => insertFold(drawing, Math.min(index, drawing.folds.length), fold);
     const state = await board.store.edit("Draw fold", insert);
     if (state) board.store.showStep(index + 1);
@@ -248,7 +319,7 @@ export class FoldTool extends Tool {
 
   /** A stroke whose first end was clicked goes on when the tool is chosen again. */
   interrupt() {
-    if (!this.stroke?.isArmed) this.cancel();
+    if (this.state.name !== "leading") this.cancel();
     this.question.forget();
     this.board.ghost = null;
     this.board.say("");
@@ -266,22 +337,25 @@ export class FoldTool extends Tool {
   key(event) {
     if (event.key !== "Enter" || !this.board.isByKeyboard) return false;
     const pointer = this.board.keyboardPointer(event);
-    if (!this.stroke) this.press(pointer);
+    if (this.state.name === "idle") this.press(pointer);
     this.release(pointer, false);
     return true;
   }
 
+  /** @param {number|null} metres */
   type(metres) {
     this.typed = metres;
     if (this.stroke && metres !== null) this.lead(this.stroke.to);
   }
 
+  /** @returns {[Point, Point]|null} */
   get stretch() {
-    return this.stroke && !this.stroke.isGrab && distance(this.stroke.from, this.stroke.to) > LEAST_M
-      ? [this.stroke.from, this.stroke.to]
-      : null;
+    const { stroke } = this;
+    const isLong = stroke !== null && !stroke.isGrab && distance(stroke.from, stroke.to) > LEAST_M;
+    return isLong ? [stroke.from, stroke.to] : null;
   }
 
+  /** @returns {Items} */
   items() {
     const { stroke, board } = this;
     if (!stroke) return [];
@@ -295,7 +369,9 @@ export class FoldTool extends Tool {
       r: 4,
     }));
     if (distance(stroke.from, stroke.to) < LEAST_M) return dots;
-    const ends = this.line().map((point) => board.view.toPx(point));
+    const [a, b] = this.line(stroke);
+    /** @type {[Point, Point]} */
+    const ends = [board.view.toPx(a), board.view.toPx(b)];
     return [
       ...foldItems({ key: "stroke", kind: board.paint.kind, ends, state: " is-selected", number: null }),
       stroke.isGrab && { key: "carry", tag: "path", class: "carry", d: `M${from.join(" ")}L${to.join(" ")}` },

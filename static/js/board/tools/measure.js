@@ -5,11 +5,15 @@ import { path } from "../sheet.js";
 import { length } from "../units.js";
 import { Tool } from "./tool.js";
 
+/** @import { Point } from "pleat" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+
 export class MeasureTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "measure", "crosshair");
-    /** @type {[number, number][]} */
+    /** @type {Point[]} */
     this.points = [];
     this.isArmed = false;
   }
@@ -18,26 +22,31 @@ export class MeasureTool extends Tool {
     return "Drag, or click two points.";
   }
 
+  /** @param {Pointer} pointer */
   at(pointer) {
     const { board } = this;
     const from = this.points[0] ?? null;
     return board.snapTo(pointer, { rings: board.rings, points: board.foldEnds, from, guides: from ? [from] : [] }).at;
   }
 
+  /** @param {Pointer} pointer */
   hover(pointer) {
     const at = this.at(pointer);
     if (this.isArmed) this.points[1] = at;
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     const at = this.at(pointer);
     if (!this.isArmed) this.points = [at, at];
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
     if (this.points.length) this.points[1] = this.at(pointer);
   }
 
+  /** @param {Pointer} pointer @param {boolean} hasMoved */
   release(pointer, hasMoved) {
     if (!this.points.length) return;
     this.points[1] = this.at(pointer);
@@ -55,6 +64,7 @@ export class MeasureTool extends Tool {
     return wasBusy;
   }
 
+  /** @param {KeyboardEvent} event */
   key(event) {
     if (event.key !== "Enter" || !this.board.isByKeyboard) return false;
     const pointer = this.board.keyboardPointer(event);
@@ -63,6 +73,7 @@ export class MeasureTool extends Tool {
     return true;
   }
 
+  /** @returns {Items} */
   items() {
     const [from, to] = this.points;
     if (!to) return [];

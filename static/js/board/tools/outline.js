@@ -10,6 +10,10 @@ import { path } from "../sheet.js";
 import { atLength } from "../snap.js";
 import { Tool } from "./tool.js";
 
+/** @import { Point } from "pleat" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+
 const LEAST_CORNERS = 3;
 const SAME_M = 0.001;
 
@@ -17,9 +21,9 @@ export class OutlineTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "outline", "crosshair");
-    /** @type {[number, number][]} */
+    /** @type {Point[]} */
     this.points = [];
-    /** Where the next point would be. @type {[number, number]|null} */
+    /** Where the next point would be. @type {Point|null} */
     this.next = null;
     /** Whether the pointer has left the board: a typed length still goes towards where it was last. */
     this.isAway = false;
@@ -44,6 +48,7 @@ export class OutlineTool extends Tool {
     this.board.store.showStep(0);
   }
 
+  /** @param {Pointer} pointer */
   hover(pointer) {
     this.isAway = false;
     const last = this.points.at(-1) ?? null;
@@ -59,14 +64,17 @@ export class OutlineTool extends Tool {
     this.next = last && this.typed !== null ? atLength(last, at, this.typed) : at;
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     this.hover(pointer);
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
     this.hover(pointer);
   }
 
+  /** @param {Pointer} pointer */
   release(pointer) {
     this.hover(pointer);
     this.put();
@@ -89,7 +97,7 @@ export class OutlineTool extends Tool {
     if (!next) return;
     if (points.length >= LEAST_CORNERS && distance(next, points[0]) < SAME_M) this.close();
     else if (!points.some((point) => distance(point, next) < SAME_M)) points.push(next);
-    else if (points.length >= LEAST_CORNERS && distance(next, points.at(-1)) < SAME_M) this.close();
+    else if (points.length >= LEAST_CORNERS && distance(next, points[points.length - 1]) < SAME_M) this.close();
   }
 
   async close() {
@@ -146,17 +154,19 @@ export class OutlineTool extends Tool {
     if (last && this.next && metres !== null) this.next = atLength(last, this.next, metres);
   }
 
-  /** The way to where it would go on, for a length to be typed. */
+  /** The way to where it would go on, for a length to be typed. @returns {[Point, Point]|null} */
   get stretch() {
     const last = this.points.at(-1);
     return last && this.next ? [last, this.next] : null;
   }
 
+  /** @returns {Items} */
   items() {
     const { view } = this.board;
     const points = this.points.map((point) => view.toPx(point));
     const isLed = this.typed !== null || (!this.isAway && this.board.tool === this);
     const next = isLed && this.next ? view.toPx(this.next) : null;
+    const last = points.at(-1);
     const stretch = next && this.stretch;
     return [
       points.length > 1 && {
@@ -166,8 +176,8 @@ export class OutlineTool extends Tool {
         d: path(next ? [...points, next] : points),
       },
       points.length > 0 && { key: "sketch", tag: "path", class: "sketch", d: path(points, false) },
-      points.length > 0 &&
-        next && { key: "rubber", tag: "path", class: "sketch is-rubber", d: path([points.at(-1), next], false) },
+      last &&
+        next && { key: "rubber", tag: "path", class: "sketch is-rubber", d: path([last, next], false) },
       ...points.map(([cx, cy], n) => ({
         key: `p${n}`,
         tag: "circle",
@@ -177,7 +187,7 @@ export class OutlineTool extends Tool {
         r: n === 0 && points.length >= LEAST_CORNERS ? 6 : 4,
       })),
       next && { key: "next", tag: "circle", class: "next-point", cx: next[0], cy: next[1], r: 3 },
-      stretch && lengthLabel("length", points.at(-1), next, distance(stretch[0], stretch[1])),
+      stretch && last && lengthLabel("length", last, next, distance(stretch[0], stretch[1])),
     ];
   }
 }

@@ -4,15 +4,25 @@ import { distance, minus, plus, times } from "../geometry.js";
 import { path } from "../sheet.js";
 import { Tool } from "./tool.js";
 
+/** @import { Point } from "pleat" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+
 export class PhotoTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "photo", "default");
-    this.reset();
+    /** Two points of the picture whose distance is asked for. @type {Point[]} */
+    this.points = [];
+    /** @type {{from: Point, at: Point}|null} where it was pressed, and where the photo was then */
+    this.held = null;
+    /** @type {Point|null} where the second point would be */
+    this.next = null;
+    /** @type {number|null} the distance that was typed (m) */
+    this.typed = null;
   }
 
   reset() {
-    /** Two points of the picture whose distance is asked for. @type {[number, number][]} */
     this.points = [];
     this.held = null;
   }
@@ -33,24 +43,28 @@ export class PhotoTool extends Tool {
     return this.points.length === 2;
   }
 
+  /** @param {Pointer} pointer */
   hover(pointer) {
     this.cursor = this.board.photo.shown ? "crosshair" : "default";
     this.board.hover = null;
     if (this.points.length === 1) this.next = pointer.at;
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     const { shown } = this.board.photo;
-    this.held = shown ? { from: pointer.at, at: /** @type {[number, number]} */ ([shown.x, shown.y]) } : null;
+    this.held = shown ? { from: pointer.at, at: /** @type {Point} */ ([shown.x, shown.y]) } : null;
     if (!shown) this.board.photo.choose();
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
     if (!this.held) return;
     const [x, y] = plus(this.held.at, minus(pointer.at, this.held.from));
     this.board.photo.change({ x, y });
   }
 
+  /** @param {Pointer} pointer @param {boolean} hasMoved */
   release(pointer, hasMoved) {
     if (!this.held || hasMoved) {
       this.held = null;
@@ -79,8 +93,10 @@ export class PhotoTool extends Tool {
     this.reset();
   }
 
+  /** @returns {[Point, Point]|null} */
   get stretch() {
-    return this.points.length === 2 ? this.points : null;
+    const [from, to] = this.points;
+    return to ? [from, to] : null;
   }
 
   leave() {
@@ -93,6 +109,7 @@ export class PhotoTool extends Tool {
     return wasBusy;
   }
 
+  /** @param {KeyboardEvent} event */
   key(event) {
     if (event.key !== "Delete" && event.key !== "Backspace") return false;
     this.board.photo.remove();
@@ -100,6 +117,7 @@ export class PhotoTool extends Tool {
     return true;
   }
 
+  /** @returns {Items} */
   items() {
     const { view } = this.board;
     const all = this.points.length === 1 && this.next ? [...this.points, this.next] : this.points;

@@ -7,6 +7,10 @@ import { place } from "../../messages/names.js";
 import { Gesture } from "../gesture.js";
 import { Tool } from "./tool.js";
 
+/** @import { Drawing, Point, Pose } from "pleat" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+
 const HANDLE_PX = 34;
 const HIT_PX = 14;
 const TOUCH_PX = 24;
@@ -17,13 +21,27 @@ const SQUARE_RAD = (4 * Math.PI) / 180;
 const MIDDLES = ["", "table's middle line", "table's middle"];
 const TURN_RAD = Math.PI / 12;
 const NUDGE_TURN_RAD = Math.PI / 36;
+/** @type {Record<string, number>} */
+const TURNS = { ",": NUDGE_TURN_RAD, ".": -NUDGE_TURN_RAD };
+
+/**
+ * What was pressed, and how the garment lay then.
+ * @typedef {object} Held
+ * @property {"turn"|"move"|null} grasp
+ * @property {Point} plane where it was pressed, in the plane that is shown (m)
+ * @property {Point} px
+ * @property {Pose} placement
+ * @property {Point} middle the garment's (article frame, m)
+ * @property {Point} centre the same on the table (m)
+ */
 
 export class PlaceTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "place", "default");
-    /** @type {any} */
+    /** @type {Held|null} */
     this.held = null;
+    /** @type {Gesture|null} */
     this.gesture = null;
   }
 
@@ -50,25 +68,29 @@ export class PlaceTool extends Tool {
     return { foot, knob: beyond };
   }
 
+  /** @param {Pointer} pointer */
   grasp(pointer) {
     const handle = this.handle;
     if (handle && distance(pointer.px, handle.knob) <= (pointer.isTouch ? TOUCH_PX : HIT_PX)) return "turn";
     return isInside(pointer.at, [this.board.drawing.outline.map(({ point }) => point)]) ? "move" : null;
   }
 
-  /** The station whose robot is drawn there. */
+  /** The station whose robot is drawn there. @param {Pointer} pointer */
   station(pointer) {
     const { view, drawing } = this.board;
+    /** @param {[string, Pose]} station */
     const isThere = ([, { x_m, y_m }]) => distance(pointer.px, view.tableToPx([x_m, y_m])) <= BASE_M * view.scale;
     return Object.entries(drawing.scene.stations).find(isThere)?.[0] ?? null;
   }
 
+  /** @param {Pointer} pointer */
   hover(pointer) {
     this.board.hover = null;
     const grasp = this.grasp(pointer) ?? this.station(pointer);
-    this.cursor = { turn: "grab", move: "move" }[grasp] ?? (grasp ? "pointer" : "default");
+    this.cursor = grasp === "turn" ? "grab" : grasp === "move" ? "move" : grasp ? "pointer" : "default";
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     const grasp = this.grasp(pointer);
     const { view, drawing } = this.board;
@@ -84,6 +106,7 @@ export class PlaceTool extends Tool {
     };
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
     if (!this.held) return;
     if (!this.held.grasp) {
@@ -91,34 +114,40 @@ export class PlaceTool extends Tool {
       this.held.px = pointer.px;
       return;
     }
-    const isTurn = this.held.grasp === "turn";
+    const { held } = this;
+    const isTurn = held.grasp === "turn";
     this.gesture ??= new Gesture(this.board, isTurn ? "Turn garment" : "Place garment");
-    const { placement, name } = isTurn ? this.turnedTo(pointer) : this.movedTo(pointer);
+    const { placement, name } = isTurn ? this.turnedTo(pointer, held) : this.movedTo(pointer, held);
     this.board.snapped = { at: pointer.at, name, key: "", isOnCloth: false };
     this.gesture.show((drawing) => {
       drawing.placement = placement;
     });
   }
 
-  movedTo(pointer) {
-    const { placement, plane, centre } = this.held;
+  /** @param {Pointer} pointer @param {Held} held */
+  movedTo(pointer, { placement, plane, centre }) {
     const [right, up] = minus(this.board.view.pxToPlane(pointer.px), plane);
     const by = [up, -right]; // the plane's up is the table's x, its left the table's y
-    const at = /** @type {[number, number]} */ ([0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer)));
+    const at = /** @type {Point} */ ([0, 1].map((axis) => this.rounded(centre[axis] + by[axis], pointer)));
     const kept = minus(at, centre);
     const name = MIDDLES[at.filter((value) => value === 0).length];
     return { placement: { ...placement, x_m: placement.x_m + kept[0], y_m: placement.y_m + kept[1] }, name };
   }
 
-  /** The garment's middle goes onto whole centimetres, and onto the table's middle lines. */
+  /**
+   * The garment's middle goes onto whole centimetres, and onto the table's middle lines.
+   * @param {number} value
+   * @param {Pointer} pointer
+   */
   rounded(value, pointer) {
     if (pointer.ctrl || !this.board.snapper.isOn) return value;
     return Math.abs(value) * this.board.view.scale < 2 * SNAP_PX ? 0 : Math.round(value / ROUND_M) * ROUND_M;
   }
 
-  turnedTo(pointer) {
+  /** @param {Pointer} pointer @param {Held} held */
+  turnedTo(pointer, held) {
     const { view } = this.board;
-    const centre = view.toPx(this.held.middle);
+    const centre = view.toPx(held.middle);
     const [x, y] = minus(pointer.px, centre);
     let yaw = Math.atan2(-y, x) - Math.PI; // the handle is the article's +y, the plane's up the table's x
     let name = "";
@@ -126,9 +155,10 @@ export class PlaceTool extends Tool {
     if (pointer.shift) [yaw, name] = [Math.round(yaw / TURN_RAD) * TURN_RAD, "15\u00B0"];
     else if (!pointer.ctrl && this.board.snapper.isOn && Math.abs(yaw - square) < SQUARE_RAD)
       [yaw, name] = [square, "square to the table"];
-    return { placement: laid(this.held.centre, this.held.middle, yaw), name };
+    return { placement: laid(held.centre, held.middle, yaw), name };
   }
 
+  /** @param {Pointer} pointer @param {boolean} hasMoved */
   release(pointer, hasMoved) {
     const { gesture } = this;
     const { store, drawing } = this.board;
@@ -155,8 +185,9 @@ export class PlaceTool extends Tool {
   key(event) {
     const { store, drawing } = this.board;
     const by = this.board.nudgeOf(event);
-    const turn = { ",": NUDGE_TURN_RAD, ".": -NUDGE_TURN_RAD }[event.key];
+    const turn = TURNS[event.key];
     if (by) {
+      /** @param {Drawing} changed */
       const change = (changed) => {
         changed.placement.x_m += by[1];
         changed.placement.y_m -= by[0];
@@ -171,6 +202,7 @@ export class PlaceTool extends Tool {
     return true;
   }
 
+  /** @returns {Items} */
   items() {
     const handle = this.handle;
     if (!handle) return [];
@@ -182,7 +214,13 @@ export class PlaceTool extends Tool {
   }
 }
 
-/** The placement with which an article's point lies at a place of the table. */
+/**
+ * The placement with which an article's point lies at a place of the table.
+ * @param {Point} at
+ * @param {Point} middle
+ * @param {number} yaw
+ * @returns {Pose}
+ */
 export function laid(at, middle, yaw) {
   const yaw_rad = Math.atan2(Math.sin(yaw), Math.cos(yaw));
   const [x_m, y_m] = plus(at, times(turned(middle, yaw_rad), -1));

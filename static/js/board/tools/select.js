@@ -8,14 +8,45 @@ import { hit } from "../hit.js";
 import { cornersWithin, marquee } from "../marquee.js";
 import { Tool } from "./tool.js";
 
+/** @import { Drawing, Point } from "pleat" */
+/** @import { Change } from "../../edit_queue.js" */
+/** @import { Hit } from "../hit.js" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Targets } from "../snap.js" */
+/** @import { Frame } from "../marquee.js" */
+
 const CURSORS = { vertex: "grab", end: "grab", middle: "copy", fold: "move", edge: "move", cloth: "default" };
+const LABELS = { vertex: "Move vertex", edge: "Move edge", middle: "Add vertex", end: "Move fold", fold: "Move fold" };
+/** What a press on each kind selects; on cloth and beside it, nothing. */
+const SELECTED = /** @type {const} */ ({ vertex: "vertex", end: "fold", fold: "fold", edge: "edge", middle: "edge" });
 const LEAST_CORNERS = 3;
+
+/** @typedef {(pointer: Pointer) => Change} Dragged the change that brings what is dragged to a pointer */
+/** @typedef {{hit: Hit|null, at: Point, px: Point}} Press what was pressed, and where (article frame in m, px) */
+/**
+ * What the hand is doing:
+ * - idle: nothing is pressed;
+ * - pressed: the pointer is down and has not moved;
+ * - framing: it pulls a frame open round corners, from beside the cloth;
+ * - panning: a finger moves the paper;
+ * - dragging: it moves what was pressed, as one gesture.
+ * A press leads from any state to "pressed", a move from there to one of the last three, release and cancel to "idle".
+ * @typedef {{name: "idle"}
+ *   | {name: "pressed", press: Press}
+ *   | {name: "framing", frame: Frame}
+ *   | {name: "panning", px: Point}
+ *   | {name: "dragging", gesture: Gesture, dragged: Dragged}} State
+ */
+
+/** @type {State} */
+const IDLE = { name: "idle" };
 
 export class SelectTool extends Tool {
   /** @param {import("../board.js").Board} board */
   constructor(board) {
     super(board, "select", "default");
-    this.drop();
+    /** @type {State} */
+    this.state = IDLE;
   }
 
   get hint() {
@@ -24,15 +55,7 @@ export class SelectTool extends Tool {
     return "Drag corners, edges and folds. Double-click an edge for a new corner.";
   }
 
-  drop() {
-    /** What was pressed, and where. @type {any} */
-    this.held = null;
-    /** @type {Gesture|null} */
-    this.gesture = null;
-    /** @type {[[number, number], [number, number]]|null} */
-    this.frame = null;
-  }
-
+  /** @param {Pointer} pointer */
   hover(pointer) {
     const found = hit(this.board, pointer);
     this.board.hover = found;
@@ -43,66 +66,89 @@ export class SelectTool extends Tool {
     this.board.hover = null;
   }
 
+  /** @param {Pointer} pointer */
   press(pointer) {
     const found = hit(this.board, pointer);
-    this.held = { hit: found, at: pointer.at, px: pointer.px, pointer };
+    this.state = { name: "pressed", press: { hit: found, at: pointer.at, px: pointer.px } };
     this.take(found, pointer.shift);
   }
 
+  /** @param {Hit|null} found @param {boolean} isMore whether it is added to what is selected, or taken out again */
   take(found, isMore) {
     const { store } = this.board;
-    const kind = { vertex: "vertex", end: "fold", fold: "fold", edge: "edge", middle: "edge" }[found?.kind ?? ""];
-    if (!kind) {
+    if (!found || found.kind === "cloth") {
       if (!isMore) store.select(null);
       return;
     }
+    const kind = SELECTED[found.kind];
     const others = store.selection?.kind === kind ? store.selection.ids : [];
     const isIn = others.includes(found.id);
     if (isMore) store.select({ kind, ids: isIn ? others.filter((id) => id !== found.id) : [...others, found.id] });
     else if (!isIn || found.kind !== "vertex") store.select({ kind, ids: [found.id] });
   }
 
+  /** @param {Pointer} pointer */
   drag(pointer) {
-    if (!this.held) return;
-    if (!this.held.hit || this.held.hit.kind === "cloth") {
-      this.pull(pointer);
-      return;
-    }
-    this.held.change ??= this[`drag_${this.held.hit.kind}`](this.held);
-    this.gesture ??= new Gesture(this.board, LABELS[this.held.hit.kind]);
-    this.gesture.show(this.held.change(pointer));
-  }
-
-  /** A frame round corners; a finger moves the paper instead. */
-  pull(pointer) {
-    if (pointer.isTouch) {
-      this.board.view.pan(minus(pointer.px, this.held.px));
-      this.held.px = pointer.px;
-    } else {
-      this.frame = [this.held.px, pointer.px];
+    if (this.state.name === "pressed") this.state = this.begun(this.state, pointer);
+    const { state } = this;
+    if (state.name === "dragging") state.gesture.show(state.dragged(pointer));
+    else if (state.name === "framing") state.frame = [state.frame[0], pointer.px];
+    else if (state.name === "panning") {
+      this.board.view.pan(minus(pointer.px, state.px));
+      state.px = pointer.px;
     }
   }
 
-  /** @returns {(pointer: any) => (drawing: any) => void} */
-  drag_vertex({ hit: { id } }) {
-    const { board } = this;
-    const chosen = board.store.selection?.kind === "vertex" ? board.store.selection.ids : [id];
-    return this.dragCorners(chosen, id);
+  /**
+   * What a press becomes when the pointer moves. What was pressed may be gone by then: that is dragged nowhere.
+   * @param {State & {name: "pressed"}} pressed
+   * @param {Pointer} pointer
+   * @returns {State}
+   */
+  begun(pressed, pointer) {
+    const { hit: found, px } = pressed.press;
+    if (!found || found.kind === "cloth")
+      return pointer.isTouch ? { name: "panning", px } : { name: "framing", frame: [px, px] };
+    const dragged = this.dragged(found, pressed.press);
+    if (!dragged) return pressed;
+    return { name: "dragging", gesture: new Gesture(this.board, LABELS[found.kind]), dragged };
   }
 
-  drag_edge({ hit: { id } }) {
-    const { outline } = this.board.drawing;
-    const index = outline.findIndex((corner) => corner.id === id);
-    return this.dragCorners([id, outline[(index + 1) % outline.length].id], null);
+  /** @param {Exclude<Hit, {kind: "cloth"}>} found @param {Press} press @returns {Dragged|null} */
+  dragged(found, press) {
+    switch (found.kind) {
+      case "vertex":
+        return this.draggedCorners(this.chosenWith(found.id), found.id, press.at);
+      case "edge":
+        return this.draggedCorners(endsOfEdge(this.board.drawing, found.id), null, press.at);
+      case "middle":
+        return this.draggedMiddle(found.id);
+      case "end":
+        return this.draggedEnd(found.id, found.end);
+      case "fold":
+        return this.draggedFold(found.id, press.at);
+    }
   }
 
-  /** Corners that move as one; the one that is held snaps. */
-  dragCorners(ids, heldId) {
+  /** The corners that move along with one. @param {string} id */
+  chosenWith(id) {
+    const { selection } = this.board.store;
+    return selection?.kind === "vertex" ? selection.ids : [id];
+  }
+
+  /**
+   * Corners that move as one; the one that is held snaps.
+   * @param {string[]} ids
+   * @param {string|null} heldId
+   * @param {Point} pressedAt
+   * @returns {Dragged}
+   */
+  draggedCorners(ids, heldId, pressedAt) {
     const starts = new Map(
       this.board.drawing.outline.filter(({ id }) => ids.includes(id)).map(({ id, point }) => [id, point]),
     );
-    const from = heldId ? starts.get(heldId) : this.held.at;
-    const grip = minus(from, this.held.at);
+    const from = (heldId !== null && starts.get(heldId)) || pressedAt;
+    const grip = minus(from, pressedAt);
     return (pointer) => {
       const at = plus(pointer.at, grip);
       const snapped = this.board.snapTo({ ...pointer, at }, this.targets(ids, from));
@@ -112,12 +158,14 @@ export class SelectTool extends Tool {
     };
   }
 
+  /** @param {string[]} ids @param {Point|null} from @returns {Targets} */
   targets(ids, from) {
     const others = this.board.drawing.outline.filter(({ id }) => !ids.includes(id)).map(({ point }) => point);
     return { rings: [], points: others, guides: others, from };
   }
 
-  drag_middle({ hit: { id } }) {
+  /** A new corner, pulled out of an edge. @param {string} id @returns {Dragged} */
+  draggedMiddle(id) {
     const made = freshId("v", this.board.drawing.outline);
     return (pointer) => {
       const { at } = this.board.snapTo(pointer, this.targets([made], null));
@@ -125,9 +173,11 @@ export class SelectTool extends Tool {
     };
   }
 
-  drag_end({ hit: { id, end } }) {
+  /** @param {string} id @param {"start"|"end"} end @returns {Dragged|null} */
+  draggedEnd(id, end) {
     const rings = this.board.ringsOf(id);
-    const other = this.board.fold(id)[end === "start" ? "end" : "start"].point;
+    const other = this.board.fold(id)?.[end === "start" ? "end" : "start"].point;
+    if (!other) return null;
     const targets = { rings, points: [], onlyCloth: true, from: other, laid: endsOnto(other, rings) };
     return (pointer) => {
       const { at } = this.board.snapTo(pointer, targets);
@@ -136,24 +186,29 @@ export class SelectTool extends Tool {
     };
   }
 
-  drag_fold({ hit: { id }, at }) {
+  /** @param {string} id @param {Point} pressedAt @returns {Dragged|null} */
+  draggedFold(id, pressedAt) {
     const rings = this.board.ringsOf(id);
-    const { start, end } = this.board.fold(id);
+    const fold = this.board.fold(id);
+    if (!fold) return null;
+    const { start, end } = fold;
     return (pointer) => {
-      const by = minus(pointer.at, at);
+      const by = minus(pointer.at, pressedAt);
       return movedFold(id, plus(start.point, by), plus(end.point, by), rings);
     };
   }
 
+  /** @param {Pointer} pointer */
   release(pointer) {
-    const { frame, gesture } = this;
-    if (frame) this.board.store.select(cornersWithin(this.board, frame));
-    this.drop();
-    gesture?.commit();
+    const { state } = this;
+    if (state.name === "framing") this.board.store.select(cornersWithin(this.board, state.frame));
+    this.state = IDLE;
+    if (state.name === "dragging") state.gesture.commit();
     this.board.snapped = null;
     this.hover(pointer);
   }
 
+  /** @param {Pointer} pointer */
   twice(pointer) {
     const found = hit(this.board, pointer);
     if (found?.kind !== "edge" && found?.kind !== "middle") return;
@@ -165,11 +220,11 @@ export class SelectTool extends Tool {
   }
 
   cancel() {
-    const wasBusy = Boolean(this.gesture ?? this.frame);
-    this.gesture?.cancel();
-    this.drop();
+    const { state } = this;
+    if (state.name === "dragging") state.gesture.cancel();
+    this.state = IDLE;
     this.board.snapped = null;
-    return wasBusy;
+    return state.name === "dragging" || state.name === "framing";
   }
 
   /** Arrow keys and the keys that remove. @param {KeyboardEvent} event @returns {boolean} whether it was ours */
@@ -180,12 +235,14 @@ export class SelectTool extends Tool {
     return this.remove();
   }
 
+  /** @param {Point} by */
   nudge(by) {
     const { store } = this.board;
     const { kind, ids } = store.selection ?? { kind: "garment", ids: [] };
     const coalesce = `nudge-${kind}-${ids.join("-")}`.slice(0, 64);
     if (kind === "vertex" || kind === "edge") {
       const moved = kind === "vertex" ? ids : ids.flatMap((id) => endsOfEdge(this.board.drawing, id));
+      /** @type {Change} */
       const change = (drawing) =>
         moveCorners(
           drawing,
@@ -220,13 +277,18 @@ export class SelectTool extends Tool {
   }
 
   items() {
-    return this.frame ? [marquee(this.frame)] : [];
+    return this.state.name === "framing" ? [marquee(this.state.frame)] : [];
   }
 }
 
-const LABELS = { vertex: "Move vertex", edge: "Move edge", middle: "Add vertex", end: "Move fold", fold: "Move fold" };
-
-/** The fold along a line, its ends on the cloth's boundary where the line meets it. */
+/**
+ * The fold along a line, its ends on the cloth's boundary where the line meets it.
+ * @param {string} id
+ * @param {Point} start
+ * @param {Point} end
+ * @param {Point[][]} rings
+ * @returns {Change}
+ */
 function movedFold(id, start, end, rings) {
   const chord = chordAlong(start, end, rings);
   return (drawing) => {
@@ -235,12 +297,15 @@ function movedFold(id, start, end, rings) {
   };
 }
 
+/** @param {Drawing} drawing @param {string} id the edge's @returns {[string, string]} */
 function endsOfEdge({ outline }, id) {
   const index = outline.findIndex((corner) => corner.id === id);
   return [id, outline[(index + 1) % outline.length].id];
 }
 
+/** @param {Drawing} drawing @param {string} id the edge's @param {Point} at */
 function onEdge({ outline }, id, at) {
-  const [a, b] = endsOfEdge({ outline }, id).map((end) => outline.find((corner) => corner.id === end).point);
-  return nearestOnRings(at, [[a, b]]) ?? at;
+  const index = outline.findIndex((corner) => corner.id === id);
+  const [a, b] = [outline[index], outline[(index + 1) % outline.length]];
+  return (a && nearestOnRings(at, [[a.point, b.point]])) ?? at;
 }

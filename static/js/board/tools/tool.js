@@ -1,10 +1,13 @@
 /** What a tool may be asked; by itself it does nothing. */
 
-/** @typedef {import("../pointer.js").Pointer} Pointer */
-/** @typedef {import("../sheet.js").Item} Item */
+/** @import { Point } from "pleat" */
+/** @import { Pointer } from "../pointer.js" */
+/** @import { Items } from "../sheet.js" */
+
+/** @typedef {"select"|"outline"|"fold"|"place"|"measure"|"photo"} ToolName */
 
 export class Tool {
-  /** @param {import("../board.js").Board} board @param {string} name @param {string} cursor */
+  /** @param {import("../board.js").Board} board @param {ToolName} name @param {string} cursor */
   constructor(board, name, cursor) {
     this.board = board;
     this.name = name;
@@ -23,7 +26,7 @@ export class Tool {
     return false;
   }
 
-  /** The way whose length is being drawn. @returns {[number, number][]|null} */
+  /** The way whose length is being drawn. @returns {[Point, Point]|null} */
   get stretch() {
     return null;
   }
@@ -83,7 +86,7 @@ export class Tool {
   /** Ask the server again: how the fold is drawn has changed. */
   ask() {}
 
-  /** @returns {(Item|null|false|undefined)[]} what it shows of what is begun */
+  /** @returns {Items} what it shows of what is begun */
   items() {
     return [];
   }
