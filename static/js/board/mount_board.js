@@ -31,7 +31,7 @@ function takeUp(board, name) {
 }
 
 /** @param {Board} board @param {string} name @returns {name is ToolName} */
-const isTool = (board, name) => name in board.tools;
+const isTool = (board, name) => Object.hasOwn(board.tools, name);
 
 /** The board's own keys, by letter. @param {Board} board */
 export function boardKeys(board) {
