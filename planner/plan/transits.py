@@ -70,14 +70,16 @@ class Transits:
             way was found.
         """
         goal = self.unwound(goal, start)
-        return next((way for way in self._ways(start, goal) if self._is_free(base, way, cloth, spared)), None)
+        straight, known = np.array([start, goal]), _Lines(base, self._collisions)
+        if self._is_free(known, straight, cloth, spared):
+            return straight
+        return next((way for way in self._roundabout(start, goal) if self._is_free(known, way, cloth, spared)), None)
 
-    def _is_free(self, base: Pose2, way: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
+    def _is_free(self, known: "_Lines", way: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
         """Whether the straight lines of a way are free, and high enough over cloth that lies."""
-        lines = [_sampled(start, end) for start, end in pairwise(way)]
-        if not all(self._collisions.are_all_free(base, line) for line in lines):
+        if not all(known.is_free(start, end) for start, end in pairwise(way)):
             return False
-        joints = np.concatenate(lines)
+        base, joints = known.base, np.concatenate([_sampled(start, end) for start, end in pairwise(way)])
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
     def are_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, spared: Spared) -> bool:
@@ -114,12 +116,12 @@ class Transits:
         places = np.column_stack([x, y, tools[:, 2]])
         return np.append(0.0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
 
-    def _ways(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
-        """Ways that may be free, the quickest first."""
+    def _roundabout(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
+        """Ways that may be free where the straight one is not, the quickest first."""
         raised_start, raised_goal = self._raised(start), self._raised(goal)
         mixed = [np.where(np.array(first)[:, None], goal, start) for first in product((False, True), repeat=len(start))]
         home = self.unwound(self._homes, start)
-        places = [(), (raised_goal,), (raised_start,), (home,), (raised_start, raised_goal)]
+        places = [(raised_goal,), (raised_start,), (home,), (raised_start, raised_goal)]
         places += [(place,) for place in mixed[1:-1]]
         places += [(raised_start, place) for place in mixed[1:-1]]
         places += [(place, raised_goal) for place in mixed[1:-1]]
@@ -133,6 +135,23 @@ class Transits:
         raised = joints.copy()
         raised[:, [1, 3]] = self._homes[:, [1, 3]]
         return raised
+
+
+class _Lines:
+    """Straight lines between configurations while the base stands: the ways round share many."""
+
+    def __init__(self, base: Pose2, collisions: Collisions) -> None:
+        """No line has been looked at yet."""
+        self.base = base
+        self._collisions = collisions
+        self._known: dict[tuple[bytes, bytes], bool] = {}
+
+    def is_free(self, start: FloatArray, end: FloatArray) -> bool:
+        """Whether nothing touches all along a line."""
+        key = (start.tobytes(), end.tobytes())
+        if key not in self._known:
+            self._known[key] = self._collisions.are_all_free(self.base, _sampled(start, end))
+        return self._known[key]
 
 
 def _sampled(start: FloatArray, end: FloatArray) -> FloatArray:

@@ -52,21 +52,42 @@ def postures_apart(
     of_left, of_right = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
     of_both = pairs[~is_left_hand & ~is_right_hand]
     left_clear, right_clear = np.full(len(left), _UNKNOWN), np.full(len(right), _UNKNOWN)
+    last_left = last_right = last_both = 0
     for i in range(len(left)):
         both[:EACH] = lefts[i]
         for j in range(len(right)):
             both[EACH:] = rights[j]
             if right_clear[j] == _UNKNOWN:
-                right_clear[j] = first_close_pair(corners, spans, bounds, both, of_right, 0, margin) < 0
+                close = _close_pair(corners, spans, bounds, both, of_right, last_right, margin)
+                right_clear[j], last_right = close < 0, max(close, 0)
             if left_clear[i] == _UNKNOWN:
-                left_clear[i] = first_close_pair(corners, spans, bounds, both, of_left, 0, margin) < 0
+                close = _close_pair(corners, spans, bounds, both, of_left, last_left, margin)
+                left_clear[i], last_left = close < 0, max(close, 0)
             if left_clear[i] == 0:
                 break
-            if right_clear[j] == 1 and first_close_pair(corners, spans, bounds, both, of_both, 0, margin) < 0:
-                are_apart[i, j] = True
-                if is_one_enough:
-                    return are_apart
+            if right_clear[j] == 0:
+                continue
+            close = _close_pair(corners, spans, bounds, both, of_both, last_both, margin)
+            if close >= 0:
+                last_both = close
+                continue
+            are_apart[i, j] = True
+            if is_one_enough:
+                return are_apart
     return are_apart
+
+
+@njit(cache=True, nogil=True)
+def _close_pair(
+    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, likely: int, margin: float
+) -> int:
+    """Return some pair that is not certainly apart by a margin (m), the likely one if it is; -1 if all are apart.
+
+    Postures next to each other mostly meet in the same pair, and one pair is enough to tell.
+    """
+    if len(pairs) and first_close_pair(corners, spans, bounds, poses, pairs[likely : likely + 1], 0, margin) == 0:
+        return likely
+    return first_close_pair(corners, spans, bounds, poses, pairs, 0, margin)
 
 
 @njit(cache=True, nogil=True)
