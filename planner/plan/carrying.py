@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,14 @@ class _Asked:
         return _Asked(tuple(part.tobytes() for part in parts), cloths, moments)
 
 
+_Pose: TypeAlias = tuple[bytes, bytes, bytes]
+"""Where the base stands, a tool's place and its axes, as keys of what is remembered."""
+
+
+def _pose(base: FloatArray, position: FloatArray, rotation: FloatArray) -> _Pose:
+    return base.tobytes(), position.tobytes(), rotation.tobytes()
+
+
 class Carrier:
     """Finds the joint paths of runs, and remembers them: a plan for a garment that was changed a little repeats most.
 
@@ -56,6 +65,7 @@ class Carrier:
         self._arms = len(machine.card.arms)
         self._searched = lru_cache(_RUNS_KEPT)(self._search)
         self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
+        self._are_apart = lru_cache(_PLACES_KEPT)(self._search_apart)
 
     def carried(self, moments: Moments, cloths: Cloths) -> Carried | NoPath:
         """The joints of a run; or that the arms cannot be led through it, and at which moments not. Remembered."""
@@ -181,19 +191,26 @@ class Carrier:
 
         One that does nothing in the whole run is at home.
         """
-        able = [self._machine.home(arm)[None] for arm in range(self._arms)]
         held = [arm for arm in arms if moments.is_held[arm, moment]]
+        poses: list[_Pose | None] = [None] * self._arms
         for arm in held:
             rotation = moments.rotations[arm, moment] @ rolled(arm, roll_rad)
-            able[arm] = self._postures(arm, moments.bases[moment], moments.positions[arm, moment], rotation)
-        left, right = able
+            poses[arm] = _pose(moments.bases[moment], moments.positions[arm, moment], rotation)
         if len(held) < len(arms):
-            return len(left) > 0 and len(right) > 0
-        return self._collisions.are_some_apart(left, right)
+            return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
+        return self._are_apart(*poses)
+
+    def _search_apart(self, left: "_Pose | None", right: "_Pose | None") -> bool:
+        """Whether both arms can have their tools in poses at once without touching each other; None: at home."""
+        return self._collisions.are_some_apart(self._able(0, left), self._able(1, right))
+
+    def _able(self, arm: int, pose: "_Pose | None") -> FloatArray:
+        """How an arm by itself can take a tool pose, or be at home, without touching body or table."""
+        return self._machine.home(arm)[None] if pose is None else self._free_postures(arm, *pose)
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
         """How an arm by itself can take a tool pose without touching body or table. Remembered."""
-        return self._free_postures(arm, base.tobytes(), position.tobytes(), rotation.tobytes())
+        return self._free_postures(arm, *_pose(base, position, rotation))
 
     def _search_postures(self, arm: int, base: bytes, position: bytes, rotation: bytes) -> FloatArray:
         stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))

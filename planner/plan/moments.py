@@ -69,7 +69,7 @@ class Moments:
         return len(self.phases)
 
 
-def moments_of(phases: Sequence[Phase], height_m: float) -> Moments:
+def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Moments:
     """The moments of phases in which no hand is reaching.
 
     Where a hand that holds on is to take another orientation, it turns in its grip before that phase begins.
@@ -77,8 +77,9 @@ def moments_of(phases: Sequence[Phase], height_m: float) -> Moments:
     Args:
         phases: what happens, one phase after the other.
         height_m: the table top's height over the floor.
+        only_ends: whether of each phase only its beginning and its end are wanted.
     """
-    sampler = _Sampler(len(phases[0].hands))
+    sampler = _Sampler(len(phases[0].hands), only_ends)
     stretches = [stretch for number, phase in enumerate(phases) for stretch in sampler.stretches(number, phase)]
     lengths = [len(stretch.shares) for stretch in stretches]
     numbers = np.repeat([stretch.number for stretch in stretches], lengths)
@@ -132,7 +133,8 @@ class _Wrist:
 class _Sampler:
     """Cuts phases into moments; knows how each hand was turned at the end of the phase before."""
 
-    def __init__(self, arms: int) -> None:
+    def __init__(self, arms: int, only_ends: bool) -> None:
+        self._only_ends = only_ends
         self._wrists: list[_Wrist | None] = [None] * arms
         self._rolls = [0.0] * arms
 
@@ -151,7 +153,8 @@ class _Sampler:
                 for turn in turns
             ]
             yield _Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
-        yield _Stretch(number, shares_of(phase)[1 if number else 0 :], rolls, None)
+        shares = np.array([0.0, 1.0]) if self._only_ends else shares_of(phase)
+        yield _Stretch(number, shares[1 if number else 0 :], rolls, None)
         for arm, hand in enumerate(phase.hands):
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + _rolls(hand)[-1])
 

@@ -104,6 +104,9 @@ class RunMaker:
         self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
         self._carrier = carrier
         self._stuck = _Stuck()
+        self._can_be_there: dict[tuple[object, ...], bool] = {}
+        self._candidates: dict[tuple[object, ...], Candidate] = {}
+        self._made: dict[Candidate, RealRun | None] = {}
         self.glances = self.tries = 0
         self._snags = Snags(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
@@ -146,27 +149,40 @@ class RunMaker:
     def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
         """Whether the arms can be where they are when each of some steps takes hold, and when its motions end."""
         self.glances += 1
-        moments = self._moments([phase for step in steps for phase in step.extremes()])
-        ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-        return self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
+        key = _motion_of(steps)
+        if key not in self._can_be_there:
+            phases = [phase for step in steps for phase in step.extremes()]
+            moments = moments_of(phases, self._work.scene.table.height_m, only_ends=True)
+            ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
+            self._can_be_there[key] = self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
+        return self._can_be_there[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
-        """Steps as they are to be performed, moment by moment, whether they may be real or not."""
+        """Steps as they are to be performed, moment by moment, whether they may be real or not. Remembered."""
+        key = _motion_of(steps)
+        if key not in self._candidates:
+            self._candidates[key] = self._candidate(steps)
+        return self._candidates[key]
+
+    def _candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
         cloths = (self._cloths.of(steps[0].before), self._cloths.of(steps[-1].after))
         return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> RealRun | None:
-        """A candidate made real; None without a way."""
-        return self._run(candidate, self._carrier.carried(candidate.moments, candidate.cloths))
+        """A candidate made real; None without a way. Remembered."""
+        self.tries += 1
+        if candidate not in self._made:
+            self._made[candidate] = self._run(candidate, self._carrier.carried(candidate.moments, candidate.cloths))
+        return self._made[candidate]
 
     def made_like(self, candidate: "Candidate", like: RealRun) -> RealRun | None:
         """A candidate made real, its joints near to those of another run if they can be; None without a way."""
+        self.tries += 1
         return self._run(candidate, self._carrier.adapted(candidate.moments, candidate.cloths, like.carried))
 
     def _run(self, candidate: "Candidate", carried: Carried | NoPath) -> RealRun | None:
-        self.tries += 1
         if isinstance(carried, NoPath):
             self._stuck.note(candidate, carried)
             return None
@@ -220,6 +236,11 @@ def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
     """Yield steps, then combinations of their variants, which take time to find; as many as are to be looked at."""
     yield tuple(steps)
     yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
+
+
+def _motion_of(steps: Sequence[Step]) -> tuple[object, ...]:
+    """What tells steps from others of the same problem: a second round of tries looks at many of the first again."""
+    return tuple(step.motion for step in steps)
 
 
 @lru_cache(maxsize=4)

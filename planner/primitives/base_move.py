@@ -108,6 +108,11 @@ class MoveStep:
         return (self,)
 
     @property
+    def motion(self) -> tuple[object, ...]:
+        """Which states it leads from and to."""
+        return (self.kind, self.before, self.after)
+
+    @property
     def situation(self) -> tuple[object, ...]:
         """A move is always made real by itself."""
         return (self.kind, self.before.key, self.after.key)

@@ -124,6 +124,11 @@ class DragStep:
         return able
 
     @cached_property
+    def motion(self) -> tuple[object, ...]:
+        """Which states it leads from and to, with which hands, and from where the base begins."""
+        return (self.kind, self.before, self.after, self.first_stand, self.way.hands, self.approaches)
+
+    @cached_property
     def situation(self) -> tuple[object, ...]:
         """What it has in common with the same motions of the hands while the base stands elsewhere."""
         length = self.after.back_off - self.first_stand

@@ -101,6 +101,11 @@ class FoldStep:
             yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 
     @cached_property
+    def motion(self) -> tuple[object, ...]:
+        """Which states it leads from and to, with which hands, and from where the base begins."""
+        return (self.kind, self.before, self.after, self.first_stand, self.way.trial.hands, self.way.approaches)
+
+    @cached_property
     def situation(self) -> tuple[object, ...]:
         """What it has in common with the same motions of the hands while the base stands elsewhere.
 

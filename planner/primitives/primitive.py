@@ -61,6 +61,11 @@ class Step(Protocol):
         ...
 
     @property
+    def motion(self) -> tuple[object, ...]:
+        """What tells it from other steps of the same problem, the way it is done included."""
+        ...
+
+    @property
     def situation(self) -> tuple[object, ...]:
         """What it has in common with the same done while the base stands elsewhere; see `begun_in`."""
         ...

@@ -66,6 +66,25 @@ def test_only_where_a_hand_rolls_are_there_more_moments():
     assert moments.fractions == pytest.approx([0.0, 0.25, 0.5, 0.75, 0.8125, 0.875, 0.9375, 1.0])
 
 
+def test_where_only_ends_are_wanted_they_are_those_of_all_moments():
+    # The second phase turns the hand in its grip before it goes on, the third begins where a hand lets go.
+    there, further = (-0.3, 0.2, 0.12), (-0.25, 0.1, 0.05)
+    goal = Pose2(-1.05, 0.0, 0.0)
+    phases = [
+        phase(holding(HERE, there), holding(HERE)),
+        phase(holding(there, HERE, further, approach=STEEP, rolls_rad=(0.0, 0.4, 0.9)), holding(HERE), end=goal),
+        phase(holding(further, approach=STEEP)),
+    ]
+    every, ends = moments_of(phases, HEIGHT_M), moments_of(phases, HEIGHT_M, only_ends=True)
+    assert len(ends) < len(every)
+    last = np.flatnonzero(np.diff(every.phases, append=len(phases)))
+    last_of_ends = np.flatnonzero(np.diff(ends.phases, append=len(phases)))
+    for of_all, of_ends in ((0, 0), *zip(last, last_of_ends, strict=True)):
+        assert np.array_equal(every.bases[of_all], ends.bases[of_ends])
+        assert np.array_equal(every.positions[:, of_all], ends.positions[:, of_ends], equal_nan=True)
+        assert np.array_equal(every.rotations[:, of_all], ends.rotations[:, of_ends], equal_nan=True)
+
+
 def test_a_hand_that_goes_straight_has_the_moments_of_one_that_does_not():
     # One hand passes 30 mm and then 10 mm, the other 50 mm at the same time: 25 mm in each half.
     bent = holding(HERE, (-0.35, 0.2, 0.05), (-0.35, 0.2, 0.06))
