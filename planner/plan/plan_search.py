@@ -20,7 +20,8 @@ from planner.plan.quick_plan import quickly_planned
 from planner.plan.realizer import OutOfTimeError, Realizer
 from planner.plan.reasons import note_collision, reason_at_start, reasons
 from planner.plan.relaxed import Relaxed, Trial
-from planner.plan.tries import MORE_RUNS_FOR_A_BETTER_PLAN, MORE_RUNS_FOR_SOME_PLAN, QUICK, THOROUGH
+from planner.plan.tightened import with_more_comfort, with_narrower_cones
+from planner.plan.tries import MORE_RUNS, QUICK, THOROUGH
 from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -32,6 +33,13 @@ LOOK_ALONE_AFTER = 180
 
 GREEDY_AFTER_S = 1.0
 """A search that has found nothing after so much work looks for some plan to fall back on (s, see `Budget`)."""
+
+LESS_ROOM_AFTER_S = 1.0
+"""A search that has only found what takes longer than it seemed, after so much work, looks at tighter tasks (s)."""
+
+MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
+"""The work on each task with more comfort, and on all with narrower cones, as a share of what was done before. Comfort
+below its default is seldom asked for, and mostly pays; all requests have a cone that could be narrower."""
 
 TRIAL_EXPANDED_MAX, TRIAL_WORK_S, REASONS_WORK_S = 200, 1.0, 3.0
 """The budget in states and in work of each search that tries whether a fold can be done once a cause is removed, and in
@@ -88,7 +96,7 @@ class PlanSearch:
         self._edges = Edges(problem.work, self._possible, self._is_wanted)
         self._explored = 0
         self._joint_time_s = 0.0
-        self._is_looked_at_alone = False
+        self._is_looked_at_alone = self._has_tried_less = False
 
     def plan(self, *, with_reasons: bool = True) -> Plan:
         """The quickest plan, or why there is none, if that is of interest."""
@@ -116,16 +124,46 @@ class PlanSearch:
         return self._realizer.has_doubts and self._limit_s > (self._bound_s or 0.0)
 
     def _is_cut_short_trying_more(self) -> bool:
-        """Search once more with more tries for each step; whether the budget ran out.
+        """Search once more, with less room, and for want of a plan with more tries; whether the budget ran out.
 
         Reasons rest on the first round: what was in the way of the quickest ways.
         """
-        first, reached = self._realizer, set(self._reached)
-        runs_max = MORE_RUNS_FOR_SOME_PLAN if math.isinf(self._limit_s) else MORE_RUNS_FOR_A_BETTER_PLAN
-        self._realizer = Realizer(self._problem.maker, self._is_out_of_budget, THOROUGH, runs_max)
-        self._real_path(self._problem.start)
-        self._realizer, self._reached = first, reached
+        self._try_with_less_room()
+        if math.isinf(self._limit_s):
+            first, reached = self._realizer, set(self._reached)
+            self._realizer = Realizer(self._problem.maker, self._is_out_of_budget, THOROUGH, MORE_RUNS)
+            self._real_path(self._problem.start)
+            self._realizer, self._reached = first, reached
         return self._is_out_of_budget()
+
+    def _try_with_less_room(self) -> None:
+        """Look for something quicker where less is allowed, once.
+
+        What can be done there can be done here. Of more ways the first few tried may all be worse ones.
+        """
+        if self._has_tried_less:
+            return
+        self._has_tried_less = True
+        spent_s = self._budget.spent_s
+        for problem in with_more_comfort(self._problem):
+            self._try_tighter(problem, MORE_COMFORT_SHARE * spent_s)
+        left_s = NARROWER_SHARE * spent_s
+        for problem in with_narrower_cones(self._problem):
+            left_s -= self._try_tighter(problem, left_s)
+
+    def _try_tighter(self, problem: Problem, work_s: float) -> float:
+        """Look for something quicker in a tighter task with so much work (s) if there may be any; return the work."""
+        if work_s <= 0.0 or not self._is_in_doubt:
+            return 0.0
+        budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
+        search = PlanSearch(problem, self._heuristic, budget, self._max_expanded, self._known)
+        search._found, search._greedy_at_s, search._has_tried_less = self._found, math.inf, True
+        begun_s = budget.spent_s
+        budget.work_limit_s = begun_s + work_s
+        search._real_path(problem.start)
+        self._found = search._found
+        problem.work.forget()
+        return budget.spent_s - begun_s
 
     def trial(self, folds: int, *, may_collide: bool) -> Trial:
         """Look whether some folds (a bit mask), and all they wait for, can be done; the quickest way matters not.
@@ -168,6 +206,8 @@ class PlanSearch:
             if found is not None or (self._is_trial and self._found):
                 return result, self._found
             self._reached.clear()
+            if self._found and self._budget.spent_s > LESS_ROOM_AFTER_S:
+                self._try_with_less_room()
 
     def _keep(self, acts: tuple[Act, ...]) -> None:
         """Keep what can be done if it takes less than what is kept."""

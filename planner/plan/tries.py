@@ -44,5 +44,5 @@ THOROUGH = Tries(
 )
 """What is tried where the first leaves a doubt."""
 
-MORE_RUNS_FOR_A_BETTER_PLAN, MORE_RUNS_FOR_SOME_PLAN = 16, 160
-"""Runs that the arms are led through in the second round, where there is a plan already and where there is none."""
+MORE_RUNS = 160
+"""Runs that the arms are led through in the second round, where there is no plan yet."""

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 import numpy as np
@@ -144,17 +144,17 @@ class DragStep:
         return replace(self, before=state, after=replace(self.after, done=state.done))
 
     def elsewhere(self, count: int) -> Iterator["DragStep"]:
-        """So many other ways to drag the same grips as far from the same state, the base starting elsewhere."""
-        stands = [stand for stand in self.way.stands if stand != self.first_stand]
+        """So many other ways to drag the same grips as far from the same state, the base starting elsewhere.
+
+        From each place some choices of approaches follow one another, the best first: what is preferred is not always
+        what the arms can do.
+        """
         length = self.after.back_off - self.first_stand
+        stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.work.back_offs]
         for stand in stands[:: max(1, len(stands) // count)]:
-            if stand + length < self.work.back_offs:
-                yield replace(
-                    self,
-                    after=replace(self.after, back_off=stand + length),
-                    first_stand=stand,
-                    approaches=None,
-                )
+            after = replace(self.after, back_off=stand + length)
+            there = replace(self, after=after, first_stand=stand, approaches=None)
+            yield from islice(there.variants(), max(1, count // len(stands)))
 
     def again(self, work: Work, state: State) -> Iterator["DragStep"]:
         """The same hands drag as far from the same back-off, each at the grip nearest to where it was.

@@ -6,12 +6,12 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
 from tests.laws.images import mirrored, redrawn, reordered, turned
-from tests.laws.law import law
+from tests.laws.law import LONG, law
 from tests.laws.scenes import Problem
 from tests.laws.tasks import plain_task
 
@@ -96,8 +96,39 @@ def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: i
     require_no_slower(widened(problem, what, rng).plan(), problem.plan())
 
 
-def test_the_scarf_and_the_tie_are_not_proven_to_take_longer_than_with_less_room():
-    # A narrower cone, or more comfort asked for, once gave a quicker plan than one that was called proven.
+WIDER = {
+    "cone": [({"approach_cone_rad": cone}, 0.03) for cone in (0.0, 0.5, 1.0, math.radians(75.0), math.pi)],
+    "comfort": [({}, comfort_m) for comfort_m in (0.05, 0.03, 0.02, 0.01, 0.0)],
+    "friction": [({"friction": friction}, 0.03) for friction in (0.3, 1.0, 2.0)],
+    "standoff": [({"back_off_max_m": back_off_m}, 0.03) for back_off_m in (0.4, 0.8, 1.2)],
+}
+"""What a task is asked with, from the tightest to the widest: fields of the scene, and the comfort radius (m)."""
+
+IS_LONG = settings.get_current_profile_name() == LONG
+CHEAP = ["vest", "jeans", "letter-towel"]
+DEAR = ["scarf", "tie", "skirt", "hand-towel", "big-towel", "shirt", "t-shirt"]
+
+
+@pytest.mark.parametrize("what", WIDER)
+@pytest.mark.parametrize("name", [*CHEAP, *DEAR] if IS_LONG else CHEAP)
+def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str):
+    cost_s = math.inf
+    for fields, comfort_m in WIDER[what]:
+        plan = make_plan(
+            load_garment(name), Scene(**fields), comfort_radius_m=comfort_m, time_limit_s=60.0, work_limit_s=10.0
+        )
+        wide_s = math.inf if plan.cost_s is None else plan.cost_s
+        assert wide_s <= cost_s + SECOND, (fields, comfort_m)
+        cost_s = wide_s
+
+
+def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room():
+    # Of more ways the first few were worse: 22.6 s against 22.443 s in a narrower cone, 33.478 s against 33.4 s with
+    # more comfort asked for.
     scarf, tie = load_garment("scarf"), load_garment("tie")
-    require_no_slower(make_plan(scarf), make_plan(scarf, Scene(approach_cone_rad=0.5)))
-    require_no_slower(make_plan(tie, comfort_radius_m=0.0), make_plan(tie, comfort_radius_m=0.01))
+    wide, narrow = make_plan(scarf), make_plan(scarf, Scene(approach_cone_rad=0.5))
+    require_no_slower(wide, narrow)
+    assert wide.cost_s <= narrow.cost_s + SECOND
+    wide, narrow = (make_plan(tie, comfort_radius_m=r, time_limit_s=60.0, work_limit_s=10.0) for r in (0.0, 0.01))
+    require_no_slower(wide, narrow)
+    assert wide.is_proven and wide.cost_s <= narrow.cost_s + SECOND

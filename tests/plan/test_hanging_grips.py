@@ -69,6 +69,15 @@ def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m
         assert here[other] == pytest.approx((x, -y, z))
 
 
+@pytest.mark.parametrize("hanging_m", [0.01, 0.03])
+def test_cloth_is_laid_down_over_the_near_edge_though_most_ways_have_fingers_in_the_top(hanging_m: float):
+    # The line is 0.1 m from the edge. Within the default cone most ways come from the side.
+    over = fold((0.0, 0.08), (0.3, 0.08))
+    cloth = garment(rectangle_points(0.3, 0.18 + hanging_m), over, placement=Pose2(-0.78, 0.15, -math.pi / 2))
+    plan = required(cloth)
+    assert [grip.place[0] for grip in plan.primitives[-1].grips] == pytest.approx([-0.8 - CLEAR_M] * 2)
+
+
 def test_cloth_may_be_laid_down_over_the_edge():
     # The far 0.16 m come over the line 0.1 m from the edge: their end hangs 0.06 m. Hands that must come from outside
     # the cloth, from the side, would have a finger in the top.
