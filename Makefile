@@ -80,11 +80,11 @@ lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
-	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -f package-lock.json && npm install --package-lock-only \
+	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -rf package-lock.json node_modules && npm install --package-lock-only \
 	    --omit-lockfile-registry-resolved --ignore-scripts --no-audit --no-fund --loglevel=error
 
 clean: ## remove the virtual environment and all that was generated
-	rm -rf $(VENV) tests/js/node_modules .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
+	rm -rf $(VENV) tests/js/node_modules tests/js/api.d.ts tests/js/openapi.json .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(BIN)/python:
