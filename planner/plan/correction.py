@@ -7,14 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.geometry.pose import Point3
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.message import Message
 from planner.plan.reason_grips import needed_radius
-from planner.plan.reason_words import reached_with_comfort
+from planner.plan.reason_words import reached_with_comfort, reached_with_cone
 from planner.plan.relaxed import Relaxed, Trial
 from planner.plan.suggestion_grid import Room
 from planner.primitives.work import Work
 from planner.task.reason import Code, Reason
+from planner.task.scene import SUPPORT_ANGLE_MAX_RAD
 
 FRICTION_MAX = 10.0
 """No scene has a larger coefficient."""
@@ -24,6 +25,13 @@ _UPRIGHT = 0.5
 
 _FURTHER_M = (0.001, 0.1, 0.3)
 """Cloth that is moved just so far that it may lie there is tried so much further on too (m)."""
+
+_BEYOND_M = (0.0, 0.025, 0.05, 0.1, 0.3)
+"""Where no shift was found that does, cloth is moved so much further than the point is short (m): drags go by 0.1 m, so
+between their places less may do."""
+
+_THIRD_HAND_CORNERS_MAX = 12
+"""Of cloth with more corners there are too many ways for three hands to hold it."""
 
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
 
@@ -38,6 +46,8 @@ class Way:
         applied: a problem with the cause removed by an amount.
         told: the reason once that was tried.
         needed: the amount with which what was found would do as well, where that can be told.
+        exact: with so much less than the least that is told the fold cannot be done.
+        is_dream: whether no robot can be so changed: it shows what stands in the way all the same.
     """
 
     kind: str
@@ -45,6 +55,8 @@ class Way:
     applied: Callable[[Relaxed, float], Relaxed]
     told: Callable[[Reason, float], Reason] = lambda reason, _: reason
     needed: Callable[[Trial], float] | None = None
+    exact: float = 0.001
+    is_dream: bool = False
 
     @property
     def most(self) -> float:
@@ -87,7 +99,7 @@ def candidates(work: Work, measured: tuple[Reason, ...], fold: int | None) -> It
 
 def _ways(work: Work, reason: Reason) -> Iterator[Way]:
     if reason.code in _GRIPS and reason.fold is not None:
-        yield _blue(reason.fold) if reason.needed_grip_radius_m is None else _grip_radius(work, reason)
+        yield from _hands(work, reason, reason.fold)
     elif reason.code in (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE):
         yield from _cloth_moved(work, reason)
     elif reason.code is Code.OUT_OF_REACH:
@@ -124,25 +136,75 @@ def _slips_on_the_way(work: Work, fold: int | None, needed: float | None = None)
     return Reason(fold, Code.SLIPS, says, needed_friction=needed)
 
 
-def _grip_radius(work: Work, reason: Reason) -> Way:
-    fold, needed = reason.fold or 0, reason.needed_grip_radius_m or 0.0
+def _hands(work: Work, reason: Reason, fold: int) -> Iterator[Way]:
+    """Grips that hold more, in the fold alone or in drags too; stiffer cloth; hands that may be nearer; one more."""
+    if reason.needed_grip_radius_m is None:
+        yield _blue(fold)
+        return
+    drawn, needed = work.sequence.folds[fold], reason.needed_grip_radius_m
+    by_m, one_hands_m = needed - drawn.grip_radius_m, _one_hands_radius(work, fold) - drawn.grip_radius_m
+    yield _grip_radius(work, fold, (by_m,), needed, in_drags=False)
+    yield _grip_radius(work, fold, tuple(sorted({by_m, max(one_hands_m, by_m)})), needed, in_drags=True)
+    if reason.code is Code.GRIPS_TOO_CLOSE and reason.short_by_m is not None:
+        apart_m = work.grips_apart_m
+        yield Way("apart", (reason.short_by_m,), lambda relaxed, by: relaxed.with_grips_nearer(apart_m - by))
+    if reason.code is Code.TOO_MANY_GRIPS:
+        yield _stiffer(work, fold)
+        if len(work.sequence.garment.outline) <= _THIRD_HAND_CORNERS_MAX:
+            yield _third_hand(work, fold)
+
+
+def _grip_radius(work: Work, fold: int, amounts: tuple[float, ...], needed: float, *, in_drags: bool) -> Way:
     now = work.sequence.folds[fold].grip_radius_m
 
     def applied(relaxed: Relaxed, amount: float) -> Relaxed:
         garment = relaxed.work.sequence.garment
         wider = replace(garment.folds[fold], grip_radius_m=now + amount)
-        return relaxed.with_garment(replace(garment, folds=(*garment.folds[:fold], wider, *garment.folds[fold + 1 :])))
+        folds = (*garment.folds[:fold], wider, *garment.folds[fold + 1 :])
+        of_drags = max(garment.grip_radius_m, now + amount) if in_drags else garment.grip_radius_m
+        return relaxed.with_garment(replace(garment, folds=folds, grip_radius_m=of_drags))
 
     def told(reason: Reason, amount: float) -> Reason:
-        if abs(now + amount - needed) <= LENGTH_M:
+        if abs(now + amount - needed) <= LENGTH_M and not in_drags:
             return reason
         radius = math.ceil((now + amount) * 1000.0 - LENGTH_M) / 1000.0
-        text = f"{work.sequence.folds[fold].label}: a grip radius of {radius:.3f} m would do, now {now:g} m"
-        says = Message("wider_grip", text, {"grip_radius_m": now, "needed_grip_radius_m": now + amount})
+        where = ", in drags too" if in_drags else ""
+        text = f"{work.sequence.folds[fold].label}: a grip radius of {radius:.3f} m{where} would do, now {now:g} m"
+        values = {"grip_radius_m": now, "needed_grip_radius_m": now + amount, "in_drags": in_drags}
+        says = Message("wider_grip", text, values)
         return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=now + amount)
 
-    amounts = tuple(sorted({needed - now, max(_one_hands_radius(work, fold), needed) - now}))
     return Way("grip_radius", amounts, applied, told)
+
+
+def _stiffer(work: Work, fold: int) -> Way:
+    """Cloth so stiff that more of it holds itself."""
+    now = work.scene.support_angle_rad
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        angle = min(now + amount, SUPPORT_ANGLE_MAX_RAD)
+        return relaxed.with_scene(replace(relaxed.work.scene, support_angle_rad=angle))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        degrees = math.degrees(now + amount)
+        text = f"{work.sequence.folds[fold].label}: too many points must be held, unless cloth holds itself within "
+        values = {"support_angle_rad": now, "needed_support_angle_rad": now + amount}
+        says = Message("stiffer_cloth", f"{text}{degrees:.0f} degrees of upright, now {math.degrees(now):.0f}", values)
+        return replace(reason, says=says, short_by_m=None, needed_grip_radius_m=None)
+
+    return Way("support_angle", (SUPPORT_ANGLE_MAX_RAD - now,), applied, told, exact=math.radians(0.5))
+
+
+def _third_hand(work: Work, fold: int) -> Way:
+    hands = len(work.reach.arm_names)
+
+    def told(reason: Reason, _: float) -> Reason:
+        text = (
+            f"{work.sequence.folds[fold].label}: must be held at more points than {hands} hands can; one more would do"
+        )
+        return replace(reason, says=Message("one_more_hand", text, {"hands": hands}), needed_grip_radius_m=None)
+
+    return Way("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_dream=True)
 
 
 def _one_hands_radius(work: Work, fold: int) -> float:
@@ -196,17 +258,37 @@ def _reach(work: Work, reason: Reason) -> Iterator[Way]:
     comfort = list(_comfort(work, reason))
     if reason.cause == "comfort_only":
         yield from comfort
-    if reason.shift_m is not None and reason.shift_towards is not None and reason.station is not None:
+    if reason.station is not None and reason.shift_m is not None and reason.shift_towards is not None:
         yield from _shifts(work, reason.station, reason.shift_m, reason.shift_towards)
+    elif reason.station is not None and reason.short_by_m is not None and reason.towards is not None:
+        x, y, _ = reason.towards
+        flat = math.hypot(x, y)
+        if flat > _UPRIGHT:
+            yield _moved("cloth", (x / flat, y / flat, 0.0), reason.short_by_m, _BEYOND_M)
     if reason.cause != "comfort_only":
         yield from comfort
-    yield Way("arms", (), lambda relaxed, _: relaxed.with_long_arms())
+    if work.scene.approach_cone_rad < math.pi - ANGLE_RAD:
+        yield _cone(work)
+    yield Way("arms", (), lambda relaxed, _: relaxed.with_long_arms(), is_dream=True)
+
+
+def _cone(work: Work) -> Way:
+    """Pinches that come from further round the cloth."""
+    now = work.scene.approach_cone_rad
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        return relaxed.with_scene(replace(relaxed.work.scene, approach_cone_rad=min(now + amount, math.pi)))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        return reached_with_cone(reason, now + amount)
+
+    return Way("cone", (math.pi - now,), applied, told, exact=math.radians(0.5))
 
 
 def _comfort(work: Work, reason: Reason) -> Iterator[Way]:
-    """Less comfort: what lacks more than that is not in reach without any."""
+    """Less comfort, to be tried together with other ways where a point lacks more than all of it."""
     now = work.reach.comfort_m
-    if now <= 0.0 or (reason.short_by_m or 0.0) > now:
+    if now <= 0.0:
         return
 
     def told(reason: Reason, amount: float) -> Reason:

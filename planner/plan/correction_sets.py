@@ -3,7 +3,11 @@
 What seems to stand in a fold's way is measured where the fold was tried. Whether it is the cause shows when it is
 removed and the planner is asked again. Where one change is enough, each that is makes a set of its own; where none is,
 what still stands in the way then is removed too, until the fold can be done. Of what remains nothing can be left out,
-and of what can be had by degrees the least is found by halving: with `LESS` of it the planner says no.
+and of what can be had by degrees the least is found by halving.
+
+Whether all is in reach takes a hundredth of the time that joint paths take, and what is not in reach has none. So
+sets are looked for, and their amounts halved, with collisions ignored; joint paths are asked for only with what has
+come of that. If they fail there, what the arms touch is part of the cause, or takes more of the same.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -11,16 +15,14 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from planner.errors import FoldingError
+from planner.geometry.tolerance import LENGTH_M
 from planner.plan.correction import COLLISIONS_IGNORED, Candidate, Way, candidates
 from planner.plan.reason_obstacle import lacking
 from planner.plan.reason_words import mended_by
 from planner.plan.relaxed import Ask, Relaxed, Trial
 from planner.task.reason import Code, Reason
 
-LESS = 0.96
-"""With so much of an amount that is told, or less, the fold cannot be done."""
-
-ASKS_MAX = 20
+ASKS_MAX = 80
 """So often the planner is asked at most to find the reasons of one problem."""
 
 _MEMBERS_MAX = 3
@@ -28,6 +30,12 @@ _MEMBERS_MAX = 3
 
 _SHIFTS = (("cloth", "station"), ("table", "torso"))
 """Ways that shift what the hands do alike."""
+
+_A_LITTLE_M = 0.003
+"""So much more is tried of a shift that was the least together with something else (m)."""
+
+_SLACKS = ("comfort", "cone")
+"""Ways that are tried together with a shift where no change alone is enough."""
 
 
 def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]) -> tuple[Reason, ...]:
@@ -52,13 +60,13 @@ def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]
         number = 1 + max((-1 if reason.set is None else reason.set for reason in found), default=-1)
         found += [replace(reason, set=number + n) for n, members in enumerate(sets) for reason in members]
         if not (sets or corrections.is_but_touching):
-            found += [_untried(reason) for reason in mine]
-    return tuple(found or map(_untried, measured))
+            found += untried(mine)
+    return tuple(found) or untried(measured)
 
 
-def _untried(reason: Reason) -> Reason:
-    """A reason of which only is known that it was met: no shift is told that nobody has tried."""
-    return replace(reason, shift_m=None, shift_towards=None)
+def untried(measured: Sequence[Reason]) -> tuple[Reason, ...]:
+    """Reasons of which only is known that they were met: no shift is told that nobody has tried."""
+    return tuple(replace(reason, shift_m=None, shift_towards=None) for reason in measured)
 
 
 class _SpentError(Exception):
@@ -72,20 +80,24 @@ class _Asked:
         self._ask = ask
         self._is_enough = is_enough
         self._left = ASKS_MAX
-        self._known: dict[tuple[Way, Relaxed, float], tuple[Relaxed, Trial] | None] = {}
+        self._known: dict[tuple[Way, Relaxed, float, bool], tuple[Relaxed, Trial] | None] = {}
 
-    def __call__(self, way: Way, base: Relaxed, amount: float, folds: int) -> tuple[Relaxed, Trial] | None:
-        key = (way, base, amount)
+    def __call__(
+        self, way: Way, base: Relaxed, amount: float, folds: int, *, with_arms: bool
+    ) -> tuple[Relaxed, Trial] | None:
+        """A problem with a cause removed, and what became of it; None where no such problem can be put."""
+        key = (way, base, amount, with_arms)
         if key not in self._known:
             changed = _applied(way, base, amount)
-            self._known[key] = None if changed is None else (changed, self.trial(changed, folds))
+            self._known[key] = None if changed is None else (changed, self.trial(changed, folds, with_arms=with_arms))
         return self._known[key]
 
-    def trial(self, relaxed: Relaxed, folds: int) -> Trial:
+    def trial(self, relaxed: Relaxed, folds: int, *, with_arms: bool) -> Trial:
+        """What becomes of a problem; without arms it is enough that all is in reach."""
         if not self._left or self._is_enough():
             raise _SpentError
         self._left -= 1
-        return self._ask(relaxed, folds)
+        return self._ask(relaxed if with_arms else relaxed.with_collisions_ignored(), folds)
 
     def measured(self, trial: Trial) -> tuple[Reason, ...]:
         """What stood in the way of a trial."""
@@ -126,17 +138,6 @@ def _stays(relaxed: Relaxed) -> bool:
     return relaxed.work.unrest(0, relaxed.problem.start.offset) is None
 
 
-def _further(members: tuple[_Member, ...]) -> Iterator[tuple[_Member, ...]]:
-    """Causes removed as they are, and then by the amounts beyond, as long as there are any."""
-    most = max((len(member.way.amounts) for member in members), default=0)
-    for number in range(most):
-        amounts = (member.way.amounts for member in members)
-        yield tuple(
-            replace(member, amount=max(member.amount, of_way[min(number, len(of_way) - 1)])) if of_way else member
-            for member, of_way in zip(members, amounts, strict=True)
-        )
-
-
 class _Corrections:
     """The sets for one fold, or with None for all of a garment.
 
@@ -151,47 +152,69 @@ class _Corrections:
         dag, everything = base.work.sequence.dag, range(len(base.work.sequence.folds))
         wanted = everything if fold is None else (fold, *dag.before(fold))
         self._folds = sum(1 << index for index in wanted)
-        self._gives = "plan" if len(tuple(wanted)) == len(everything) else "fold"
         self.is_but_touching = False
+        self._gives = "plan" if len(tuple(wanted)) == len(everything) else "fold"
 
     def sets(self, met: Trial, measured: tuple[Reason, ...]) -> list[tuple[Reason, ...]]:
         """Sets of causes; of several each is enough. Empty where none was found."""
         found: list[tuple[_Member, ...]] = []
         own = list(candidates(met.work, measured, self._fold))
         with suppress(_SpentError):
-            self.is_but_touching = met.has_collided and self._is_enough(COLLISIONS_IGNORED, self._base, 0.0)
+            if met.has_collided:
+                self.is_but_touching = self._asked.trial(self._base, self._folds, with_arms=False).is_possible
             for candidate in own:
                 found += self._enough(candidate)
             if not (found or self.is_but_touching):
-                found += [self._least_of(self._shortened(members)) for members in self._extended(self._base, (), own)]
+                found += self._together(self._base, (), own)
         found.sort(key=self._repair)
         return [self._told(members) for members in found] or [(told,) for told in self._at_rest(own)]
 
     def _repair(self, members: tuple[_Member, ...]) -> tuple[int, float]:
-        """How many things are to be removed, arms that nobody has counted as two, and how much is lacking in all."""
-        is_dream = any(member.way.kind == "arms" for member in members)
-        return len(members) + is_dream, sum(lacking(member.told, self._base.work) for member in members)
+        """How many things are to be removed, arms that nobody has counted as three, and how much is lacking in all."""
+        dreams = sum(2 for member in members if member.way.is_dream)
+        return len(members) + dreams, sum(lacking(member.told, self._base.work) for member in members)
 
     def _enough(self, candidate: Candidate) -> Iterator[tuple[_Member, ...]]:
         """A cause that is enough, removed in the first way that is, or that would be if nothing collided then."""
-        *_, last = candidate.ways
-        ways = [way for way in candidate.ways if way.kind != "arms"]
-        is_clear = not self.is_but_touching
-        if last.kind == "arms" and not self._is_enough(last, self._base, 0.0):
+        *ways, last = candidate.ways
+        if last.is_dream and not self._is_enough(last, self._base, last.most, with_arms=False):
             return
-        for way in ways:
-            found = self._least(way, self._base)
-            if found is not None:
-                also = self._alike(candidate, way, found, self._base)
-                yield (_Member(candidate.reason, way, found, also),)
+        slacks = [way for way in ways if way.kind == "cone"]
+        touching: list[tuple[_Member, ...]] = []
+        for way in candidate.ways if not last.is_dream else (way for way in ways if way not in slacks):
+            found, touched = self._least(way, self._base)
+            if touched is not None and found is not None:
+                also = self._alike(candidate, way, found, self._base.with_collisions_ignored())
+                touching.append(
+                    (_Member(candidate.reason, way, found, also), _Member(touched, COLLISIONS_IGNORED, 0.0))
+                )
+            elif found is not None:
+                yield (_Member(candidate.reason, way, found, self._alike(candidate, way, found, self._base)),)
                 return
-        for way in ways if is_clear else ():
-            pair = self._but_for_collisions(candidate, way)
-            if pair is not None:
-                yield pair
-                return
-        if last.kind == "arms" and is_clear:
-            yield (_Member(candidate.reason, last, 0.0),)
+        if touching:
+            yield touching[0]
+        elif last.is_dream and not self.is_but_touching:
+            yield self._stretched(candidate, slacks) or (_Member(candidate.reason, last, last.most),)
+
+    def _stretched(self, candidate: Candidate, slacks: Sequence[Way]) -> tuple[_Member, ...] | None:
+        """What a person may do less well than the rest, or two changes that bring into reach what neither does."""
+        with suppress(_SpentError):
+            for way in slacks:
+                found, touched = self._least(way, self._base)
+                if found is not None and touched is None:
+                    return (_Member(candidate.reason, way, found),)
+            for way in (way for way in candidate.ways if way.kind in _SLACKS):
+                first = _Member(candidate.reason, way, way.most)
+                tried = self._asked(way, self._base, way.most, self._folds, with_arms=False)
+                second = None if tried is None else next(self._shifted((first,), tried), None)
+                if tried is not None and second is not None:
+                    low = self._settled(second.way, tried[0], 0.0, second.amount, with_arms=False)
+                    amounts = (low, low + _A_LITTLE_M, second.amount)
+                    alone = self._first(second.way, self._base, 0.0, amounts, with_arms=True)
+                    if alone is not None:
+                        return (_Member(candidate.reason, second.way, alone),)
+                    return self._least_of((first, replace(second, amount=low)))
+        return None
 
     def _alike(self, candidate: Candidate, way: Way, amount: float, base: Relaxed) -> tuple[str, ...]:
         """Which other ways do as well with as much, where they are alike."""
@@ -199,57 +222,48 @@ class _Corrections:
         others = (other for other in candidate.ways if other.kind in alike and other.kind != way.kind)
         return tuple(other.kind for other in others if self._is_enough(other, base, amount))
 
-    def _but_for_collisions(self, candidate: Candidate, way: Way) -> tuple[_Member, ...] | None:
-        """A way to remove a cause with which all is in reach, and what the arms touch then."""
-        for amount in way.amounts or (0.0,):
-            tried = self._asked(way, self._base, amount, self._folds)
-            if tried is not None and tried[1].has_collided:
-                touching = [r for r in self._asked.measured(tried[1]) if r.code is Code.COLLISION]
-                through = self._base.with_collisions_ignored()
-                found = self._least(way, through) if touching else None
-                if found is not None:
-                    also = self._alike(candidate, way, found, through)
-                    return _Member(candidate.reason, way, found, also), _Member(touching[0], COLLISIONS_IGNORED, 0.0)
-        return None
-
-    def _advised(self, member: _Member) -> Reason:
-        """A reason with what was tried and does."""
-        told, kind = member.told, member.way.kind
-        if told.code is not Code.OUT_OF_REACH or told.station is None or kind == "comfort":
-            return told
-        kinds = () if kind == "arms" else tuple(k for pair in _SHIFTS for k in pair if k in (kind, *member.also))
-        return mended_by(told, dict(self._base.work.scene.stations)[told.station], kinds)
-
-    def _is_enough(self, way: Way, base: Relaxed, amount: float) -> bool:
-        found = self._asked(way, base, amount, self._folds)
+    def _is_enough(self, way: Way, base: Relaxed, amount: float, *, with_arms: bool = True) -> bool:
+        found = self._asked(way, base, amount, self._folds, with_arms=with_arms)
         return found is not None and found[1].is_possible
 
-    def _least(self, way: Way, base: Relaxed) -> float | None:
-        """The least amount of a change that is enough; None if none is."""
-        low = 0.0
-        for amount in way.amounts or (0.0,):
-            found = self._asked(way, base, amount, self._folds)
+    def _least(self, way: Way, base: Relaxed) -> tuple[float | None, Reason | None]:
+        """The least amount of a change that is enough, and what the arms touch with it; None and none if none is."""
+        is_in_reach = base is self._base and self.is_but_touching
+        least = 0.0 if is_in_reach else self._first(way, base, 0.0, way.amounts or (0.0,), with_arms=False)
+        if least is None or (way.amounts and least <= 0.0 and not is_in_reach):
+            return None, None
+        beyond = (*(() if is_in_reach else (least,)), *(amount for amount in way.amounts or (0.0,) if amount > least))
+        real = self._first(way, base, max(least - way.exact, 0.0), beyond or (least,), with_arms=True)
+        if real is not None or is_in_reach:
+            return real, None
+        tried = self._asked(way, base, least, self._folds, with_arms=True)
+        touched = () if tried is None or not tried[1].has_collided else self._asked.measured(tried[1])
+        touching = next((reason for reason in touched if reason.code is Code.COLLISION), None)
+        return (None, None) if touching is None else (least, touching)
+
+    def _first(self, way: Way, base: Relaxed, low: float, amounts: Sequence[float], *, with_arms: bool) -> float | None:
+        """The least amount up to the first of some that is enough; None if none is."""
+        for amount in amounts:
+            found = self._asked(way, base, amount, self._folds, with_arms=with_arms)
             if found is not None and found[1].is_possible:
-                if not way.amounts:
-                    return amount
-                least = self._settled(way, base, low, _needed(way, amount, found[1]))
-                return least if least > 0.0 else None
+                return self._settled(way, base, low, _needed(way, amount, found[1]), with_arms=with_arms)
             low = amount
         return None
 
-    def _settled(self, way: Way, base: Relaxed, low: float, high: float) -> float:
+    def _settled(self, way: Way, base: Relaxed, low: float, high: float, *, with_arms: bool) -> float:
         """The least amount between one that is not enough and one that is: first just below, then halfway."""
-        probe = LESS * high
-        while high > 0.0 and low < LESS * high:
-            tried = self._asked(way, base, probe, self._folds)
-            if tried is not None and tried[1].is_possible:
-                high = _needed(way, probe, tried[1])
-            else:
-                low = probe
-            probe = LESS * high if way.needed is not None and low < 0.5 * high else 0.5 * (low + high)
+        probe = high - way.exact
+        with suppress(_SpentError):
+            while high - low > way.exact + LENGTH_M:
+                tried = self._asked(way, base, probe, self._folds, with_arms=with_arms)
+                if tried is not None and tried[1].is_possible:
+                    high = _needed(way, probe, tried[1])
+                else:
+                    low = probe
+                probe = high - way.exact if way.needed is not None and low < 0.5 * high else 0.5 * (low + high)
         return high
 
-    def _extended(
+    def _together(
         self, base: Relaxed, members: tuple[_Member, ...], own: Sequence[Candidate]
     ) -> list[tuple[_Member, ...]]:
         """Causes that together are enough, found by removing one and looking what still stands in the way.
@@ -257,26 +271,79 @@ class _Corrections:
         Arms that reach everything come first: what else stands in the way is seen in no time then.
         """
         kinds = {member.way.kind for member in members}
-        open_ways = [(c, c.ways[-1]) for c in own if c.ways[-1].kind not in kinds]
         onwards: list[tuple[tuple[_Member, ...], Relaxed, Trial]] = []
-        for candidate, way in sorted(open_ways, key=lambda pair: pair[1].kind != "arms"):
-            amount = way.most if way.kind == "friction" else way.amounts[0] if way.amounts else 0.0
-            found = self._asked(way, base, amount, self._folds)
-            if found is None:
+        firsts = [(one, one.ways[-1] if one.ways[-1].kind == "arms" else one.ways[0]) for one in own]
+        for candidate, way in sorted(firsts, key=lambda pair: pair[1].kind != "arms"):
+            if way.kind in kinds:
+                continue
+            amount = way.most if way.needed is not None else next(iter(way.amounts), 0.0)
+            tried = self._asked(way, base, amount, self._folds, with_arms=False)
+            if tried is None:
                 continue
             chosen = (*members, _Member(candidate.reason, way, amount))
-            if found[1].is_possible:
-                return [chosen]
-            onwards.append((chosen, *found))
-        if len(members) + 1 < _MEMBERS_MAX:
-            for chosen, changed, trial in onwards:
-                measured = self._asked.measured(trial)
-                mine = tuple(r for r in measured if r.fold in (self._fold, None)) or measured
-                further = list(candidates(trial.work, mine, mine[0].fold if mine else self._fold))
-                found_set = self._extended(changed, chosen, further)
-                if found_set:
-                    return found_set
+            if tried[1].is_possible:
+                return [self._least_of(self._shortened(chosen))]
+            onwards.append((chosen, *tried))
+        for chosen, changed, trial in onwards if len(members) + 1 < _MEMBERS_MAX else ():
+            measured = self._asked.measured(trial)
+            mine = tuple(r for r in measured if r.fold in (self._fold, None)) or measured
+            further = list(candidates(trial.work, mine, mine[0].fold if mine else self._fold))
+            found = self._together(changed, chosen, further)
+            if found:
+                return found
         return []
+
+    def _shortened(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
+        """No member that can be left out; in place of arms of any length a shift that is enough, if there is one."""
+        with suppress(_SpentError):
+            for member in members:
+                rest = tuple(other for other in members if other is not member)
+                for others in _further(rest) if member.way.is_dream else [rest] if rest else []:
+                    if self._asked.trial(self._with(others), self._folds, with_arms=False).is_possible:
+                        return self._shortened(others)
+            others = tuple(member for member in members if not member.way.is_dream)
+            if others and len(others) < len(members):
+                base = self._with(others)
+                trial = self._asked.trial(base, self._folds, with_arms=False)
+                shifted = next(self._shifted(others, (base, trial)), None)
+                return members if shifted is None else (*others, shifted)
+        return members
+
+    def _shifted(self, others: tuple[_Member, ...], tried: tuple[Relaxed, Trial]) -> Iterator[_Member]:
+        """The least shifts that are enough for what is out of reach once others are removed."""
+        kinds = {member.way.kind for member in others}
+        far = [r for r in self._asked.measured(tried[1]) if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
+        for candidate in candidates(tried[1].work, tuple(far), self._fold):
+            for way in candidate.ways[:-1] if candidate.ways[-1].is_dream else ():
+                for amount in way.amounts if way.kind not in kinds else ():
+                    if self._is_enough(way, tried[0], amount, with_arms=False):
+                        yield _Member(candidate.reason, way, amount)
+                        break
+
+    def _least_of(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
+        """Of each member the least with which the others are enough, and what the arms touch then."""
+        least = self._halved(members, (0.0,) * len(members), with_arms=False)
+        if any(member.way.is_dream or member.way is COLLISIONS_IGNORED for member in members):
+            return least
+        trial = self._asked.trial(self._with(least), self._folds, with_arms=True)
+        if trial.is_possible:
+            return least
+        if self._asked.trial(self._with(members), self._folds, with_arms=True).is_possible:
+            return self._halved(members, [member.amount for member in least], with_arms=True)
+        touching = next((reason for reason in self._asked.measured(trial) if reason.code is Code.COLLISION), None)
+        if touching is None:
+            raise _SpentError
+        return (*least, _Member(touching, COLLISIONS_IGNORED, 0.0))
+
+    def _halved(self, members: tuple[_Member, ...], lows: Sequence[float], *, with_arms: bool) -> tuple[_Member, ...]:
+        """Of each member in turn the least, more than an amount, with which the others are enough."""
+        settled = list(members)
+        for number, (member, low) in enumerate(zip(members, lows, strict=True)):
+            if member.way.amounts:
+                rest = self._with([other for n, other in enumerate(settled) if n != number])
+                amount = self._settled(member.way, rest, low, member.amount, with_arms=with_arms)
+                settled[number] = replace(member, amount=amount)
+        return tuple(settled)
 
     def _at_rest(self, own: Sequence[Candidate]) -> Iterator[Reason]:
         """What is enough for the cloth to stay at the start as it lies, if not for a plan."""
@@ -289,40 +356,6 @@ class _Corrections:
                     yield replace(way.told(candidate.reason, amount), change=changed.change, gives="start")
                     break
 
-    def _shortened(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
-        """No member that can be left out; in place of arms of any length a shift that is enough, if there is one."""
-        for member in members:
-            rest = tuple(other for other in members if other is not member)
-            for others in _further(rest) if member.way.kind == "arms" else [rest] if rest else []:
-                if self._asked.trial(self._with(others), self._folds).is_possible:
-                    return self._shortened(others)
-        others = tuple(member for member in members if member.way.kind != "arms")
-        return members if len(others) == len(members) else (*others, self._shifted(others, members))
-
-    def _shifted(self, others: tuple[_Member, ...], members: tuple[_Member, ...]) -> _Member:
-        """What is out of reach once all others are removed, and the least shift that is enough, else long arms."""
-        base = self._with(others)
-        trial = self._asked.trial(base, self._folds)
-        far = [r for r in self._asked.measured(trial) if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
-        for candidate in candidates(trial.work, tuple(far), self._fold):
-            if candidate.ways[-1].kind == "arms":
-                for way in candidate.ways[:-1]:
-                    found = self._least(way, base)
-                    if found is not None:
-                        return _Member(candidate.reason, way, found)
-                return _Member(candidate.reason, candidate.ways[-1], 0.0)
-        return next(member for member in members if member.way.kind == "arms")
-
-    def _least_of(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
-        """Of each member the least with which the others are enough."""
-        settled = list(members)
-        for number, member in enumerate(members):
-            rest = self._with([other for n, other in enumerate(settled) if n != number])
-            found = self._least(replace(member.way, amounts=(member.amount,) if member.way.amounts else ()), rest)
-            if found is not None:
-                settled[number] = replace(member, amount=found)
-        return tuple(settled)
-
     def _with(self, members: Sequence[_Member]) -> Relaxed:
         relaxed = self._base
         for member in members:
@@ -332,3 +365,22 @@ class _Corrections:
     def _told(self, members: tuple[_Member, ...]) -> tuple[Reason, ...]:
         change = self._with(members).change
         return tuple(replace(self._advised(member), change=change, gives=self._gives) for member in members)
+
+    def _advised(self, member: _Member) -> Reason:
+        """A reason with what was tried and does."""
+        told, kind = member.told, member.way.kind
+        shifts = tuple(k for pair in _SHIFTS for k in pair if k in (kind, *member.also))
+        if told.code is not Code.OUT_OF_REACH or told.station is None or not (shifts or member.way.is_dream):
+            return told
+        return mended_by(told, dict(self._base.work.scene.stations)[told.station], shifts)
+
+
+def _further(members: tuple[_Member, ...]) -> Iterator[tuple[_Member, ...]]:
+    """Causes removed as they are, and then by the amounts beyond, as long as there are any."""
+    most = max((len(member.way.amounts) for member in members), default=0)
+    for number in range(most):
+        amounts = (member.way.amounts for member in members)
+        yield tuple(
+            replace(member, amount=max(member.amount, of_way[min(number, len(of_way) - 1)])) if of_way else member
+            for member, of_way in zip(members, amounts, strict=True)
+        )

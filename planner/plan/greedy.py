@@ -20,7 +20,9 @@ from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
 from planner.search.a_star import a_star
 
-_WEIGHT = 10.0
+WEIGHT = 10.0
+"""So many times the time to come counts more than the time so far."""
+
 _EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 2
 """So many states are expanded, and so many more for each fold."""
 
@@ -34,7 +36,9 @@ _ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=
 """What is tried with one hand, and with both, which mostly fail for good, and slowly."""
 
 
-def greedy(problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...] | None:
+def greedy(
+    problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool], wanted: int | None = None
+) -> tuple[Act, ...] | None:
     """What is left to be done from a state on.
 
     Args:
@@ -42,20 +46,22 @@ def greedy(problem: Problem, start: State, effort: Effort, is_over: Callable[[],
         start: the state.
         effort: what is done is added to it.
         is_over: asked again and again; true means that there is no time.
+        wanted: the folds to be done, as a bit mask, what they wait for among them; None for all.
 
     Returns:
         What is done, act by act, the first beginning with primitive 0; None where no way was found soon that the arms
         can follow.
     """
-    return _Greedy(problem, effort, is_over).acts(start)
+    return _Greedy(problem, effort, is_over, wanted).acts(start)
 
 
 class _Greedy:
-    def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool]) -> None:
+    def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None) -> None:
         self._problem = problem
         self._effort = effort
         self._is_over = is_over
-        self._remaining = arm_time(problem.work)
+        self._wanted = (1 << len(problem.work.sequence.folds)) - 1 if wanted is None else wanted
+        self._remaining = arm_time(problem.work, self._wanted)
         self._edges = Edges(problem.work, self._possible, lambda held: held.grasp in self._doubted)
         self._made: dict[tuple[StateKey, ...], RealRun | None] = {}
         self._struck: set[tuple[StateKey, StateKey]] = set()
@@ -69,8 +75,8 @@ class _Greedy:
             result = a_star(
                 start,
                 self._edges.leaving,
-                self._problem.is_goal,
-                lambda state: _WEIGHT * self._remaining(state),
+                lambda state: state.done & self._wanted == self._wanted,
+                lambda state: WEIGHT * self._remaining(state),
                 expanded_max,
                 lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
                 is_consistent=False,

@@ -13,6 +13,8 @@ from planner.plan.budget import Budget
 from planner.plan.correction_sets import corrected
 from planner.plan.driving_bound import DrivingBound
 from planner.plan.edges import Edges
+from planner.plan.effort import Effort
+from planner.plan.greedy import WEIGHT, greedy
 from planner.plan.heuristic import HEURISTICS, Heuristic, arm_time
 from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
@@ -41,9 +43,9 @@ MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 """The work on each task with more comfort, and on all with narrower cones, as a share of what was done before. Comfort
 below its default is seldom asked for, and mostly pays; all requests have a cone that could be narrower."""
 
-TRIAL_EXPANDED_MAX, TRIAL_WORK_S, REASONS_WORK_S = 200, 1.0, 3.0
-"""The budget in states and in work of each search that tries whether a fold can be done once a cause is removed, and in
-work of all of them for one plan (s, see `Budget`)."""
+TRIAL_EXPANDED_MAX, GLANCE_WORK_S, TRIAL_WORK_S, REASONS_WORK_S = 200, 0.4, 1.0, 4.0
+"""The budget of the searches that try whether a fold can be done once a cause is removed: in states, each; in work one
+that looks for no joint paths, one that does, and all of them for one plan (s, see `Budget`)."""
 
 _COLLISIONS_MAX = 12
 """Of so many motions that the arms could not follow it is looked at what was in their way."""
@@ -84,7 +86,7 @@ class PlanSearch:
         self._like = like
         self._on_found = on_found
         self._wanted = (1 << len(problem.work.sequence.folds)) - 1
-        self._is_trial = self._may_collide = False
+        self._is_trial = False
         self._tried_s = 0.0
         self._achieved = 0
         self._reached: set[State] = set()
@@ -172,13 +174,16 @@ class PlanSearch:
             folds: the folds.
             may_collide: whether that is in reach is enough: joint paths are not looked for.
         """
-        self._wanted, self._may_collide, self._greedy_at_s = folds, may_collide, math.inf
+        self._wanted, self._greedy_at_s = folds, math.inf
         self._is_trial = True
         start = self._problem.start
         unrest = self._work.unrest(0, start.offset)
         if unrest is not None:
             return Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
-        result, _ = self._real_path(start)
+        acts = None if may_collide else greedy(self._problem, start, Effort(), self._is_out_of_budget, folds)
+        if acts is not None:
+            return Trial(self._work, (start, *(step.after for act in acts for step in act.steps)), False, tuple)
+        result = self._some_path(start) if may_collide else self._real_path(start)[0]
         states = (start, *(edge.after for edge in result.path)) if result.outcome is Outcome.SOLVED else None
         return Trial(self._work, states, bool(self._realizer.struck), self._measured)
 
@@ -191,7 +196,7 @@ class PlanSearch:
             result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
             self._note_bound(result)
-            if result.outcome is not Outcome.SOLVED or self._may_collide:
+            if result.outcome is not Outcome.SOLVED:
                 return result, self._found
             if result.cost >= self._limit_s:
                 return replace(result, outcome=Outcome.INFEASIBLE), self._found
@@ -213,6 +218,13 @@ class PlanSearch:
         """Keep what can be done if it takes less than what is kept."""
         if acts and (not self._found or duration_s(acts) < duration_s(self._found)):
             self._found = acts
+
+    def _some_path(self, start: State) -> SearchResult[State, Step]:
+        """A path that may not be the quickest, nor real."""
+        self._edges.begin()
+        bound = self._bound(start)
+        question = (start, self._edges.leaving, self._is_goal, lambda state: WEIGHT * bound(state))
+        return a_star(*question, self._max_expanded, self._is_over, is_consistent=False)
 
     def _bound(self, start: State) -> Heuristic:
         """The lower bound asked for; it knows of driving where there are too many orders of folds to search."""
@@ -254,7 +266,7 @@ class PlanSearch:
         budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
         search = PlanSearch(relaxed.searched, self._heuristic, budget, TRIAL_EXPANDED_MAX)
         begun_s = budget.spent_s
-        budget.work_limit_s = begun_s + TRIAL_WORK_S
+        budget.work_limit_s = begun_s + (GLANCE_WORK_S if relaxed.may_collide else TRIAL_WORK_S)
         found = search.trial(folds, may_collide=relaxed.may_collide)
         self._tried_s += budget.spent_s - begun_s
         return found

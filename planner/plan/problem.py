@@ -11,6 +11,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.plan.machine import Machine
 from planner.plan.run_maker import RunMaker
+from planner.primitives.reach import Reach
 from planner.primitives.state import State
 from planner.primitives.unlimited_reach import UnlimitedReach
 from planner.primitives.work import Work
@@ -50,6 +51,7 @@ class Problem:
         placement: Pose2 | None = None,
         comfort_m: float | None = None,
         behind_max_m: float | None = None,
+        grips_apart_m: float | None = None,
     ) -> "Problem":
         """The same with some of it changed, for the same robot, what is known of its reach shared; raises as `of` does.
 
@@ -62,21 +64,22 @@ class Problem:
         is_alike = (wanted.torso_m, comfort) == (work.scene.torso_m, work.reach.comfort_m)
         reach = work.reach if is_alike else machine.reach(wanted.torso_m, comfort)
         behind = work.behind_max_m if behind_max_m is None else behind_max_m
-        changed = Work(sequence, wanted, reach, placement or work.placement, work.circle_m, behind)
+        apart = work.grips_apart_m if grips_apart_m is None else grips_apart_m
+        changed = Work(sequence, wanted, reach, placement or work.placement, work.circle_m, behind, apart)
         return Problem(changed, machine, RunMaker(changed, machine), self.start)
 
-    def with_long_arms(self) -> "Problem":
-        """The same for a robot whose hands reach every place; joint paths are not to be asked for."""
-        work = self.work
-        reach = UnlimitedReach(work.reach)
-        changed = Work(work.sequence, work.scene, reach, work.placement, work.circle_m, work.behind_max_m)
-        return Problem(changed, self.robot, RunMaker(changed, self.robot), self.start)
+    def with_long_arms(self, more_hands: int = 0) -> "Problem":
+        """The same for a robot whose hands reach every place, and some more; joint paths are not to be asked for."""
+        return self._with_reach(UnlimitedReach(self.work.reach, more_hands))
 
     def anew(self) -> "Problem":
         """The same with nothing worked out yet, for somebody else's use: a problem is not shared between threads."""
-        work, scene = self.work, self.work.scene
-        reach = self.robot.reach(scene.torso_m, work.reach.comfort_m)
-        fresh = Work(work.sequence, scene, reach, work.placement, work.circle_m, work.behind_max_m)
+        return self._with_reach(self.robot.reach(self.work.scene.torso_m, self.work.reach.comfort_m))
+
+    def _with_reach(self, reach: Reach) -> "Problem":
+        work = self.work
+        limits = (work.circle_m, work.behind_max_m, work.grips_apart_m)
+        fresh = Work(work.sequence, work.scene, reach, work.placement, *limits)
         return Problem(fresh, self.robot, RunMaker(fresh, self.robot), self.start)
 
     @staticmethod

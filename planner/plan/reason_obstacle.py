@@ -12,7 +12,7 @@ from planner.plan.reason_collision import collision_reason
 from planner.plan.reason_grips import farthest_from, held_radius, needed_radius
 from planner.plan.reason_words import carried, dragged
 from planner.primitives.fold_trial import geometric_obstacles, lifted_points
-from planner.primitives.grasping import GRIPS_APART_M, nearest_pair_m
+from planner.primitives.grasping import nearest_pair_m
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State
 from planner.primitives.work import Work
@@ -127,17 +127,17 @@ def _grips_too_close(work: Work, fold: int) -> Reason:
     needed = needed_radius(work.sequence.moving(fold), drawn.line, np.array(found.vertices), 1)
     text = (
         f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
-        f"{GRIPS_APART_M:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, one hand would "
-        "hold both"
+        f"{work.grips_apart_m:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, one hand "
+        "would hold both"
     )
     values = {
         "points": plain_points(cover),
         "apart_m": apart,
-        "needed_apart_m": GRIPS_APART_M,
+        "needed_apart_m": work.grips_apart_m,
         **_radii(drawn.grip_radius_m, needed),
     }
     says = Message("grips_too_close", text, values)
-    return Reason(fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=GRIPS_APART_M - apart, needed_grip_radius_m=needed)
+    return Reason(fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=work.grips_apart_m - apart, needed_grip_radius_m=needed)
 
 
 def _red_needs_hold(work: Work, fold: int, held: tuple[Point2, ...]) -> Reason:

@@ -57,6 +57,7 @@ def out_of_reach(work: Work, fold: int, miss: Miss) -> Reason:
         "shift_towards": None,
         "movable": None,
         "enough_comfort_m": None,
+        "enough_cone_rad": None,
         "tried_m": FURTHEST_M,
     }
     return Reason(
@@ -179,6 +180,13 @@ def reached_with_comfort(reason: Reason, comfort_m: float) -> Reason:
     advice = f"with {_down(comfort_m)} m of comfort it can be done"
     told = _advised(reason, advice, {"movable": None, "enough_comfort_m": comfort_m})
     return replace(told, comfort_m=comfort_m, shift_m=None, shift_towards=None)
+
+
+def reached_with_cone(reason: Reason, cone_rad: float) -> Reason:
+    """What is in reach with pinches from further round, which was tried."""
+    advice = f"with pinches from within {math.degrees(cone_rad):.0f} degrees of the way into the cloth it can be done"
+    told = _advised(reason, advice, {"movable": None, "enough_cone_rad": cone_rad})
+    return replace(told, shift_m=None, shift_towards=None)
 
 
 def _advised(reason: Reason, advice: str, values: Mapping[str, Any]) -> Reason:

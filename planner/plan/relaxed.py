@@ -22,12 +22,14 @@ class Relaxed:
         problem: the problem as far as a request can be changed.
         change: the fields of the request that changed; None where it takes what no request can ask for.
         has_long_arms: whether every place is in reach.
+        more_hands: how many hands there are beyond the robot's; all reach every place then.
         may_collide: whether the arms may go through anything.
     """
 
     problem: Problem
     change: Mapping[str, Any] | None
     has_long_arms: bool = False
+    more_hands: int = 0
     may_collide: bool = False
 
     @staticmethod
@@ -43,7 +45,7 @@ class Relaxed:
     @property
     def searched(self) -> Problem:
         """The problem to be searched; nothing is worked out yet."""
-        return self.problem.with_long_arms() if self.has_long_arms else self.problem.varied()
+        return self.problem.with_long_arms(self.more_hands) if self.has_long_arms else self.problem.varied()
 
     def with_garment(self, garment: Garment) -> "Relaxed":
         """Another garment; raises `FoldError` if a fold of it is not legal."""
@@ -68,6 +70,14 @@ class Relaxed:
     def with_long_arms(self) -> "Relaxed":
         """Every place in reach; then arms that are no robot's collide with nothing."""
         return replace(self, change=None, has_long_arms=True, may_collide=True)
+
+    def with_more_hands(self, number: int) -> "Relaxed":
+        """So many hands more; they are no robot's, so all reach every place."""
+        return replace(self.with_long_arms(), more_hands=number)
+
+    def with_grips_nearer(self, apart_m: float) -> "Relaxed":
+        """Hands that may be as near to each other as this (m)."""
+        return replace(self, problem=self.problem.varied(grips_apart_m=apart_m), change=None)
 
     def with_collisions_ignored(self) -> "Relaxed":
         """Arms that may go through anything."""

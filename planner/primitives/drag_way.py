@@ -11,7 +11,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
-from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, hand_key, nearest_pair_m
+from planner.primitives.grasping import approaches_from_outside, assignments, hand_key, nearest_pair_m
 from planner.primitives.state import State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
@@ -73,7 +73,7 @@ class DragWays:
             return
         for cover in drag_covers(work, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
-            if cover and nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+            if cover and nearest_pair_m(points) >= work.grips_apart_m - LENGTH_M:
                 picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
                 for arms in assignments(work, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]

@@ -16,7 +16,6 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
 from planner.primitives.grasping import (
-    GRIPS_APART_M,
     all_approaches,
     approaches_from_outside,
     assignments,
@@ -222,8 +221,8 @@ def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
     if not covers.is_holdable:
         return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
     apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
-    if apart < GRIPS_APART_M - LENGTH_M:
-        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, GRIPS_APART_M - apart, state)
+    if apart < work.grips_apart_m - LENGTH_M:
+        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, work.grips_apart_m - apart, state)
     return None
 
 
@@ -251,7 +250,7 @@ def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[i
     covers = work.sequence.covers(fold, work.scene.support_angle_rad, len(work.reach.arm_names))
     for cover in covers.covers:
         points = work.placed(state.offset).to_outer(np.array(cover))
-        if nearest_pair_m(points) >= GRIPS_APART_M - LENGTH_M:
+        if nearest_pair_m(points) >= work.grips_apart_m - LENGTH_M:
             for arms in assignments(work, state.station, points):
                 yield cover, arms
 

@@ -12,9 +12,6 @@ from planner.geometry.pose import FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
 from planner.primitives.work import Work
 
-GRIPS_APART_M = 0.10
-"""Two grips nearer to each other than this cannot be taken by two hands (m)."""
-
 _PREFERRED_PITCH_RAD = math.radians(30.0)
 
 _DISCOMFORT_DIGITS = 3

@@ -17,12 +17,12 @@ class UnlimitedReach:
 
     queries, query_time_s = 0, 0.0
 
-    def __init__(self, robot: Reach) -> None:
-        """As many arms as a robot has, by the same names, its grippers able to turn as its do."""
-        self.arm_names: tuple[str, ...] = robot.arm_names
+    def __init__(self, robot: Reach, more_hands: int = 0) -> None:
+        """As many arms as a robot has, by the same names, and some more; grippers turn as the robot's do."""
+        self.arm_names: tuple[str, ...] = (*robot.arm_names, *(f"extra {n + 1}" for n in range(more_hands)))
         self.approaches: tuple[Approach, ...] = robot.approaches
         self.comfort_m: float = robot.comfort_m
-        self.shoulders: tuple[Point3, ...] = robot.shoulders
+        self.shoulders: tuple[Point3, ...] = (*robot.shoulders, *robot.shoulders[-1:] * more_hands)
 
     def forget(self) -> None:
         """Nothing is remembered."""

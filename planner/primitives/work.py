@@ -20,6 +20,9 @@ from planner.task.scene import Scene
 
 T = TypeVar("T")
 
+GRIPS_APART_M = 0.10
+"""How near to each other two grips may be, unless a problem says otherwise (m)."""
+
 BACK_OFFS_PER_M = 20
 """The grid of back-offs: one every 5 cm."""
 
@@ -38,6 +41,7 @@ class Work:
         placement: the article frame in the table frame at the start.
         circle_m: radius of the circle round the base that must clear the table when it turns (m).
         behind_max_m: how far the part that a fold moves may reach behind its line's extension (m).
+        grips_apart_m: two grips nearer to each other than this cannot be taken by two hands (m).
         obstacles: why primitives were not possible, collected for the reasons.
     """
 
@@ -47,6 +51,7 @@ class Work:
     placement: Pose2
     circle_m: float
     behind_max_m: float = 0.0
+    grips_apart_m: float = GRIPS_APART_M
     obstacles: Obstacles = field(default_factory=Obstacles)
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)

@@ -20,7 +20,7 @@ from planner.geometry.pose import FloatArray
 from planner.primitives.base_move import BaseMove
 from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
-from planner.primitives.grasping import GRIPS_APART_M, approaches_from_outside, assignments, nearest_pair_m
+from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
 from planner.primitives.state import Held, State
 from planner.primitives.work import BACK_OFF_STEP_M, Work
 
@@ -122,7 +122,7 @@ class Exhaustive:
         turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
         for cover in drag_covers(work, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
-            if not cover or nearest_pair_m(points) < GRIPS_APART_M - 1e-5:
+            if not cover or nearest_pair_m(points) < work.grips_apart_m - 1e-5:
                 continue
             picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
             for arms in assignments(work, state.station, points):

@@ -123,7 +123,7 @@ def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
         approach_cone_rad=0.0,
         table=Table(height_m=0.7, depth_m=4.0, width_m=3.0),
     )
-    (reason,) = refused(cloth, scene).reasons
+    reason = but_for_collisions(refused(cloth, scene))
     assert (reason.code, reason.cause, reason.joint) == (Code.OUT_OF_REACH, "joint_limit", "shoulder pan")
     assert reason.arm == "left"
     seen = np.array(reason.point) - np.array([-0.95 - 0.05, 0.188, 0.051 + 0.739675 + 0.29 - 0.7])
@@ -137,11 +137,12 @@ def test_what_is_far_away_is_short_by_at_least_its_distance():
     # The arm is 1.001 m long from pan axis to tool, and the far end 2.0 m ahead of the left shoulder.
     table = Table(depth_m=4.0, height_m=LEVEL_M)
     scene = replace(fixed(), table=table, stations=(("front", Pose2(-1.5, 0.0, 0.0)),))
-    (reason,) = refused(strip(-1.5 - 0.05 + 2.0, 0.3, 0.1), scene).reasons
+    reason = but_for_collisions(refused(strip(-1.5 - 0.05 + 2.0, 0.3, 0.1), scene))
     assert (reason.code, reason.cause) == (Code.OUT_OF_REACH, "too_far")
     assert reason.short_by_m >= 2.0 - (0.1 + 0.4 + 0.321 + 0.18)
-    assert reason.shift_m is None
-    assert reason.is_at_least and "at least" in reason.message and "so that it is nearer" in reason.message
+    assert reason.is_at_least and "at least" in reason.message
+    assert reason.shift_m == pytest.approx(reason.short_by_m, abs=0.001)
+    assert "1.21 m nearer to the robot: move the cloth" in reason.message
 
 
 def test_where_no_shift_would_do_the_reason_says_so():

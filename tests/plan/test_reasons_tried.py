@@ -61,11 +61,50 @@ def test_what_moving_the_cloth_does_not_mend_is_not_told_to_be_moved_and_frictio
         assert reach.set != slip.set
 
 
-@pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
-def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same(name: str):
-    reason, *waiting = refused(load_garment(name)).reasons
+def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
+    reason, *waiting = refused(load_garment("scarf-halved")).reasons
     assert (reason.code, reason.gives, reason.change) == (Code.OUT_OF_REACH, "fold", None)
     assert {other.code for other in waiting} == {Code.WAITS_FOR_FOLD}
+
+
+def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does():
+    # Drags go by 0.1 m, and the halved tie is in reach only within a centimetre between two of their places.
+    tie = load_garment("tie-halved")
+    reason, *_ = refused(tie).reasons
+    assert (reason.code, reason.gives) == (Code.OUT_OF_REACH, "fold")
+    once = replace(tie, folds=tie.folds[:1])
+    assert planned_with(reason.change, once).is_solved
+    move = {"placement": tie.placement.moved(reason.shift_m - 0.0015, 0.0).to_dict()}
+    assert reason.shift_towards == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
+    assert not planned_with(move, once).is_solved
+
+
+def apron(radius_m: float, in_drags_m: float) -> Garment:
+    outline = ((0.0, 0.0), (0.6, 0.0), (0.6, 0.4), (0.42, 0.75), (0.18, 0.75), (0.0, 0.4))
+    half = fold((0.3, 0.75), (0.3, 0.0), radius_m=radius_m)
+    return replace(garment(outline, half, placement=Pose2(-0.375, 0.3, BACK)), grip_radius_m=in_drags_m)
+
+
+def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_dragged():
+    # With 0.197 m in the fold alone the arms touch something on all ways; dragged nearer, which takes as wide grips,
+    # they do not. With 0.4 m one hand would hold the whole edge.
+    (reason,) = refused(apron(0.127, 0.127)).reasons
+    assert (reason.code, reason.gives) == (Code.TOO_MANY_GRIPS, "plan")
+    assert reason.needed_grip_radius_m == pytest.approx(0.1968, abs=1e-4)
+    assert planned_with(reason.change, apron(0.127, 0.127)).is_solved
+    less_m = reason.needed_grip_radius_m - 0.001
+    assert not make_plan(apron(less_m, less_m), time_limit_s=60.0, with_reasons=False).is_solved
+
+
+def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there():
+    # Its point is 0.8 m out of reach, further than shifts of the hands' way are looked for; drags do the rest.
+    alone = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
+    towel = garment(rectangle_points(0.4, 0.5), fold((0.4, 0.25), (0.0, 0.25)), placement=Pose2(0.2, 0.4, BACK))
+    (reason,) = refused(towel, alone).reasons
+    assert (reason.code, reason.gives, reason.shift_towards) == (Code.OUT_OF_REACH, "plan", (-1.0, 0.0, 0.0))
+    assert planned_with(reason.change, towel, alone).is_solved
+    less = {"placement": towel.placement.moved(-(reason.shift_m - 0.0015), 0.0).to_dict()}
+    assert not planned_with(less, towel, alone).is_solved
 
 
 def random_task(seed: int) -> tuple[Garment, Scene]:

