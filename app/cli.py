@@ -185,7 +185,8 @@ def _status(answer: Plan) -> int:
         why = "The budget ran out. " if answer.statistics.is_cut_short else ""
         _errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
     for reason in answer.reasons:
-        _errors.print(f"{reason.to_dict()['code']}: {reason.message}")
+        met = "" if reason.is_tried else "; met on the way, not tried whether it is the cause"
+        _errors.print(f"{reason.code.value}: {reason.message}{met}")
     return 0 if answer.is_solved else NO_PLAN
 
 

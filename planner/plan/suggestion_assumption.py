@@ -16,13 +16,13 @@ from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
 from planner.plan.suggestion_words import in_cm
 from planner.task.reason import Reason
 
-FRICTION_STEPS, FRICTION_MAX = 20, 10.0
+FRICTION_STEPS, FRICTION_MAX = 100, 10.0
 """How many steps there are in a friction coefficient of 1, and the largest that is tried."""
 
-GRIP_RADIUS_STEPS_PER_M, GRIP_RADIUS_MAX_M = 100, 0.5
+GRIP_RADIUS_STEPS_PER_M, GRIP_RADIUS_MAX_M = 1000, 0.5
 """How many steps there are in a metre, and the largest grip radius that is tried (m)."""
 
-COMFORT_STEP_M = 0.005
+COMFORT_STEP_M = 0.001
 """From one comfort radius to the next (m)."""
 
 
@@ -105,7 +105,9 @@ def _grip_radius(asked: Asked, folds: Sequence[int], radius_m: float) -> Trial:
         return replace(fold, grip_radius_m=max(radius_m, fold.grip_radius_m)) if index in folds else fold
 
     drawn = asked.garment.folds
-    garment = replace(asked.garment, folds=tuple(widened(i, fold) for i, fold in enumerate(drawn)))
+    in_drags_m = max(radius_m, asked.garment.grip_radius_m)
+    folds_now = tuple(widened(i, fold) for i, fold in enumerate(drawn))
+    garment = replace(asked.garment, folds=folds_now, grip_radius_m=in_drags_m)
     names = ", ".join(f"fold {i} '{drawn[i].name}'" for i in folds)
     text = f"Assume that one grip holds the cloth within {in_cm(radius_m)} in {names}"
     says = Message("assume_grip_radius", text, {"grip_radius_m": radius_m, "folds": list(folds)})

@@ -86,6 +86,11 @@ class Reason:
         """The sentence."""
         return self.says.text
 
+    @property
+    def is_tried(self) -> bool:
+        """Whether it is known what there is without it; what waits for a fold is not tried for itself."""
+        return self.set is not None or self.code is Code.WAITS_FOR_FOLD
+
     def to_dict(self) -> dict[str, Any]:
         """The reason as JSON."""
         found = {name: getattr(self, name) for name in self.__slots__}

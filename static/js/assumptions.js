@@ -10,7 +10,7 @@ import { present } from "./present.js";
 /** @import { Drawing, Fold } from "pleat" */
 
 /** What is usual (see planner.primitives.scene, planner.plan.make_plan). */
-export const USUAL = { friction: 1, comfort_m: 0.03 };
+export const USUAL = { friction: 1, comfort_m: 0.03, grip_radius_m: 0.127 };
 
 const SAME = 1e-9;
 
@@ -26,7 +26,7 @@ export function assumptions(drawing) {
     wide.length > 0 && {
       kind: "grip_radius",
       text: `grip ${length(widest)}`,
-      off: (changed) => changed.folds.filter((fold) => isWide(changed, fold)).forEach(narrow),
+      off: narrow,
     },
     scene.friction > USUAL.friction + SAME && {
       kind: "friction",
@@ -43,15 +43,24 @@ export function assumptions(drawing) {
 }
 
 /**
- * Whether a grip at a fold is taken to hold more than the garment's own.
+ * Whether a grip at a fold is taken to hold more than the garment's own. Where drags need that too, the garment's is as
+ * wide, and the fold says so for itself.
  * @param {Drawing} drawing
  * @param {Fold} fold
  */
-export const isWide = (drawing, fold) =>
-  fold.grip_radius_m !== null && fold.grip_radius_m > drawing.grip_radius_m + SAME;
+export const isWide = (drawing, { grip_radius_m: radius }) =>
+  radius !== null && (radius > drawing.grip_radius_m + SAME || isWideInDrags(drawing, radius));
 
-/** Have grips at a fold hold what they usually do. @param {Fold} fold */
-export const narrow = (fold) => void (fold.grip_radius_m = null);
+/** @param {Drawing} drawing @param {number|null} radius */
+const isWideInDrags = ({ grip_radius_m: own }, radius) =>
+  radius !== null && Math.abs(radius - own) <= SAME && own > USUAL.grip_radius_m + SAME;
+
+/** Have grips hold what they usually do. @param {Drawing} drawing */
+function narrow(drawing) {
+  const wide = drawing.folds.filter((fold) => isWide(drawing, fold));
+  if (wide.some((fold) => isWideInDrags(drawing, fold.grip_radius_m))) drawing.grip_radius_m = USUAL.grip_radius_m;
+  for (const fold of wide) fold.grip_radius_m = null;
+}
 
 /** A mark of an assumption, pressed to take it off. @param {string} text @param {() => void} onClick */
 export function assumptionChip(text, onClick) {

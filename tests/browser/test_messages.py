@@ -36,6 +36,7 @@ REACH: dict[str, Any] = {
     "shift_towards": [-1.0, 0.0, 0.0],
     "movable": ["cloth", "station"],
     "enough_comfort_m": None,
+    "enough_cone_rad": None,
     "tried_m": 0.2,
 }
 LOOSE = {"code": "hangs_loose", "layer": 0, "edge": "near", "at": [0.1, -0.2], "beyond_m": 0.05}
@@ -79,6 +80,7 @@ TOLD: list[dict[str, Any]] = [
     {**REACH, "cause": "comfort_only", "comfort_m": 0.0151, "joint": None, "movable": None},
     {**REACH, "movable": ["torso"], "shift_towards": [0.0, 0.0, -1.0]},
     {**REACH, "movable": None, "enough_comfort_m": 0.0151},
+    {**REACH, "movable": None, "enough_cone_rad": 1.8326},
     {**REACH, "movable": [], "shift_m": None, "shift_towards": None},
     {**REACH, "movable": [], "is_at_least": True, "moment": "pick", "dragged": [0.0, 0.0], "is_held": False},
     {"code": "too_many_grips", "points": [[0.42, 0.75], [0.6, 0.4], [0.6, 0.0]], "hands": 2, **RADII},
@@ -112,7 +114,10 @@ TOLD: list[dict[str, Any]] = [
         "shifts": [{"fold": fold, "by_m": 0.025, "towards": [1.0, 0.0]} for fold in (0, 1)],
     },
     {"code": "slips_on_the_way", "friction": 0.0, "needed_friction": 0.2},
-    {"code": "wider_grip", "grip_radius_m": 0.02, "needed_grip_radius_m": 0.0301},
+    {"code": "wider_grip", "grip_radius_m": 0.02, "needed_grip_radius_m": 0.0301, "in_drags": False},
+    {"code": "wider_grip", "grip_radius_m": 0.02, "needed_grip_radius_m": 0.0301, "in_drags": True},
+    {"code": "stiffer_cloth", "support_angle_rad": 0.0873, "needed_support_angle_rad": 0.5236},
+    {"code": "one_more_hand", "hands": 2},
     {"code": "fold_before", "fold": 1, "before": 0},
     {"code": "fold_in_order", "folds": [1, 0]},
     {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},

@@ -92,8 +92,15 @@ export function details(message, state) {
   if (state.problems.some((problem) => problem.code === "outline_unfinished")) return [];
   if (message.status === "illegal") return state.problems.map((problem) => problemSentence(problem, state.drawing));
   const all = (message.plan?.reasons ?? []).filter((reason) => reason.message);
-  return all.map((reason) => `${of(reason, folds)}${inWords(reason, folds)}.`).map(capital);
+  return all.map((reason) => `${of(reason, folds)}${inWords(reason, folds)}.${untried(reason)}`).map(capital);
 }
+
+/**
+ * What is said of a reason that was met, but of which nobody knows that there is a plan without it.
+ * @param {{set?: number|null, code: string}} reason
+ */
+const untried = ({ set, code }) =>
+  set === null && code !== "waits_for_fold" ? " Met on the way; not tried whether it is the cause." : "";
 
 /** @param {DrawingProblem|undefined} problem @param {Drawing} drawing */
 function problemSentence(problem, drawing) {

@@ -16,16 +16,24 @@ export function applyChange(drawing, change) {
   drawing.scene = change.scene ?? drawing.scene;
   drawing.start_station = change.start_station ?? drawing.start_station;
   drawing.comfort_radius_m = change.comfort_radius_m ?? drawing.comfort_radius_m;
-  if (change.garment) drawing.folds = changedFolds(drawing, change.garment.folds);
+  if (change.garment) {
+    const before = drawing.grip_radius_m;
+    drawing.grip_radius_m = change.garment.grip_radius_m ?? before;
+    drawing.folds = changedFolds(drawing, change.garment.folds, before);
+  }
 }
 
 /**
- * The drawing's folds in the order and along the lines of a garment's; those that stay keep their ties.
+ * The drawing's folds in the order and along the lines of a garment's; those that stay keep their ties. Where the
+ * garment's grip radius was another before, each fold says its own.
  * @param {Drawing} drawing
  * @param {GarmentFold[]} wanted
+ * @param {number} before the garment's grip radius (m)
  * @returns {Fold[]}
  */
-function changedFolds(drawing, wanted) {
+function changedFolds(drawing, wanted, before) {
+  /** @param {number|null|undefined} radius */
+  const isUsual = (radius) => radius === before && radius === drawing.grip_radius_m;
   const left = [...drawing.folds];
   const taken = wanted.map((fold, index) => take(left, fold, drawing.folds[index]));
   const isReordered = taken.some((fold, index) => fold !== drawing.folds[index]);
@@ -33,7 +41,7 @@ function changedFolds(drawing, wanted) {
     ...taken[index],
     start: end(taken[index].start, fold.start, isReordered),
     end: end(taken[index].end, fold.end, isReordered),
-    grip_radius_m: fold.grip_radius_m === drawing.grip_radius_m ? null : fold.grip_radius_m,
+    grip_radius_m: isUsual(fold.grip_radius_m) ? null : fold.grip_radius_m,
   }));
 }
 

@@ -89,8 +89,11 @@ export const REASONS = {
   slips_on_the_way: ({ friction, needed_friction: needed }) =>
     `the cloth slips wherever it would be in reach. The friction is ${friction.toFixed(2)}` +
     (needed === null ? "" : `, ${(Math.ceil(100 * needed - 1e-6) / 100).toFixed(2)} would hold it`),
-  wider_grip: ({ grip_radius_m: radius, needed_grip_radius_m: needed }) =>
-    `a grip radius of ${enough(needed)} would do, now ${length(radius)}`,
+  wider_grip: ({ grip_radius_m: radius, needed_grip_radius_m: needed, in_drags: isInDrags }) =>
+    `a grip radius of ${enough(needed)}${isInDrags ? ", in drags too," : ""} would do, now ${length(radius)}`,
+  stiffer_cloth: ({ support_angle_rad: angle, needed_support_angle_rad: needed }) =>
+    `too many points must be held, unless cloth holds itself within ${degrees(needed)} of upright, now ${degrees(angle)}`,
+  one_more_hand: ({ hands }) => `must be held at more points than ${hands} hands can. One more would do`,
   waits_for: ({ folds: roots }, folds) =>
     `waits for ${listed(roots.map((/** @type {number} */ root) => called(folds, root)))}, which cannot be done`,
   not_with_the_others: () => "can be done, but not together with the others",
@@ -114,11 +117,17 @@ function lack({ cause, joint, demand, towards, comfort_m, wanted_comfort_m: want
 /** What a person can change, of what the planner has tried. @param {Says} says */
 function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
   if (typeof comfort === "number") return `. With ${length(comfort)} of comfort it can be done`;
+  if (typeof says.enough_cone_rad === "number") {
+    return `. With pinches from within ${degrees(says.enough_cone_rad)} of the way into the cloth it can be done`;
+  }
   if (!movable) return "";
   if (movable.length) return `. All of its way is in reach ${length(by)} ${whereTo(towards)}: ${how(movable, towards[2])}`;
   if (says.is_at_least) return ". Place the cloth or a station so that it is nearer";
   return `. No shift of its way by up to ${length(says.tried_m)} was found that brings it about: fold less at once`;
 }
+
+/** @param {number} rad */
+const degrees = (rad) => `${Math.round((180 * rad) / Math.PI)}\u00b0`;
 
 /** What can be moved so far, by its name, and whether that is up. @param {string[]} movable @param {number} up */
 function how(movable, up) {
