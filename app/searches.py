@@ -24,6 +24,7 @@ class Options(TypedDict):
     comfort_radius_m: float
     heuristic: str
     time_limit_s: float
+    work_limit_s: float | None
     max_expanded: int
 
 

@@ -74,6 +74,7 @@ def asked_options(wanted: PlanRequest, limit: TimeLimit) -> Options:
         comfort_radius_m=wanted.comfort_radius_m,
         heuristic=wanted.heuristic,
         time_limit_s=limit.left_s,
+        work_limit_s=wanted.work_limit_s,
         max_expanded=wanted.max_expanded,
     )
 

@@ -57,6 +57,7 @@ class PlanRequest(StrictModel):
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=0.1)] = 0.03
     heuristic: Literal["arm_time", "zero"] = "arm_time"
     time_limit_s: TimeLimit = 10.0
+    work_limit_s: TimeLimit | None = None
     max_expanded: Annotated[int, Field(ge=1, le=1_000_000)] = 100_000
 
 
@@ -65,6 +66,7 @@ class PlacesRequest(StrictModel):
 
     step_m: Annotated[float, Field(ge=0.02, le=1.0)] = 0.1
     time_limit_s: TimeLimit = 10.0
+    work_limit_s: TimeLimit | None = None
 
 
 class PlacementsRequest(PlacesRequest):

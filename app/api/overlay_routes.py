@@ -106,6 +106,7 @@ def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, shoul
         "start_station": question.start_station,
         "comfort_radius_m": question.comfort_radius_m,
         "time_limit_s": limit.left_s,
+        "work_limit_s": wanted.work_limit_s,
     }
     garment, scene = question.garment, question.scene
     found = run_apart(searches.map_places, should_stop, ignore, garment, scene, wanted.step_m, options)

@@ -174,7 +174,10 @@ async def post_placements(request: Request) -> JSONResponse:
 def _placements(
     workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
 ) -> dict[str, Any]:
-    garment, options = asked_garment(workspace, wanted.garment), {"time_limit_s": limit.left_s}
+    garment, options = (
+        asked_garment(workspace, wanted.garment),
+        {"time_limit_s": limit.left_s, "work_limit_s": wanted.work_limit_s},
+    )
     with within_request():
         found = run_apart(searches.map_places, should_stop, ignore, garment, Scene(), wanted.step_m, options)
     return found.to_dict()

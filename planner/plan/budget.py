@@ -30,18 +30,25 @@ class Budget:
         deadline_s: when the time is up, by `time.perf_counter` (s).
         should_stop: asked as well; true ends the search.
         looks: how many states, and promises of what leaves one, have been looked at.
+        beside_s: the work that was done with budgets of its own (s).
     """
 
     work_limit_s: float
     deadline_s: float
     should_stop: Callable[[], bool]
     looks: int = 0
+    beside_s: float = 0.0
     _problems: list[Problem] = field(default_factory=list)
 
     @staticmethod
-    def of(work_limit_s: float, time_limit_s: float, should_stop: Callable[[], bool]) -> "Budget":
-        """Return a budget whose time begins to run."""
-        return Budget(work_limit_s, time.perf_counter() + time_limit_s, should_stop)
+    def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
+        """Return a budget whose time begins to run; without a limit of its own it has as much work as time."""
+        work_s = time_limit_s if work_limit_s is None else work_limit_s
+        return Budget(work_s, time.perf_counter() + time_limit_s, should_stop or (lambda: False))
+
+    def part(self, work_s: float) -> "Budget":
+        """Return a budget for some of the work, to be done while there is time for the whole."""
+        return Budget(work_s, self.deadline_s, self.should_stop)
 
     def watch(self, problem: Problem) -> Problem:
         """Count from now on what is asked of a problem's reach, and the joint paths made for it; return it."""
@@ -60,6 +67,7 @@ class Budget:
             + queries * _QUERY_S
             + glances * _GLANCE_S
             + tries * _TRY_S
+            + self.beside_s
         )
 
     @property

@@ -83,8 +83,7 @@ def make_plan(
         raise RequestError("heuristic", f"{heuristic!r} is none of {', '.join(HEURISTICS)}")
     compile_kernels()
     problem = Problem.of(garment, scene or Scene(), placement, start_station, robot, comfort_radius_m)
-    is_over = should_stop or (lambda: False)
-    budget = Budget.of(time_limit_s if work_limit_s is None else work_limit_s, time_limit_s, is_over)
+    budget = Budget.of(work_limit_s, time_limit_s, should_stop)
     search = PlanSearch(problem, heuristic, budget, max_expanded, known, like, on_found)
     return search.plan(with_reasons=with_reasons)
 
@@ -136,4 +135,4 @@ def compile_kernels() -> None:
 
 def _plan_simply(garment: Garment) -> Plan:
     problem = Problem.of(garment, Scene(), None, "front", "pr2", 0.0)
-    return PlanSearch(problem, "arm_time", Budget.of(math.inf, math.inf, lambda: False), EXPANDED_MAX).plan()
+    return PlanSearch(problem, "arm_time", Budget.of(math.inf, math.inf), EXPANDED_MAX).plan()

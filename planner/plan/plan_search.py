@@ -263,12 +263,14 @@ class PlanSearch:
 
     def _ask(self, relaxed: Relaxed, folds: int) -> Trial:
         """Look whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
-        budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
+        budget = self._budget.part(0.0)
         search = PlanSearch(relaxed.searched, self._heuristic, budget, TRIAL_EXPANDED_MAX)
         begun_s = budget.spent_s
         budget.work_limit_s = begun_s + (GLANCE_WORK_S if relaxed.may_collide else TRIAL_WORK_S)
         found = search.trial(folds, may_collide=relaxed.may_collide)
-        self._tried_s += budget.spent_s - begun_s
+        spent_s = budget.spent_s - begun_s
+        self._tried_s += spent_s
+        self._budget.beside_s += spent_s
         return found
 
     def _have_tried_enough(self) -> bool:

@@ -1,44 +1,49 @@
-"""The time that a search for suggestions has, and how much of it one trial may take."""
+"""The work that a search for suggestions may do, and how much of it one trial may take."""
 
-import time
-from collections.abc import Callable
-
-from planner.plan.make_plan import TIME_LIMIT_S
+from planner.plan.budget import Budget
+from planner.plan.plan import Plan
+from planner.plan.suggestion_trial import Asked
 
 SHORTEST_TRIAL_S = 1.0
-"""Less would cut off most plans just before they are found."""
+"""Less work would cut off most plans just before they are found (s, see `Budget`)."""
 
-TRIALS_LEFT = 6
-_LEAST_S, _MOST_S = TIME_LIMIT_S
+_TRIALS_LEFT = 6
+_SETTING_UP_S = 0.01
+"""What it takes to put a request, of which nothing is counted: the folds are replayed (s)."""
 
 
-class Budget:
-    """Time that runs out, or is cut short by `should_stop`."""
+class TrialBudget:
+    """Work and time for a series of trials.
 
-    def __init__(self, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> None:
-        """Begins now."""
-        self._started = time.perf_counter()
-        self._time_limit_s = time_limit_s
-        self.is_stopped = should_stop or (lambda: False)
+    Attributes:
+        spent_s: the work done so far (s).
+    """
+
+    def __init__(self, whole: Budget) -> None:
+        """Begins with nothing spent of the whole."""
+        self._whole = whole
+        self.spent_s = 0.0
 
     @property
-    def elapsed_s(self) -> float:
-        """How long it has run (s)."""
-        return time.perf_counter() - self._started
+    def is_late(self) -> bool:
+        """Whether the time is up, whatever work is left, or somebody wants no more."""
+        return self._whole.is_late
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether somebody wants no more."""
+        return self._whole.should_stop()
 
     def has_spent(self, share: float) -> bool:
-        """Whether this share of the time has gone, or somebody wants it to stop."""
-        return self.elapsed_s >= share * self._time_limit_s or self.is_stopped()
+        """Whether this share of the work has been done, or there is no more time."""
+        return self.spent_s >= share * self._whole.work_limit_s or self.is_late
 
-    @property
-    def trial_s(self) -> float:
-        """What the next trial may take (s): a fraction of what is left."""
-        return self.at_most(max(self._left_s / TRIALS_LEFT, SHORTEST_TRIAL_S))
-
-    def at_most(self, wanted_s: float) -> float:
-        """So much time, or what is left if that is less (s); never too little for a planner to take it."""
-        return min(max(min(wanted_s, self._left_s), _LEAST_S), _MOST_S)
-
-    @property
-    def _left_s(self) -> float:
-        return self._time_limit_s - self.elapsed_s
+    def plan(self, asked: Asked, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
+        """Plan a request with so much work, or what is left if that is less; else with a fraction of what is left."""
+        left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
+        wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
+        part = self._whole.part(min(wanted_s, left_s))
+        self.spent_s += _SETTING_UP_S
+        plan = asked.plan(part, with_reasons=with_reasons)
+        self.spent_s += part.spent_s
+        return plan

@@ -1,15 +1,16 @@
 """What the plan costs wherever the garment could be laid: a map of the table."""
 
-import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 from planner.cloth.garment import Garment
-from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.suggestion_budget import Budget
+from planner.plan.budget import Budget
+from planner.plan.make_plan import TIME_LIMIT_S, compile_kernels
+from planner.plan.problem import require_between
+from planner.plan.suggestion_budget import TrialBudget
 from planner.plan.suggestion_grid import Room
 from planner.plan.suggestion_trial import Asked
 from planner.task.scene import Scene
@@ -17,7 +18,8 @@ from planner.task.scene import Scene
 STEP_M = (0.02, 1.0)
 """The finest and the coarsest map (m)."""
 
-_FIRST_TRY_S = 1.0
+_FIRST_TRY_S, _MORE = 1.0, 4.0
+"""The work of a first try at a place (s, see `Budget`), and how many times as much the next may take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,11 +80,12 @@ def placement_map(
     comfort_radius_m: float = 0.03,
     heuristic: str = "arm_time",
     time_limit_s: float = 10.0,
+    work_limit_s: float | None = None,
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     step_m: float = 0.1,
 ) -> PlacementMap:
-    """Plan a garment at every place of a grid; time left over is given to places that need more.
+    """Plan a garment at every place of a grid; work left over is given to places that need more.
 
     Args:
         garment: as for `make_plan`.
@@ -92,7 +95,9 @@ def placement_map(
         robot: likewise.
         comfort_radius_m: likewise.
         heuristic: likewise.
-        time_limit_s: the budget of the whole map (s).
+        time_limit_s: the budget of the whole map (s, 0.01..60).
+        work_limit_s: its budget in work; None for as much as the time limit. Where it ends the map, and not the time,
+            the same request has the same map on every machine.
         max_expanded: the budget of each plan in states.
         should_stop: asked while planning; true ends the map where it is.
         step_m: the distance of neighbours (m, 0.02..1).
@@ -101,14 +106,16 @@ def placement_map(
         FoldError: a fold is not legal on the cloth as it is then.
         RequestError: an option is out of range.
     """
-    if not STEP_M[0] <= step_m <= STEP_M[1]:
-        raise RequestError("step_m", f"{step_m} is not between {STEP_M[0]:g} and {STEP_M[1]:g}")
+    require_between("step_m", step_m, *STEP_M)
+    require_between("time_limit_s", time_limit_s, *TIME_LIMIT_S)
+    compile_kernels()
+    budget = TrialBudget(Budget.of(work_limit_s, time_limit_s, should_stop))
     here = placement or garment.placement
     scene = scene or Scene()
     asked = Asked(garment, scene, here, start_station, robot, comfort_radius_m, heuristic, max_expanded)
     moves = Room.of(garment, here, scene.table).moves(step_m)
     poses = [here.moved(i * step_m, j * step_m) for i, j in sorted(moves, key=_coarse_first)]
-    cells = _planned(asked, poses, Budget(time_limit_s, should_stop))
+    cells = _planned(asked, poses, budget)
     cells.sort(key=lambda cell: (cell.placement.x_m, cell.placement.y_m))
     return PlacementMap(step_m, tuple(cells), len(cells) == len(poses))
 
@@ -119,16 +126,15 @@ def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
     return (i % 2 + j % 2, i, j)
 
 
-def _planned(asked: Asked, poses: list[Pose2], budget: Budget) -> list[Cell]:
-    """The cells known when the time is up; what needs longer than a first try waits for the others."""
+def _planned(asked: Asked, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
+    """The cells known when the work is done; what needs more than a first try waits for the others."""
     waiting = deque((pose, _FIRST_TRY_S) for pose in poses)
     cells = []
     while waiting and not budget.has_spent(1.0):
         pose, try_s = waiting.popleft()
-        started = time.perf_counter()
-        plan = replace(asked, placement=pose).plan(budget.at_most(try_s), budget.is_stopped)
+        plan = budget.plan(replace(asked, placement=pose), try_s)
         if plan.status != "budget_exceeded":
             cells.append(Cell(pose, plan.cost_s))
-        elif time.perf_counter() - started >= try_s:
-            waiting.append((pose, 4.0 * try_s))
+        else:
+            waiting.append((pose, _MORE * try_s))
     return cells

@@ -12,8 +12,10 @@ from typing import Any, NamedTuple, TypeAlias
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.message import Message
-from planner.plan.make_plan import make_plan
+from planner.plan.budget import Budget
 from planner.plan.plan import Plan
+from planner.plan.plan_search import PlanSearch
+from planner.plan.problem import Problem
 from planner.plan.suggestion import Suggestion
 from planner.task.scene import Scene
 
@@ -34,21 +36,13 @@ class Asked:
     heuristic: str
     max_expanded: int
 
-    def plan(self, time_limit_s: float, should_stop: Callable[[], bool], *, with_reasons: bool = False) -> Plan:
+    def plan(self, budget: Budget, *, with_reasons: bool = False) -> Plan:
         """The answer to the request, reasons aside unless they are asked for; raises what `make_plan` does."""
-        return make_plan(
-            self.garment,
-            self.scene,
-            placement=self.placement,
-            start_station=self.start_station,
-            robot=self.robot,
-            comfort_radius_m=self.comfort_radius_m,
-            heuristic=self.heuristic,
-            time_limit_s=time_limit_s,
-            max_expanded=self.max_expanded,
-            should_stop=should_stop,
-            with_reasons=with_reasons,
+        problem = Problem.of(
+            self.garment, self.scene, self.placement, self.start_station, self.robot, self.comfort_radius_m
         )
+        search = PlanSearch(problem, self.heuristic, budget, self.max_expanded)
+        return search.plan(with_reasons=with_reasons)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,22 +1,24 @@
 """Where there is no plan: the smallest changes that give one, each planned to prove it.
 
 Every kind of change is a search of its own (see `suggestion_trial`). They take turns, one trial at a time: the next
-is whichever has used least time so far, so that none starves the others. What a person can change comes first, and
+is whichever has done least work so far, so that none starves the others. What a person can change comes first, and
 assumptions about the world after it. A request that has a plan is only told of a better place on the table.
 """
 
-import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TypeAlias
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.make_plan import TIME_LIMIT_S, compile_kernels
+from planner.plan.budget import Budget
+from planner.plan.heuristic import HEURISTICS
+from planner.plan.make_plan import EXPANDED_MAX, TIME_LIMIT_S, compile_kernels
 from planner.plan.plan import Plan
+from planner.plan.problem import require_between
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_assumption import comforts, frictions, grip_radii
-from planner.plan.suggestion_budget import Budget
+from planner.plan.suggestion_budget import TrialBudget
 from planner.plan.suggestion_fold_line import fold_lines
 from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_placement import placements
@@ -29,7 +31,7 @@ TOLD_MAX = 3
 """So many suggestions of one kind at most."""
 
 Suggestions: TypeAlias = Generator[Suggestion, None, bool]
-"""Suggestions as they are found, and whether all changes were tried before the time was up."""
+"""Suggestions as they are found, and whether all changes were tried before the budget was spent."""
 
 _FIRST_PLAN_SHARE = 0.5
 _CHANGES_SHARE = 0.6
@@ -46,6 +48,7 @@ def suggestions(
     comfort_radius_m: float = 0.03,
     heuristic: str = "arm_time",
     time_limit_s: float = 10.0,
+    work_limit_s: float | None = None,
     max_expanded: int = 100_000,
     should_stop: Callable[[], bool] | None = None,
     plan: Plan | None = None,
@@ -63,21 +66,24 @@ def suggestions(
         comfort_radius_m: likewise.
         heuristic: likewise.
         time_limit_s: the budget of the whole search (s, 0.01..60).
+        work_limit_s: its budget in work; None for as much as the time limit. Where it ends the search, and not the
+            time, the same request has the same suggestions on every machine.
         max_expanded: the budget of each plan in states.
         should_stop: asked while searching; true ends the suggestions.
         plan: the answer to the request, where it is known.
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; in the end whether every change that could
-        have been tried was, before the time was up.
+        have been tried was, before the budget was spent.
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
         RequestError: an option is out of range.
     """
-    low, high = TIME_LIMIT_S
-    if not low <= time_limit_s <= high:
-        raise RequestError("time_limit_s", f"{time_limit_s} is not between {low:g} and {high:g}")
+    require_between("time_limit_s", time_limit_s, *TIME_LIMIT_S)
+    require_between("max_expanded", max_expanded, 1, EXPANDED_MAX)
+    if heuristic not in HEURISTICS:
+        raise RequestError("heuristic", f"{heuristic!r} is none of {', '.join(HEURISTICS)}")
     asked = Asked(
         garment,
         scene or Scene(),
@@ -89,13 +95,13 @@ def suggestions(
         max_expanded,
     )
     compile_kernels()
-    budget = Budget(time_limit_s, should_stop)
-    first_s = max(_FIRST_PLAN_SHARE * time_limit_s, low)
-    known = plan or asked.plan(first_s, budget.is_stopped, with_reasons=True)
+    whole = Budget.of(work_limit_s, time_limit_s, should_stop)
+    budget = TrialBudget(whole)
+    known = plan or budget.plan(asked, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
     return _searched(asked, known, budget)
 
 
-def _searched(asked: Asked, known: Plan, budget: Budget) -> Suggestions:
+def _searched(asked: Asked, known: Plan, budget: TrialBudget) -> Suggestions:
     """Let every kind of change have its turns, and in the end its last word."""
     if known.is_solved:
         changes, assumptions = [_Lane(placements(asked, known.cost_s))], []
@@ -108,7 +114,7 @@ def _searched(asked: Asked, known: Plan, budget: Budget) -> Suggestions:
     yield from _by_turns(changes, budget, 1.0)
     lanes = (*changes, *assumptions)
     is_complete = all(lane.is_done for lane in lanes)
-    for lane in () if budget.is_stopped() else lanes:
+    for lane in () if budget.is_stopped else lanes:
         yield from lane.last_words()
     return is_complete
 
@@ -125,8 +131,8 @@ def _lanes(*searches: Search) -> list["_Lane"]:
     return [_Lane(search) for search in searches]
 
 
-def _by_turns(lanes: Sequence["_Lane"], budget: Budget, share: float) -> Iterator[Suggestion]:
-    """Let the lane that has used least time go on, until this share of the budget is gone."""
+def _by_turns(lanes: Sequence["_Lane"], budget: TrialBudget, share: float) -> Iterator[Suggestion]:
+    """Let the lane that has done least work go on, until this share of the budget is gone."""
     while not budget.has_spent(share):
         running = [lane for lane in lanes if not lane.is_done]
         if not running:
@@ -138,7 +144,7 @@ class _Lane:
     """One kind's search, and what it has used.
 
     Attributes:
-        spent_s: the time that it has used (s).
+        spent_s: the work that it has done (s).
         is_done: whether it has nothing more to try.
     """
 
@@ -149,13 +155,13 @@ class _Lane:
         self._trial: Trial | None = None
         self._told = 0
 
-    def go_on(self, budget: Budget) -> Iterator[Suggestion]:
+    def go_on(self, budget: TrialBudget) -> Iterator[Suggestion]:
         """Have the next trial planned, and tell what it was good for."""
-        started = time.perf_counter()
+        begun_s = budget.spent_s
         found = [] if self._trial is not None else list(self._told_of(None))
         if self._trial is not None and not self.is_done:
-            found += self._told_of(self._trial.asked.plan(budget.trial_s, budget.is_stopped))
-        self.spent_s += time.perf_counter() - started
+            found += self._told_of(budget.plan(self._trial.asked))
+        self.spent_s += budget.spent_s - begun_s
         yield from found
 
     def last_words(self) -> Iterator[Suggestion]:

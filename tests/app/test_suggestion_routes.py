@@ -31,7 +31,9 @@ def events_in(text: str) -> list[tuple[str, dict[str, Any]]]:
 
 
 async def test_suggestions_come_as_events_and_done_comes_last(client: httpx.AsyncClient) -> None:
+    began_s = time.perf_counter()
     answer = await client.post("/api/suggestions", json=STUCK)
+    took_s = time.perf_counter() - began_s
     assert answer.status_code == 200
     assert answer.headers["content-type"].startswith("text/event-stream")
     *found, (last, done) = events_in(answer.text)
@@ -39,7 +41,7 @@ async def test_suggestions_come_as_events_and_done_comes_last(client: httpx.Asyn
     assert {name for name, _ in found} == {"suggestion"}
     assert last == "done"
     assert done["count"] == len(found)
-    assert 0.0 < done["elapsed_s"] < 10.0
+    assert 0.0 < done["elapsed_s"] <= took_s
     assert isinstance(done["complete"], bool)
     assert set(found[0][1]) == {"kind", "is_assumption", "message", "says", "change", "size", "cost_s", "plan_id"}
 

@@ -12,6 +12,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
+from planner.plan.budget import Budget
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_assumption import frictions, grip_radii
 from planner.plan.suggestion_fold_line import chord, fold_lines, redrawn
@@ -53,14 +54,16 @@ def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(na
 def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded():
     cloth = towel(FAR)
     assert not make_plan(cloth, FRONT_ONLY).is_solved
-    found = next(s for s in suggestions(cloth, FRONT_ONLY, time_limit_s=5.0) if s.kind == "placement")
+    found = next(
+        s for s in suggestions(cloth, FRONT_ONLY, work_limit_s=5.0, time_limit_s=60.0) if s.kind == "placement"
+    )
     assert "towards the robot" in found.message
     assert planned_with(found.change, cloth, FRONT_ONLY).cost_s == pytest.approx(found.cost_s, abs=1e-9)
 
 
 def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_at_most():
     cloth = towel(FAR)
-    found = list(suggestions(cloth, FRONT_ONLY, time_limit_s=4.0))
+    found = list(suggestions(cloth, FRONT_ONLY, work_limit_s=4.0, time_limit_s=60.0))
     assert len({s.kind for s in found}) > 1
     for kind in {s.kind for s in found}:
         assert len([s for s in found if s.kind == kind]) <= 3
@@ -72,7 +75,7 @@ def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
     cloth = towel(FAR)
     known = make_plan(cloth)
     assert known.cost_s is not None
-    found = list(suggestions(cloth, time_limit_s=5.0))
+    found = list(suggestions(cloth, work_limit_s=5.0, time_limit_s=60.0))
     assert [s.kind for s in found] == ["placement"]
     assert found[0].cost_s < known.cost_s - 1.0
 
@@ -81,7 +84,7 @@ def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
     # The table is so high that neither end of the strip can be lifted as far as it is to its line.
     lines = fold((0.235, 0.0), (0.235, 0.1), name="left end"), fold((0.725, 0.1), (0.725, 0.0), name="right end")
     strip = garment(rectangle_points(0.96, 0.1), *lines, placement=Pose2(-0.6, 0.48, -math.pi / 2))
-    high = Scene(table=Table(height_m=1.35), stations=FRONT)
+    high = Scene(table=Table(height_m=1.35))
     known = make_plan(strip, high, time_limit_s=60.0)
     assert {reason.fold for reason in known.reasons} == {0, 1}
     wish = least_of(fold_lines(asked(strip, high), (0, 1)))
@@ -94,7 +97,7 @@ def least_of(search: Search) -> Suggestion:
     """What a search tells in the end, with all the time in the world."""
     wish = next(search)
     while isinstance(wish, Trial):
-        wish = search.send(wish.asked.plan(60.0, bool))
+        wish = search.send(wish.asked.plan(Budget.of(None, 60.0)))
     return wish
 
 
@@ -237,7 +240,7 @@ def test_directions_are_the_robots():
 
 
 def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():
-    found = placement_map(towel(), FRONT_ONLY, step_m=0.3, time_limit_s=20.0)
+    found = placement_map(towel(), FRONT_ONLY, step_m=0.3, time_limit_s=60.0)
     assert found.is_complete
     assert len(found.cells) == 4 * 3  # the room above, in steps of 0.3 m
     costs = [cell.cost_s for cell in found.cells if cell.cost_s is not None]
@@ -249,9 +252,10 @@ def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():
 
 
 def test_a_map_cut_short_says_so():
-    found = placement_map(towel(), step_m=0.02, time_limit_s=0.2)
-    assert not found.is_complete
-    assert found.to_dict()["complete"] is False
+    for limits in ({"work_limit_s": 0.2}, {"time_limit_s": 0.2}):
+        found = placement_map(towel(), step_m=0.02, **limits)
+        assert not found.is_complete
+        assert found.to_dict()["complete"] is False
 
 
 def is_complete(found: Suggestions) -> bool:
@@ -270,4 +274,30 @@ def test_a_search_says_whether_it_has_tried_everything():
     assert make_plan(cloth, small).is_solved
     assert is_complete(suggestions(cloth, small, time_limit_s=60.0))
     assert not is_complete(suggestions(cloth, small, time_limit_s=60.0, should_stop=lambda: True))
-    assert not is_complete(suggestions(towel(FAR), FRONT_ONLY, time_limit_s=0.01))
+    for limits in ({"work_limit_s": 0.01}, {"time_limit_s": 0.01}):
+        assert not is_complete(suggestions(towel(FAR), FRONT_ONLY, **limits))
+
+
+def slow() -> bool:
+    """Asked whether to stop, a machine that is slow to answer."""
+    time.sleep(0.001)
+    return False
+
+
+@pytest.mark.parametrize("work_s", [0.4, 1.0])
+def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float):
+    limits = {"work_limit_s": work_s, "time_limit_s": 60.0}
+    quick, slowly = (
+        [one.to_dict() for one in suggestions(towel(FAR), FRONT_ONLY, should_stop=should_stop, **limits)]
+        for should_stop in (None, slow)
+    )
+    assert slowly == quick != []
+
+
+def test_on_a_slow_machine_the_map_has_the_same_cells():
+    limits = {"work_limit_s": 0.4, "time_limit_s": 60.0}
+    quick, slowly = (
+        placement_map(towel(), FRONT_ONLY, should_stop=should_stop, **limits) for should_stop in (None, slow)
+    )
+    assert slowly == quick
+    assert quick.cells and not quick.is_complete

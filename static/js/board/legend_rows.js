@@ -86,6 +86,6 @@ function costs(places) {
   return present([
     known.length > 0 && { words: `The plan ${range}, the cloth\u2019s middle there`, marks: shades },
     places && known.length < places.cells.length && { words: "Empty: no plan from there", marks: [cell("cost is-none", 9)] },
-    places && !places.complete && { words: "No square: not tried, time was up", marks: [] },
+    places && !places.complete && { words: "No square: not tried yet", marks: [] },
   ]);
 }

@@ -11,6 +11,13 @@ const PARTS = ["reach", "slip", "base", "paths"];
 const SHORTFALL = "shortfall";
 const EVERY_MS = 200;
 
+/** The work that the cost map may take, and so much time that mostly the work ends it. */
+const MAPPED = {
+  method: "POST",
+  headers: { "content-type": "application/json" },
+  body: JSON.stringify({ work_limit_s: 6, time_limit_s: 60 }),
+};
+
 export class Overlays {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
@@ -112,7 +119,7 @@ export class Overlays {
     this.stopPlaces = new AbortController();
     const { signal } = this.stopPlaces;
     this.isMapping = true;
-    const places = await told(`${store.path}/overlays/places`, { method: "POST", signal });
+    const places = await told(`${store.path}/overlays/places`, { ...MAPPED, signal });
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;

@@ -5,7 +5,7 @@ import { suggestionButton } from "./suggestion_button.js";
 import { SuggestionSearch } from "./suggestion_search.js";
 
 /** All places are tried as long as that lasts (s); then the best so far is told. */
-const LIMIT_S = 6;
+const WORK_S = 4;
 
 export class BestPlace {
   /** @param {import("../store.js").Store} store */
@@ -29,7 +29,7 @@ export class BestPlace {
     const { state } = this.store;
     if (!state) return;
     this.version = state.version;
-    this.search.start(state, { limit_s: LIMIT_S });
+    this.search.start(state, { work_s: WORK_S });
   }
 
   /** What was found is about one drawing only. */

@@ -105,7 +105,7 @@ export class NoPlan {
 
   lookLonger() {
     this.isLong = true;
-    if (this.store.state) this.search.start(this.store.state, { limit_s: LONG_S });
+    if (this.store.state) this.search.start(this.store.state, { work_s: LONG_S });
   }
 
   /**
@@ -121,7 +121,7 @@ export class NoPlan {
   /** @param {string} fault */
   nothing(fault) {
     if (fault) return `Nothing could be looked for: ${fault}.`;
-    if (!this.search.isComplete) return "Nothing has been found yet: the time for looking ran out.";
+    if (!this.search.isComplete) return "Nothing has been found yet, and not all was tried.";
     return "No single small change gives a plan.";
   }
 

@@ -19,7 +19,9 @@ import { eventStream } from "./event_stream.js";
  */
 
 const ADDRESS = "../api/suggestions";
-const LIMIT_S = 10;
+const WORK_S = 10;
+/** So much time, so that mostly the work ends a search and what is shown does not depend on how busy the machine is. */
+const TIME_LIMIT_S = 60;
 
 export class SuggestionSearch extends EventTarget {
   constructor() {
@@ -27,7 +29,7 @@ export class SuggestionSearch extends EventTarget {
     /** @type {SuggestionEvent[]} in the order of arrival */
     this.found = [];
     this.isRunning = false;
-    /** Whether every change that could be tried was, before the time was up. */
+    /** Whether every change that could be tried was, before the work was done. */
     this.isComplete = false;
     this.fault = "";
     /** @type {AbortController|null} of the search that is running */
@@ -37,9 +39,9 @@ export class SuggestionSearch extends EventTarget {
   /**
    * Search for a document's drawing, in place of what was searched for before. Tells "change" whenever there is news.
    * @param {DocumentState} state
-   * @param {{delay_ms?: number, limit_s?: number}} how how long to wait first, and what the search may take
+   * @param {{delay_ms?: number, work_s?: number}} how how long to wait first, and the work that the search may do
    */
-  async start(state, { delay_ms = 0, limit_s = LIMIT_S } = {}) {
+  async start(state, { delay_ms = 0, work_s = WORK_S } = {}) {
     this.forget();
     const abort = new AbortController();
     this.abort = abort;
@@ -47,7 +49,7 @@ export class SuggestionSearch extends EventTarget {
     this.tell();
     try {
       await rest(delay_ms, abort.signal);
-      const asked = { ...request(state), time_limit_s: limit_s };
+      const asked = { ...request(state), time_limit_s: TIME_LIMIT_S, work_limit_s: work_s };
       for await (const { event, data } of eventStream(ADDRESS, asked, abort.signal)) {
         if (event === "done") this.isComplete = data.complete === true;
         if (event !== "suggestion") continue;

@@ -81,7 +81,7 @@ def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, legend:
         "The plan takes 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s,"
         " the cloth\N{RIGHT SINGLE QUOTATION MARK}s middle there",
         "Empty: no plan from there",
-        "No square: not tried, time was up",
+        "No square: not tried yet",
     ]
     expect(legend.get_by_role("listitem")).to_have_text(rows)
 
