@@ -10,15 +10,15 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.document_state import Answer, Checks, DocumentState, Film, HeldFold, Question
+from app.document_state import Answer, Checks, DocumentState, HeldFold
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.playback import Playback
-from planner.errors import FoldingError
-from planner.plan.plan import Plan
-from planner.plan.timeline import Timeline
+from planner.errors import FoldingError, RequestError
+from planner.task.plan import Plan
+from planner.task.task import Task
 
 STOPPED = "planning was stopped; the next change is planned again"
 
@@ -113,28 +113,17 @@ class Document:
             remove()
             self._has_ended = True
 
-    def settle(self, version: int, question: Question, plan: Plan, plan_id: str, *, is_final: bool = True) -> None:
-        """Put in an answer to a question that was asked at a version; one that comes too late is dropped."""
+    def settle(self, version: int, task: Task, plan: Plan, plan_id: str, *, is_final: bool = True) -> None:
+        """Put in an answer to a task that was asked at a version, and play it; one that comes too late is dropped."""
 
         def change(state: DocumentState) -> DocumentState:
-            belongs_to = state.version if state.question == question else version
-            if state.answer is not None and belongs_to < state.answer.version:
+            belongs_to = state.version if state.task == task else version
+            is_late = state.answer is not None and belongs_to < state.answer.version
+            if is_late:
                 return state
-            answered = state.answered(Answer(belongs_to, question, plan, plan_id, is_final))
-            if plan.is_solved:
-                return answered
-            return replace(answered, film=None, playback=state.playback.lasting(self._clock(), 0.0))
-
-        self._change(change)
-
-    def show_film(self, plan: Plan, timeline: Timeline) -> None:
-        """Put in the timeline of the answer; one of another plan is dropped. The time stays where it is."""
-
-        def change(state: DocumentState) -> DocumentState:
-            if state.answer is None or state.answer.plan is not plan or state.question is None:
-                return state
-            film = Film(state.answer.version, plan, timeline)
-            return replace(state, film=film, playback=state.playback.lasting(self._clock(), timeline.duration_s))
+            answer = Answer(belongs_to, task, plan, plan_id, is_final)
+            answered = state.answered(answer)
+            return answered if state.task is None else answered.filmed(answer, self._clock())
 
         self._change(change)
 
@@ -165,6 +154,24 @@ class Document:
     def plan_again(self) -> None:
         """Want an answer to a version that has none because planning was stopped or has failed."""
         self._change(lambda state: replace(state, failure=None) if state.failure else state)
+
+    def plan_from(self, step: int) -> None:
+        """Plan what is left after a step of the plan shown, counted from 0; -1 is before the first.
+
+        Raises:
+            RequestError: there is no plan for the drawing as it is, or it has no such step.
+        """
+
+        def change(state: DocumentState) -> DocumentState:
+            if state.answer is None or not state.is_answered or not state.answer.plan.is_solved:
+                raise RequestError("step", "there is no plan of the drawing as it is now")
+            return state.started_at(state.answer.plan.state_after(step), self._clock())
+
+        self._change(change)
+
+    def plan_from_start(self) -> None:
+        """Plan from before all folds again, as drawn."""
+        self._change(lambda state: state.started_at(None, self._clock()))
 
     def look_longer(self) -> None:
         """Want more work done for this version's answer, where that may come to a better one."""

@@ -8,28 +8,11 @@ from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
 from app.playback import Playback
-from planner.cloth.garment import Garment
 from planner.geometry.pose import Point2
-from planner.plan.plan import Plan
 from planner.plan.timeline import Timeline
-from planner.task.scene import Scene
-
-
-@dataclass(frozen=True, slots=True)
-class Question:
-    """What is to be planned; equal questions have the same answer.
-
-    Attributes:
-        garment: the garment, its folds and where it lies.
-        scene: the scene.
-        start_station: where the robot stands at the start.
-        comfort_radius_m: how much slack every reach has (m).
-    """
-
-    garment: Garment
-    scene: Scene
-    start_station: str
-    comfort_radius_m: float
+from planner.task.plan import Plan
+from planner.task.task import Task
+from planner.task.world_state import WorldState
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,14 +21,14 @@ class Answer:
 
     Attributes:
         version: the document's version that it belongs to.
-        question: what was asked.
+        task: what was asked, whatever may be spent on it.
         plan: the plan.
         plan_id: the name under which it can be read.
         is_final: whether nothing better is looked for any more.
     """
 
     version: int
-    question: Question
+    task: Task
     plan: Plan
     plan_id: str
     is_final: bool = True
@@ -53,7 +36,7 @@ class Answer:
     @cached_property
     def body(self) -> dict[str, Any]:
         """The plan as JSON."""
-        return self.plan.to_dict()
+        return self.plan.answer()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,9 +91,10 @@ class DocumentState:
         draft: what is drawn, and how it came about.
         answer: the latest answer; it may belong to an older version.
         committed: the latest answer to a drawing that was committed.
-        before: the one before that to another question, for comparing.
+        before: the one before that to another task, for comparing.
         film: what is played; it may belong to an older version.
         checks: what the folds need.
+        start: the state of the world from which the folds are planned; None: from before all of them, as drawn.
         failure: why the planner gave no answer at all to this version.
         is_thorough: whether more work than usual is done for this version's answer, since somebody asked for that.
         playback: the clock.
@@ -124,6 +108,7 @@ class DocumentState:
     before: Answer | None = None
     film: Film | None = None
     checks: Checks | None = None
+    start: WorldState | None = None
     failure: str | None = None
     is_thorough: bool = False
     playback: Playback = Playback()
@@ -140,12 +125,13 @@ class DocumentState:
         return self.draft.drawing
 
     @property
-    def question(self) -> Question | None:
+    def task(self) -> Task | None:
         """What is to be planned; None while something is wrong with the drawing."""
         garment, drawing = self.solution.garment, self.drawing
         if garment is None:
             return None
-        return Question(garment, drawing.scene, drawing.start_station, drawing.comfort_radius_m)
+        station, comfort_m = drawing.start_station, drawing.comfort_radius_m
+        return Task.of(garment, drawing.scene, start_station=station, comfort_radius_m=comfort_m, start=self.start)
 
     @property
     def is_answered(self) -> bool:
@@ -177,24 +163,40 @@ class DocumentState:
         An answer to the same question is an answer to it too; the plan of a garment of another name is none of it.
         """
         version = self.version + 1
-        after = replace(self, version=version, draft=draft, failure=None, is_thorough=False)
+        after = replace(self, version=version, draft=draft, start=None, failure=None, is_thorough=False)
         if draft.drawing.name != self.drawing.name:
             after = replace(after, answer=None, committed=None, before=None)
-        answer, question = after.answer, after.question
-        if question is None or answer is None:
+        answer, task = after.answer, after.task
+        if task is None or answer is None:
             return replace(after, film=None, playback=self.playback.lasting(now_s, 0.0))
-        if answer.question != question:
+        if answer.task != task:
             return after
         if self.film is not None and self.film.plan is answer.plan:
             after = replace(after, film=replace(self.film, version=version))
         if self.checks is not None and self.checks.version == self.version:
             after = replace(after, checks=replace(self.checks, version=version))
-        return after.answered(replace(answer, version=version))
+        renewed = replace(answer, version=version)
+        return after.answered(renewed) if after.film is not None else after.answered(renewed).filmed(renewed, now_s)
+
+    def started_at(self, start: WorldState | None, now_s: float) -> "DocumentState":
+        """Planned from another state of the world on, None: as drawn, at a time of the wall clock (s)."""
+        if start == self.start:
+            return self
+        after = replace(self, start=start, answer=None, committed=None, before=None, film=None)
+        playback = self.playback.paused(now_s).sought(now_s, 0.0)
+        return replace(after, playback=playback, failure=None, is_thorough=False)
+
+    def filmed(self, answer: Answer, now_s: float) -> "DocumentState":
+        """With the answer's plan played, at a time of the wall clock (s); nothing is played where there is none."""
+        if not answer.plan.is_solved:
+            return replace(self, film=None, playback=self.playback.lasting(now_s, 0.0))
+        film = Film(answer.version, answer.plan, Timeline.of(answer.plan))
+        return replace(self, film=film, playback=self.playback.lasting(now_s, film.timeline.duration_s))
 
     def answered(self, answer: Answer) -> "DocumentState":
         """With an answer; that to a committed drawing is remembered, for comparing with the next."""
         after = replace(self, answer=answer)
         if self.draft.gesture is not None or answer.version != self.version:
             return after
-        is_another = self.committed is not None and self.committed.question != answer.question
+        is_another = self.committed is not None and self.committed.task != answer.task
         return replace(after, committed=answer, before=self.committed if is_another else self.before)

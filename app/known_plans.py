@@ -3,7 +3,8 @@
 from collections import OrderedDict
 from typing import TypeAlias
 
-from planner import Plan
+from planner.plan.found_plan import FoundPlan
+from planner.task.plan import Plan
 
 _MOST = 4
 
@@ -14,19 +15,23 @@ class KnownPlans:
     """The latest plan of each way, a way being what is done from which station in which order."""
 
     def __init__(self) -> None:
-        """None yet."""
-        self._plans: OrderedDict[_Way, Plan] = OrderedDict()
+        """Begin with none."""
+        self._plans: OrderedDict[_Way, FoundPlan] = OrderedDict()
 
-    def add(self, plan: Plan) -> None:
+    def add(self, found: FoundPlan) -> None:
         """Remember a plan if it is solved, in place of the one before of its way; the way not met for longest goes."""
-        if not plan.is_solved:
+        if not found.plan.is_solved:
             return
-        way = tuple((one.kind, one.step.details.get("fold"), one.base.station) for one in plan.primitives)
-        self._plans[way] = plan
+        way = tuple((step.kind, step.fold, step.base.station) for step in found.plan.steps)
+        self._plans[way] = found
         self._plans.move_to_end(way)
         while len(self._plans) > _MOST:
             self._plans.popitem(last=False)
 
-    def by_cost(self) -> list[Plan]:
-        """The plans, the quickest first."""
-        return sorted(self._plans.values(), key=lambda plan: plan.cost_s or 0.0)
+    def of(self, plan: Plan | None) -> FoundPlan | None:
+        """Return what a plan was found with, if it is remembered."""
+        return next((found for found in self._plans.values() if found.plan is plan), None)
+
+    def by_cost(self) -> list[FoundPlan]:
+        """Return the plans, the quickest first."""
+        return sorted(self._plans.values(), key=lambda found: found.plan.cost_s or 0.0)

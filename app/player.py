@@ -11,7 +11,7 @@ from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 from planner.task.scene import Scene
 
 UPDATES_PER_S = 30.0

@@ -1,31 +1,17 @@
 """Work that may take long, as it runs in a process of its own: it takes and gives what can be sent there."""
 
 from dataclasses import dataclass
-from typing import Any, TypedDict
+from typing import Any
 
 from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.jobs.apart import Tell
-from app.store.recorded_plan import RecordedPlan
 from planner import make_plan
-from planner.cloth.garment import Garment
-from planner.geometry.pose import Pose2
+from planner.plan.plan_check import require_replay
 from planner.plan.suggestion_map import PlacementMap, placement_map
 from planner.plan.suggestions import suggestions
-from planner.task.scene import Scene
-
-
-class Options(TypedDict):
-    """Options of `make_plan`, `suggestions` and `placement_map` alike."""
-
-    placement: Pose2 | None
-    start_station: str
-    robot: str
-    comfort_radius_m: float
-    heuristic: str
-    time_limit_s: float
-    work_limit_s: float | None
-    max_expanded: int
+from planner.task.plan import Plan
+from planner.task.task import Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,29 +19,36 @@ class Suggested:
     """A suggestion as JSON, and the plan that proves it."""
 
     body: dict[str, Any]
-    plan: RecordedPlan
+    plan: Plan
 
 
-def plan(_: Tell, garment: Garment, scene: Scene, options: Options) -> RecordedPlan:
+def plan(_: Tell, task: Task) -> Plan:
     """Plan, as `make_plan` does."""
-    return RecordedPlan.of(make_plan(garment, scene, **options))
+    return make_plan(task)
 
 
-def suggest(tell: Tell, garment: Garment, scene: Scene, options: Options) -> bool:
+def read_plan(_: Tell, data: dict[str, Any]) -> Plan:
+    """Read a plan file, and replay the plan; raises what is wrong with it, naming the step."""
+    plan = Plan.from_dict(data)
+    require_replay(plan)
+    return plan
+
+
+def suggest(tell: Tell, task: Task) -> bool:
     """Tell None once the request is found good, then each suggestion; return whether all changes were tried."""
-    found = suggestions(garment, scene, **options)
+    found = suggestions(task)
     tell(None)
     while True:
         try:
             suggestion = next(found)
         except StopIteration as end:
             return bool(end.value)
-        tell(Suggested(suggestion.to_dict(), RecordedPlan.of(suggestion.plan)))
+        tell(Suggested(suggestion.to_dict(), suggestion.plan))
 
 
-def map_places(_: Tell, garment: Garment, scene: Scene, step_m: float, options: dict[str, Any]) -> PlacementMap:
+def map_places(_: Tell, task: Task, step_m: float) -> PlacementMap:
     """Plan wherever the garment could be laid, as `placement_map` does."""
-    return placement_map(garment, scene, step_m=step_m, **options)
+    return placement_map(task, step_m=step_m)
 
 
 def read_file(

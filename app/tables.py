@@ -5,12 +5,13 @@ from typing import Any
 
 from rich.table import Table
 
+from app.step_words import step_words
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Point2
 from planner.plan.garment_check import FoldCheck, GarmentCheck
-from planner.plan.plan import Plan
 from planner.plan.suggestion import Suggestion
 from planner.plan.vertex_check import Support
+from planner.task.plan import Plan, PlanStep
 
 _POINTS_SHOWN = 4
 
@@ -41,11 +42,11 @@ def plan_table(plan: Plan) -> Table:
         ("grips", False),
     ):
         table.add_column(name, justify="right" if is_number else "left")
-    for primitive in plan.primitives:
+    for primitive in plan.steps:
         data = primitive.to_dict()
         table.add_row(
             data["kind"],
-            _what(data, plan.garment),
+            _what(primitive, plan.garment),
             f"{data['start_s']:.2f}",
             f"{data['duration_s']:.2f}",
             _base(data["base"]),
@@ -121,18 +122,17 @@ def _table(title: str) -> Table:
     return Table(title=title, title_justify="left", header_style="bold")
 
 
-def _what(data: dict[str, Any], garment: Garment) -> str:
-    if data["kind"] == "fold":
-        return f"{data['fold']}: {garment.folds[data['fold']].name}"
-    if data["kind"] == "drag":
-        return f"{data['distance_m']:.2f} m towards the robot" + (", holds on" if data["holds"] else "")
-    if data["kind"] == "move":
-        return f"{data['from']} to {data['to']}"
-    return ""
+def _what(step: PlanStep, garment: Garment) -> str:
+    words = step_words(step, garment)
+    return words if step.fold is None else f"{step.fold}: {words}"
 
 
 def _base(base: dict[str, Any]) -> str:
-    return f"{base['station']}, {base['back_off_m']:.2f} m back"
+    return (
+        f"{base['station']}, {base['back_off_m']:.2f} m back"
+        if base["station"]
+        else f"({base['x_m']:.2f}, {base['y_m']:.2f})"
+    )
 
 
 def _grip(grip: dict[str, Any]) -> str:

@@ -22,6 +22,7 @@ from bench.measurement import BenchmarkError, Ratio
 from bench.report import Report, Row
 from bench.viewers import READY
 from planner import Plan, load_garment, make_plan
+from planner.plan.timeline import Timeline
 from planner.robot.pr2 import load_robot
 
 COLUMNS = (
@@ -87,7 +88,7 @@ def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEW
 
 def _run(stage: Stage, plan: Plan, viewers: int, every: int) -> tuple[list[Times], list[dict[str, int]]]:
     """A time for each frame of a plan, and what each viewer has read."""
-    timeline = plan.timeline()
+    timeline = Timeline.of(plan)
     moments = [number * every / FRAMES_PER_S for number in range(int(timeline.duration_s * FRAMES_PER_S / every) + 1)]
     stage.show(timeline.at(0.0))
     read: list[dict[str, int]] = []
@@ -97,7 +98,7 @@ def _run(stage: Stage, plan: Plan, viewers: int, every: int) -> tuple[list[Times
 
 
 def _shown(stage: Stage, plan: Plan, moments: Sequence[float]) -> Iterator[Times]:
-    timeline, due_s = plan.timeline(), perf_counter()
+    timeline, due_s = Timeline.of(plan), perf_counter()
     for t_s in moments:
         wall, whole, begun = perf_counter(), process_time(), thread_time()
         frame = timeline.at(t_s)

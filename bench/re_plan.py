@@ -139,7 +139,7 @@ def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: f
 
 
 def _is_settled(state: DocumentState) -> bool:
-    """Whether the answer is final, and on film."""
+    """Whether the answer is final, and played."""
     if state.failure is not None:
         return True
     if state.answer is None or not state.is_answered or not state.answer.is_final:

@@ -3,23 +3,38 @@
 from planner import Scene, load_garment, make_plan
 
 plan = make_plan(load_garment("t-shirt"), Scene())
+
+Names are imported when they are first used: the values (`Plan`, `Task`, `Scene`) come without the compiled kernels that
+planning needs.
 """
 
-from planner.cloth.garment import Garment
-from planner.cloth.garment_files import load_garment, shipped_garment_names
-from planner.folds.fold_sequence import FoldSequence, fold_dag
-from planner.plan.garment_check import check_garment
-from planner.plan.make_plan import make_plan, quick_plan
-from planner.plan.plan import Plan
-from planner.plan.suggestions import suggestions
-from planner.task.scene import Scene
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from planner.cloth.garment import Garment
+    from planner.cloth.garment_files import load_garment, shipped_garment_names
+    from planner.folds.fold_sequence import FoldSequence, fold_dag
+    from planner.plan.garment_check import check_garment
+    from planner.plan.make_plan import find_plan, make_plan, quick_plan
+    from planner.plan.suggestions import suggestions
+    from planner.plan.timeline import Timeline
+    from planner.task.plan import Plan
+    from planner.task.scene import Scene
+    from planner.task.task import Limits, Task
+    from planner.task.world_state import WorldState
 
 __all__ = [
     "FoldSequence",
     "Garment",
+    "Limits",
     "Plan",
     "Scene",
+    "Task",
+    "Timeline",
+    "WorldState",
     "check_garment",
+    "find_plan",
     "fold_dag",
     "load_garment",
     "make_plan",
@@ -27,3 +42,25 @@ __all__ = [
     "shipped_garment_names",
     "suggestions",
 ]
+
+_HOMES = {
+    "planner.cloth.garment": ("Garment",),
+    "planner.cloth.garment_files": ("load_garment", "shipped_garment_names"),
+    "planner.folds.fold_sequence": ("FoldSequence", "fold_dag"),
+    "planner.plan.garment_check": ("check_garment",),
+    "planner.plan.make_plan": ("find_plan", "make_plan", "quick_plan"),
+    "planner.plan.suggestions": ("suggestions",),
+    "planner.plan.timeline": ("Timeline",),
+    "planner.task.plan": ("Plan",),
+    "planner.task.scene": ("Scene",),
+    "planner.task.task": ("Limits", "Task"),
+    "planner.task.world_state": ("WorldState",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401
+    """Import a name from the room where it lives."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOME_OF[name]), name)

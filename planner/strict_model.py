@@ -38,7 +38,7 @@ def first_error(error: ValidationError, kind: type[Error]) -> Error:
 
 def plain_message(detail: dict[str, Any]) -> str:
     """One of pydantic's complaints in words that name the offending value."""
-    if detail["type"] == "extra_forbidden":
+    if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         return "is not a known field"
     if detail["type"] == "missing":
         return "is missing"

@@ -1,13 +1,12 @@
 """docs/model.md: the numbers in its table are those of the program, and what it says in passing is so."""
 
 import importlib
-import inspect
 import re
 from pathlib import Path
 
 import pytest
 
-from planner import make_plan
+from planner import Limits
 from planner.folds.fold_sequence import FoldSequence
 from planner.robot.pr2 import load_robot
 from planner.task.scene import Scene
@@ -59,7 +58,7 @@ def test_the_strip_on_the_page_has_folds_that_depend_without_overlapping():
 
 
 def test_comfort_is_three_centimetres_unless_asked_otherwise():
-    assert inspect.signature(make_plan).parameters["comfort_radius_m"].default == 0.03
+    assert Limits().comfort_radius_m == 0.03
 
 
 def test_the_page_links_to_files_that_are_there():

@@ -3,17 +3,20 @@
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 from fastapi import Request
 
-from app.api.messages import PlanRequest
-from app.searches import Options
+from app.api.messages import BaseField, Placement, PlanRequest, StartField
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
-from planner.errors import FieldError, FoldError, GarmentError, SceneError
+from planner.errors import FieldError, FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
+from planner.task.grip import BaseStop
 from planner.task.scene import Scene
+from planner.task.task import Task
+from planner.task.world_state import HeldPoint, WorldState
 
 SHORTEST_S = 0.01
 """The least time that a search is given, though it should have begun earlier (s)."""
@@ -64,11 +67,14 @@ class TimeLimit:
         return max(SHORTEST_S, self.limit_s - (time.monotonic() - self._arrived_s))
 
 
-def asked_options(wanted: PlanRequest, limit: TimeLimit) -> Options:
-    """Return the options of a request for a search that begins now."""
-    placed = wanted.placement
-    return Options(
-        placement=Pose2(placed.x_m, placed.y_m, placed.yaw_rad) if placed else None,
+def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> Task:
+    """Return the task of a plan request, for a search that begins now; raises what is wrong with the request."""
+    garment, scene = asked_garment(workspace, wanted.garment), asked_scene(wanted.scene)
+    placement = None if wanted.placement is None else _pose(wanted.placement)
+    task = Task.of(
+        garment,
+        scene,
+        placement=placement,
         start_station=wanted.start_station,
         robot=wanted.robot,
         comfort_radius_m=wanted.comfort_radius_m,
@@ -77,6 +83,38 @@ def asked_options(wanted: PlanRequest, limit: TimeLimit) -> Options:
         work_limit_s=wanted.work_limit_s,
         max_expanded=wanted.max_expanded,
     )
+    return task if wanted.start is None else replace(task, start=_asked_start(task, wanted.start))
+
+
+def _asked_start(task: Task, wanted: StartField) -> WorldState:
+    """Return the state that a request starts from; what it leaves out is as in a task."""
+    return WorldState(
+        tuple(wanted.folds_done),
+        task.start.placement if wanted.placement is None else _pose(wanted.placement),
+        task.start.base if wanted.base is None else _asked_base(task.scene, wanted.base),
+        tuple(HeldPoint(held.arm, (held.point[0], held.point[1])) for held in wanted.held),
+        wanted.dragged_m,
+    )
+
+
+def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
+    """Return where the base stands: at a station, or where its pose says."""
+    x_m, y_m, yaw_rad = wanted.x_m, wanted.y_m, wanted.yaw_rad
+    if wanted.station is None:
+        if x_m is None or y_m is None or yaw_rad is None:
+            raise RequestError("start.base", "needs a station, or x_m, y_m and yaw_rad")
+        return BaseStop.at(None, Pose2(x_m, y_m, yaw_rad))
+    stations = dict(scene.stations)
+    if wanted.station not in stations:
+        raise RequestError("start.base.station", f"{wanted.station[:80]!r} is none of {', '.join(stations)}")
+    if wanted.back_off_m > scene.back_off_max_m:
+        told = f"{wanted.back_off_m} is more than {scene.back_off_max_m:g}, the furthest that the base may back off"
+        raise RequestError("start.base.back_off_m", told)
+    return BaseStop.at(wanted.station, stations[wanted.station], wanted.back_off_m)
+
+
+def _pose(given: Placement) -> Pose2:
+    return Pose2(given.x_m, given.y_m, given.yaw_rad)
 
 
 @contextmanager

@@ -31,14 +31,14 @@ async def read_model(request: Request, model: type[Model], *, may_be_empty: bool
         raise first_error(error, RequestError) from None
 
 
-async def read_object(request: Request, *, may_be_empty: bool = False) -> dict[str, Any]:
+async def read_object(request: Request, *, may_be_empty: bool = False, most: int = LARGEST_BODY) -> dict[str, Any]:
     """The body as a JSON object.
 
     Raises:
-        TooLargeError: it has more than `LARGEST_BODY` bytes.
+        TooLargeError: it has more than so many bytes, by default `LARGEST_BODY`.
         RequestError: it is not called JSON, is no JSON, or no object.
     """
-    body = await read_bytes(request, LARGEST_BODY)
+    body = await read_bytes(request, most)
     if may_be_empty and not body:
         return {}
     _require_json_type(request.headers.get("content-type"))

@@ -12,6 +12,7 @@ from app.api.messages import (
     LookLonger,
     Pause,
     PlanAgain,
+    PlanFrom,
     Play,
     Seek,
     SetSpeed,
@@ -55,6 +56,10 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             document.plan_again()
         case LookLonger():
             document.look_longer()
+        case PlanFrom(step=None):
+            document.plan_from_start()
+        case PlanFrom(step=int(step)):
+            document.plan_from(step)
         case Stop():
             document.stop_planning()
 

@@ -6,7 +6,7 @@ from app.document_state import Answer, Checks, DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from planner.errors import FoldingError
-from planner.plan.plan import Statistics
+from planner.task.plan import Statistics
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
@@ -36,6 +36,7 @@ def plan_message(state: DocumentState) -> dict[str, Any]:
         "text": status_text(state),
         "plan": _answer(state, state.answer) if is_shown and state.answer is not None else None,
         "may_look_longer": state.may_look_longer,
+        "start": None if state.start is None else state.start.to_dict(),
         "before": None if state.before is None else _figures(state.before),
         "checks": None if state.checks is None else _checks(state.checks),
     }

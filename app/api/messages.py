@@ -8,7 +8,8 @@ from pydantic_core import PydanticCustomError
 from app.api.answers import GarmentFile, SceneFile
 from app.api.described import whole_schema
 from app.playback import SPEED_MAX, SPEED_MIN
-from planner.strict_model import LARGEST_M, Bounded, StrictModel
+from planner.cloth.garment import FOLDS_MAX
+from planner.strict_model import LARGEST_M, Bounded, PlanePoint, StrictModel
 
 
 def _name_or_object(value: Any) -> Any:  # noqa: ANN401
@@ -46,10 +47,38 @@ class DagRequest(StrictModel):
     garment: GarmentField
 
 
+class BaseField(StrictModel):
+    """Where the base stands: at a station, backed off from it, or by its pose in the table frame (m, rad)."""
+
+    station: str | None = None
+    back_off_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0
+    x_m: Bounded | None = None
+    y_m: Bounded | None = None
+    yaw_rad: Bounded | None = None
+
+
+class HeldField(StrictModel):
+    """A point of the cloth that an arm holds, article frame (m)."""
+
+    arm: str
+    point: PlanePoint
+
+
+class StartField(StrictModel):
+    """The state of the world at the start; what is left out is as it is before all folds."""
+
+    folds_done: Annotated[list[int], Field(max_length=FOLDS_MAX)] = Field(default_factory=list)
+    placement: Placement | None = None
+    base: BaseField | None = None
+    held: Annotated[list[HeldField], Field(max_length=16)] = Field(default_factory=list)
+    dragged_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0
+
+
 class PlanRequest(StrictModel):
     """Asks for a plan; only `garment` is required."""
 
     garment: GarmentField
+    start: StartField | None = None
     placement: Placement | None = None
     scene: SceneField | None = None
     start_station: str = "front"
@@ -133,5 +162,12 @@ class LookLonger(StrictModel):
     do: Literal["look_longer"]
 
 
-Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger
+class PlanFrom(StrictModel):
+    """Plan what is left after a step of the plan, counted from 0; null: plan from before all folds, as drawn."""
+
+    do: Literal["plan_from"]
+    step: Annotated[int, Field(ge=-1, le=10_000)] | None
+
+
+Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger | PlanFrom
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])

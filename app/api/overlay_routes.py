@@ -1,5 +1,6 @@
 """Overlays: what the board can show to say why a plan is as it is, and the map of placements under the cloth."""
 
+from dataclasses import replace
 from functools import partial
 from typing import Annotated, Any
 
@@ -67,7 +68,7 @@ async def post_places(request: Request, document_id: str) -> Response:
     wanted = await read_model(request, PlacesRequest, may_be_empty=True)
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     state = opened.document.state
-    if state.question is None:
+    if state.task is None:
         return ProblemResponse(409, "The drawing is not finished, so no placement can be tried.")
     limit = TimeLimit(wanted.time_limit_s)
     work = partial(_places, state, wanted, limit)
@@ -100,17 +101,12 @@ def _overlays(
 
 
 def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, should_stop: ShouldStop) -> dict[str, Any]:
-    question = state.question
-    assert question is not None
-    options = {
-        "start_station": question.start_station,
-        "comfort_radius_m": question.comfort_radius_m,
-        "time_limit_s": limit.left_s,
-        "work_limit_s": wanted.work_limit_s,
-    }
-    garment, scene = question.garment, question.scene
-    found = run_apart(searches.map_places, should_stop, ignore, garment, scene, wanted.step_m, options)
-    here = question.garment.placement
+    assert state.task is not None, "what has no task is not planned"
+    task = replace(
+        state.task, limits=replace(state.task.limits, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
+    )
+    found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
+    here = task.start.placement
     return {
         "version": state.version,
         "step_m": found.step_m,

@@ -10,19 +10,30 @@ from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import DagAnswer, PlanAnswer, TimelineAnswer
-from app.api.asked import TimeLimit, asked_garment, asked_options, asked_scene, within_request, workspace_of
-from app.api.body import read_model
+from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
+from app.api.body import read_model, read_object
 from app.api.described import problems, takes
 from app.api.messages import DagRequest, PlanRequest
 from app.api.waiting import answer_of, quick_answer
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
-from app.store.plan_store import KeptPlan
 from app.workspace import Workspace
-from planner import fold_dag
+from planner import Plan, Timeline, fold_dag
 from planner.errors import UnsolvedPlanError
 
 router = APIRouter(prefix="/api", tags=["plans"])
+
+PLAN_FILE_TYPE = "application/vnd.pleat.plan+json"
+
+LARGEST_PLAN_FILE = 8 << 20
+"""A plan file has some 400 kB; with all folds that a garment may have, a few MB."""
+
+_PLAN_FILE_BODY = {
+    "requestBody": {
+        "required": True,
+        "content": {kind: {"schema": {"type": "object"}} for kind in ("application/json", PLAN_FILE_TYPE)},
+    }
+}
 
 SampleRate = Annotated[float, Query(ge=1.0, le=200.0, allow_inf_nan=False)]
 
@@ -52,11 +63,41 @@ async def post_plan(request: Request) -> JSONResponse:
     return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))
 
 
-@router.get("/plans/{plan_id}", responses={200: {"model": PlanAnswer}, **problems(404)})
-async def read_plan(request: Request, plan_id: str) -> JSONResponse:
-    """A plan made before."""
+@router.post(
+    "/plans/imports",
+    openapi_extra=_PLAN_FILE_BODY,
+    responses={200: {"model": PlanAnswer}, **problems(413, 422, 503)},
+)
+async def post_plan_file(request: Request) -> JSONResponse:
+    """Take back a plan file: it is replayed, and kept under an id of its own.
+
+    A plan that does not replay is refused; the problem names the step at which it fails.
+    """
+    data = await read_object(request, most=LARGEST_PLAN_FILE)
+    workspace = workspace_of(request)
+    return JSONResponse(await answer_of(request, workspace.lanes.files, partial(_imported, workspace, data)))
+
+
+@router.get(
+    "/plans/{plan_id}",
+    responses={200: {"model": PlanAnswer, "content": {PLAN_FILE_TYPE: {}}}, **problems(404)},
+)
+async def read_plan(request: Request, plan_id: str) -> Response:
+    """A plan made before; as a plan file, its task and trajectory included, where that is what `Accept` asks for."""
     plan = workspace_of(request).plans.plan(plan_id)
-    return JSONResponse(await run_in_threadpool(plan_answer, plan_id, plan))
+    if PLAN_FILE_TYPE in request.headers.get("accept", ""):
+        return await _plan_file(plan)
+    return JSONResponse(await run_in_threadpool(plan_answer, plan_id, plan), headers={"Vary": "Accept"})
+
+
+@router.get(
+    "/plans/{plan_id}/file",
+    response_class=Response,
+    responses={200: {"content": {PLAN_FILE_TYPE: {}}}, **problems(404)},
+)
+async def read_plan_file(request: Request, plan_id: str) -> Response:
+    """A plan made before as a plan file: with its task and its trajectory."""
+    return await _plan_file(workspace_of(request).plans.plan(plan_id))
 
 
 @router.get(
@@ -73,9 +114,21 @@ async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30
     return Response(sampled, media_type="application/json")
 
 
-def plan_answer(plan_id: str, plan: KeptPlan) -> dict[str, Any]:
+def plan_answer(plan_id: str, plan: Plan) -> dict[str, Any]:
     """A plan as the interface has it."""
-    return {"id": plan_id, **plan.to_dict()}
+    return {"id": plan_id, **plan.answer()}
+
+
+async def _plan_file(plan: Plan) -> Response:
+    """Answer with a plan as a file to be saved."""
+    text = await run_in_threadpool(lambda: json.dumps(plan.to_dict()))
+    name = f'attachment; filename="{plan.garment.name}.plan.json"'
+    return Response(text, media_type=PLAN_FILE_TYPE, headers={"Content-Disposition": name, "Vary": "Accept"})
+
+
+def _imported(workspace: Workspace, data: dict[str, Any], should_stop: ShouldStop) -> dict[str, Any]:
+    plan = run_apart(searches.read_plan, should_stop, ignore, data)
+    return plan_answer(workspace.plans.add(plan), plan)
 
 
 def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
@@ -86,16 +139,16 @@ def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
 
 
 def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> dict[str, Any]:
-    garment, scene = asked_garment(workspace, wanted.garment), asked_scene(wanted.scene)
+    task = asked_task(workspace, wanted, limit)
     with within_request():
-        plan = run_apart(searches.plan, should_stop, ignore, garment, scene, asked_options(wanted, limit))
+        plan = run_apart(searches.plan, should_stop, ignore, task)
     return plan_answer(workspace.plans.add(plan), plan)
 
 
-def _timeline(plan: KeptPlan, rate_hz: float, should_stop: ShouldStop) -> bytes:
+def _timeline(plan: Plan, rate_hz: float, should_stop: ShouldStop) -> bytes:
     """The timeline as JSON, sample by sample: another thread gets its turn in between."""
     samples = []
-    for frame in plan.timeline().samples(rate_hz):
+    for frame in Timeline.of(plan).samples(rate_hz):
         samples.append(json.dumps(frame.to_dict()))
         if should_stop():
             break

@@ -15,7 +15,7 @@ from starlette.responses import JSONResponse
 
 from app import searches
 from app.api.answers import Change, PoseFile, Says
-from app.api.asked import TimeLimit, asked_garment, asked_options, asked_scene, within_request, workspace_of
+from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
 from app.api.body import read_model
 from app.api.described import problems, takes
 from app.api.messages import PlacementsRequest, PlanRequest
@@ -23,7 +23,7 @@ from app.api.waiting import answer_of, until
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
 from app.workspace import Workspace
-from planner.task.scene import Scene
+from planner.task.task import Task
 
 router = APIRouter(prefix="/api", tags=["suggestions"])
 
@@ -104,10 +104,9 @@ class SuggestionSearch:
             self._job.stop()
 
     def _search(self, should_stop: ShouldStop) -> bool:
-        garment, scene = asked_garment(self._workspace, self._wanted.garment), asked_scene(self._wanted.scene)
-        options = asked_options(self._wanted, self._limit)
+        task = asked_task(self._workspace, self._wanted, self._limit)
         with within_request():
-            return run_apart(searches.suggest, should_stop, self._hear, garment, scene, options)
+            return run_apart(searches.suggest, should_stop, self._hear, task)
 
     def _hear(self, news: searches.Suggested | None) -> None:
         if news is None:
@@ -174,10 +173,9 @@ async def post_placements(request: Request) -> JSONResponse:
 def _placements(
     workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
 ) -> dict[str, Any]:
-    garment, options = (
-        asked_garment(workspace, wanted.garment),
-        {"time_limit_s": limit.left_s, "work_limit_s": wanted.work_limit_s},
+    task = Task.of(
+        asked_garment(workspace, wanted.garment), time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s
     )
     with within_request():
-        found = run_apart(searches.map_places, should_stop, ignore, garment, Scene(), wanted.step_m, options)
+        found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
     return found.to_dict()

@@ -25,9 +25,9 @@ from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
-from planner.plan.problem import COMFORT_MAX_M
 from planner.strict_model import Bounded, PlanePoint, Positive, StrictModel, first_error
 from planner.task.scene import Scene
+from planner.task.task import COMFORT_MAX_M
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,16}$")]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]

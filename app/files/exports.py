@@ -15,7 +15,7 @@ from app.jobs.job_pool import ShouldStop
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError, GarmentError
 from planner.message import Message
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 
 Make = Callable[[DocumentState, float, ShouldStop], bytes]
 """Of a state, frames a second and whether it should stop, the file."""
@@ -46,6 +46,11 @@ class Export:
     media_type: str
     why_not: Callable[[DocumentState], Message | None]
     make: Make
+
+    @property
+    def needs_plan(self) -> bool:
+        """Whether it is made of a plan, and not of the garment alone."""
+        return self.why_not in (_no_answer, _no_plan)
 
     def filename(self, state: DocumentState) -> str:
         """What the file is called."""
@@ -156,8 +161,7 @@ def _garment_fold(state: DocumentState, _: float, should_stop: ShouldStop) -> by
 
 
 def _plan_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
-    plan = _plan(state)
-    return _json({"id": state.answer.plan_id if state.answer else "", **plan.to_dict()})
+    return (json.dumps(_plan(state).to_dict()) + "\n").encode("ascii")
 
 
 def _plan_csv(state: DocumentState, _: float, __: ShouldStop) -> bytes:
@@ -199,8 +203,8 @@ EXPORTS = (
     Export(
         "plan.json",
         "Plan (JSON)",
-        "What the robot does, or why it cannot; as the REST interface has it.",
-        "-plan.json",
+        "What was asked, what the robot does at every moment, or why it cannot; Pleat reads it again.",
+        ".plan.json",
         "application/json",
         _no_answer,
         _plan_json,

@@ -10,29 +10,39 @@ planner tells apart, far above that noise.
 
 import csv
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
+from app.step_words import step_words
+from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, DECIMALS
-from planner.plan.plan import Plan, PlannedPrimitive
-from planner.primitives.phase import Phase
 from planner.task.grip import Grip
+from planner.task.phase import Phase
+from planner.task.plan import Plan, PlanStep
+from planner.task.trajectory import Segment
 
 MOMENTS = ("pick", "apex", "place")
 _FORMULA = ("=", "+", "-", "@")
 
 
 def plan_table(plan: Plan) -> str:
-    """A solved plan as comma-separated values, a row of names first; lengths in m, times in s, angles in rad."""
-    arms = [arm.name for arm in plan.robot.card.arms]
+    """Return a solved plan as comma-separated values, a row of names first; lengths in m, times in s, angles in rad.
+
+    Raises:
+        UnsolvedPlanError: the plan is not solved.
+    """
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    arms = [track.arm for track in plan.trajectory.grippers]
     text = io.StringIO()
     writer = csv.DictWriter(text, list(_names(arms)))
     writer.writeheader()
-    for number, primitive in enumerate(plan.primitives):
-        writer.writerow({name: _cell(value) for name, value in _row(plan, number, primitive).items()})
+    for number, step in enumerate(plan.steps):
+        row = _row(plan, number, step, plan.trajectory.of_step(number))
+        writer.writerow({name: _cell(value) for name, value in row.items()})
     return text.getvalue()
 
 
@@ -52,27 +62,25 @@ def _names(arms: list[str]) -> Iterator[str]:
             yield from (f"{arm}_{moment}_in_base_{axis}_m" for axis in "xyz")
 
 
-def _row(plan: Plan, number: int, primitive: PlannedPrimitive) -> dict[str, Any]:
-    phases = primitive.step.phases()
-    details = primitive.to_dict()
-    base = primitive.base
-    driving_s = sum(phase.duration_s for phase in phases if phase.base[0] != phase.base[1])
+def _row(plan: Plan, number: int, step: PlanStep, segments: Sequence[Segment]) -> dict[str, Any]:
+    details, base = step.details, step.base
+    driving_s = sum(part.duration_s for part in segments if part.phase.base[0] != part.phase.base[1])
     row = {
         "primitive": number,
-        "kind": primitive.kind,
-        "what": _text(primitive.summary),
+        "kind": step.kind,
+        "what": _text(step_words(step, plan.garment)),
         **{name: details.get(name, "") for name in ("fold", "holds", "distance_m")},
-        "start_s": primitive.start_s,
-        "end_s": primitive.start_s + primitive.duration_s,
-        "duration_s": primitive.duration_s,
+        "start_s": step.start_s,
+        "end_s": step.end_s,
+        "duration_s": step.duration_s,
         "driving_s": driving_s,
-        "arms_s": primitive.duration_s - driving_s,
-        "station": _text(base.station),
+        "arms_s": step.duration_s - driving_s,
+        "station": _text(base.station or ""),
         "back_off_m": base.back_off_m,
         **_pose("base", base.pose),
     }
-    for moment, pose in _stands(phases).items():
-        points = [(grip.arm, point) for grip in primitive.grips if (point := _point(grip, moment)) is not None]
+    for moment, pose in _stands([part.phase for part in segments]).items():
+        points = [(grip.arm, point) for grip in step.grips if (point := _point(grip, moment)) is not None]
         if points:
             row |= _pose(f"base_at_{moment}", pose)
         for arm, point in points:
@@ -81,7 +89,7 @@ def _row(plan: Plan, number: int, primitive: PlannedPrimitive) -> dict[str, Any]
     return row
 
 
-def _stands(phases: tuple[Phase, ...]) -> dict[str, Pose2]:
+def _stands(phases: Sequence[Phase]) -> dict[str, Pose2]:
     """Where the base is when the hands take hold, when they come to the top of a fold's path, and at the end."""
     held = [phase for phase in phases if any(hand is not None and hand.is_closed for hand in phase.hands)]
     if not held:

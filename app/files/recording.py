@@ -9,7 +9,9 @@ import re
 
 from app.jobs.job_pool import ShouldStop
 from app.ui.stage import Stage
-from planner.plan.plan import Plan
+from planner.plan.timeline import Timeline
+from planner.robot.pr2 import load_robot
+from planner.task.plan import Plan
 
 RATES_HZ = (1.0, 30.0)
 """So many frames a second may be asked for."""
@@ -34,8 +36,8 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
     Raises:
         UnsolvedPlanError: there is nothing to play.
     """
-    timeline = plan.timeline()
-    stage = Stage(plan.robot.card, plan.scene)
+    timeline = Timeline.of(plan)
+    stage = Stage(load_robot(plan.task.robot).card, plan.scene)
     try:
         stage.set_theme(is_dark=is_dark)
         stage.show_plan(plan)

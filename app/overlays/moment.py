@@ -6,14 +6,13 @@ from functools import cached_property
 import numpy as np
 
 from app.document_state import DocumentState
-from app.ui.progress import Stint, stints
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.g_state import TableInArticle
 from planner.errors import FoldingError, RequestError
 from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
 from planner.plan.frame import Frame
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 from planner.task.reason import Reason
 from planner.task.scene import Scene
 
@@ -36,7 +35,6 @@ class Moment:
         cloth: the stack as it lies there.
         done: the folds done, in the user's order.
         plan: the plan; None for the article as it is drawn.
-        stints: its primitives, with what was true when each began.
         frame: the plan's frame; None for the article as it is drawn.
         reason: why there is no plan for it, the first reason that names a place; None where none does.
     """
@@ -50,7 +48,6 @@ class Moment:
     cloth: ClothState
     done: tuple[int, ...] = ()
     plan: Plan | None = None
-    stints: tuple[Stint, ...] = ()
     frame: Frame | None = None
     reason: Reason | None = None
 
@@ -84,13 +81,11 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
         return moment_as_drawn(state, None, 0.0)
     plan, timeline = state.film.plan, state.film.timeline
     frame = timeline.at(t_s)
-    primitives = [primitive.to_dict() for primitive in plan.primitives]
-    all_stints = stints(plan.work.placement, primitives)
-    if not all_stints:
+    if not plan.steps:
         return moment_as_drawn(state, None, 0.0)
-    stint = all_stints[frame.primitive]
-    is_over = frame.t_s >= stint.end_s - TIME_S
-    done = sorted(stint.done_after if is_over else stint.done)
+    step = plan.steps[frame.primitive]
+    is_over = frame.t_s >= step.end_s - TIME_S
+    world = step.after if is_over else step.before
     station, back_off_m = _station(plan.scene, frame.base)
     return Moment(
         plan.scene,
@@ -98,11 +93,10 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
         frame.base,
         station,
         back_off_m,
-        stint.placement_with(frame.base),
-        plan.work.sequence.cloth(sum(1 << fold for fold in done)),
-        tuple(done),
+        frame.placement,
+        plan.sequence.cloth(world.done),
+        tuple(sorted(world.folds_done)),
         plan,
-        all_stints,
         frame,
     )
 

@@ -7,24 +7,24 @@ from typing import Any
 import numpy as np
 
 from app.overlays.moment import Moment
-from app.ui.progress import Stint
 from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
-from planner.plan.plan import Plan, PlannedPrimitive
+from planner.task.phase import Phase
+from planner.task.plan import Plan, PlanStep
 
 
 def base_overlay(moment: Moment) -> dict[str, Any] | None:
     """The base's way from the first primitive to the last, as JSON, article frame; None without a plan."""
     if moment.plan is None or moment.frame is None:
         return None
-    parts = [_base_points(primitive) for primitive in moment.plan.primitives]
+    parts = [_base_points(moment.plan, number) for number in range(len(moment.plan.steps))]
     way = _without_stops(np.concatenate(parts))
     passed = _without_stops(np.concatenate(parts[: moment.frame.primitive + 1]))
     first = len(_without_stops(np.concatenate(parts[: moment.frame.primitive]))) if moment.frame.primitive else 1
     return {
         "way": moment.to_article(way).tolist(),
-        "stands": [_stand(moment, number, primitive) for number, primitive in enumerate(moment.plan.primitives)],
+        "stands": [_stand(moment, number, step) for number, step in enumerate(moment.plan.steps)],
         "gone": _gone(passed, first, np.array([moment.base.x_m, moment.base.y_m])),
     }
 
@@ -34,22 +34,21 @@ def paths_overlay(moment: Moment) -> list[dict[str, Any]] | None:
     if moment.plan is None:
         return None
     found = []
-    for number, (primitive, stint) in enumerate(zip(moment.plan.primitives, moment.stints, strict=True)):
-        if primitive.grips:
-            found.append(
-                {
-                    "primitive": number,
-                    "kind": primitive.kind,
-                    "fold": stint.fold,
-                    "grips": _grips(moment.plan, primitive, stint),
-                }
-            )
+    for number, step in enumerate(moment.plan.steps):
+        if step.grips:
+            grips = _grips(moment.plan, number)
+            found.append({"primitive": number, "kind": step.kind, "fold": step.fold, "grips": grips})
     return found
 
 
-def _base_points(primitive: PlannedPrimitive) -> FloatArray:
-    """Where the base is at the start and the end of each phase, table frame, shape (n, 2), m."""
-    return np.array([(pose.x_m, pose.y_m) for phase in primitive.step.phases() for pose in phase.base])
+def _base_points(plan: Plan, number: int) -> FloatArray:
+    """Return where the base is at the start and the end of each phase of a step, table frame, shape (n, 2), m."""
+    return np.array([(pose.x_m, pose.y_m) for phase in _phases(plan, number) for pose in phase.base])
+
+
+def _phases(plan: Plan, number: int) -> list[Phase]:
+    """Return the phases of a step."""
+    return [] if plan.trajectory is None else [segment.phase for segment in plan.trajectory.of_step(number)]
 
 
 def _without_stops(points: FloatArray) -> FloatArray:
@@ -69,19 +68,20 @@ def _gone(passed: FloatArray, first: int, base: FloatArray) -> int:
     return gone
 
 
-def _stand(moment: Moment, number: int, primitive: PlannedPrimitive) -> dict[str, Any]:
-    pose = primitive.base.pose
+def _stand(moment: Moment, number: int, step: PlanStep) -> dict[str, Any]:
+    pose = step.base.pose
     x, y = moment.to_article(np.array([pose.x_m, pose.y_m]))
     yaw_rad = wrapped_angle(pose.yaw_rad - moment.placement.yaw_rad)
     return {"primitive": number, "point": [float(x), float(y)], "yaw_rad": yaw_rad}
 
 
-def _grips(plan: Plan, primitive: PlannedPrimitive, stint: Stint) -> list[dict[str, Any]]:
-    arms = {arm.name: number for number, arm in enumerate(plan.robot.card.arms)}
+def _grips(plan: Plan, number: int) -> list[dict[str, Any]]:
+    assert plan.trajectory is not None, "a plan that is played is solved"
+    step, arms = plan.steps[number], [track.arm for track in plan.trajectory.grippers]
     found = []
-    for grip in primitive.grips:
-        arm, place = arms[grip.arm], stint.placement
-        hands = [phase.hands[arm] for phase in primitive.step.phases()]
+    for grip in step.grips:
+        arm, place = arms.index(grip.arm), step.before.placement
+        hands = [phase.hands[arm] for phase in _phases(plan, number)]
         points = [point for hand in hands if hand is not None and hand.is_closed for point in hand.points]
         ends = {
             name: None if point is None else _plane(place.to_inner(np.array(point)))

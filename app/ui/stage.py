@@ -19,7 +19,6 @@ from app.ui.grip_view import GripView
 from app.ui.lighting import add_lights
 from app.ui.opening import opening
 from app.ui.private_viser import start_private_viser
-from app.ui.progress import Stint, stints
 from app.ui.robot_view import RobotView
 from app.ui.table_view import TableView
 from app.ui.viewpoint import Viewpoint
@@ -28,8 +27,8 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.plan.frame import ClothSurface, Frame
-from planner.plan.plan import Plan
 from planner.robot.card import RobotCard
+from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
 
 _SQUARE = 1.0
@@ -62,8 +61,8 @@ class Stage:
             self._robot = RobotView(self._server, card, floor_z_m)
             self._grips = GripView(self._server, self._robot.hands, floor_z_m)
         self._palette = LIGHT
-        self._stints: tuple[Stint, ...] = ()
-        self._marked: Stint | None = None
+        self._steps: tuple[PlanStep, ...] = ()
+        self._marked: PlanStep | None = None
         self._lock = threading.Lock()
         self._by_software = 0
         self.set_theme(is_dark=False)
@@ -136,16 +135,15 @@ class Stage:
     def show_plan(self, plan: Plan) -> None:
         """Take up another plan; `show` then shows its frames."""
         with self._server.atomic():
-            primitives = [primitive.to_dict() for primitive in plan.primitives]
-            self._begin(plan.garment, stints(plan.garment.placement, primitives))
+            self._begin(plan.garment, plan.steps)
 
     def show(self, frame: Frame) -> None:
         """Show one moment of the plan."""
         with self._server.atomic():
             self._robot.pose(frame.base, frame.joints)
             self._cloth.show(frame.cloth)
-            if self._stints:
-                self._show_stint(frame)
+            if self._steps:
+                self._show_step(frame)
         self._server.flush()
 
     def record(self) -> StateSerializer:
@@ -166,25 +164,24 @@ class Stage:
         homes = [np.array(arm.home) for arm in self._card.arms]
         return self._card.joint_values(self.scene.torso_m, homes, [0.0] * len(homes))
 
-    def _begin(self, garment: Garment, plan: tuple[Stint, ...]) -> None:
-        self._take_up(plan)
+    def _begin(self, garment: Garment, steps: tuple[PlanStep, ...]) -> None:
+        self._take_up(steps)
         self._cloth.set_visible(is_visible=True)
         self._folds.show_garment(garment)
 
-    def _take_up(self, plan: tuple[Stint, ...]) -> None:
-        self._stints = plan
+    def _take_up(self, steps: tuple[PlanStep, ...]) -> None:
+        self._steps = steps
         self._marked = None
         self._grips.show(None)
 
-    def _show_stint(self, frame: Frame) -> None:
-        stint = self._stints[frame.primitive]
-        is_over = frame.t_s >= stint.end_s - TIME_S
-        self._mark(None if is_over else stint)
-        done = stint.done_after if is_over else stint.done
-        current = None if is_over else stint.fold
-        self._folds.place(stint.placement_with(frame.base), frame.cloth, frame.top, done, current)
+    def _show_step(self, frame: Frame) -> None:
+        step = self._steps[frame.primitive]
+        is_over = frame.t_s >= step.end_s - TIME_S
+        self._mark(None if is_over else step)
+        done = frozenset((step.after if is_over else step.before).folds_done)
+        self._folds.place(frame.placement, frame.cloth, frame.top, done, None if is_over else step.fold)
 
-    def _mark(self, stint: Stint | None) -> None:
-        if stint is not self._marked:
-            self._marked = stint
-            self._grips.show(stint.primitive if stint else None)
+    def _mark(self, step: PlanStep | None) -> None:
+        if step is not self._marked:
+            self._marked = step
+            self._grips.show(step.to_dict() if step else None)

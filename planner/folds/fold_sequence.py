@@ -7,7 +7,7 @@ it is asked for.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,9 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
+
+_REMEMBERED = 8
+"""Garments that are not replayed again."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +130,11 @@ def fold_dag(garment: Garment) -> FoldSequence:
     Raises:
         FoldError: a fold is not legal; the field names it.
     """
-    return FoldSequence.of(garment)
+    return replayed(garment)
+
+
+replayed = lru_cache(_REMEMBERED)(FoldSequence.of)
+"""Replay a garment's folds, or remember how: what was worked out about the latest garments' cloth is kept."""
 
 
 def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:

@@ -11,7 +11,7 @@ from itertools import islice, zip_longest
 
 from planner.plan.act import Act
 from planner.plan.effort import Effort
-from planner.plan.plan import Plan
+from planner.plan.found_plan import FoundPlan
 from planner.plan.problem import Problem
 from planner.plan.tries import QUICK
 from planner.primitives.primitive import Step
@@ -27,7 +27,7 @@ _PATIENT = replace(QUICK, alone=2 * QUICK.alone, together=2 * QUICK.together, la
 """Twice as many as elsewhere are tried: one that does saves a search."""
 
 
-def adapted(plan: Plan, problem: Problem, effort: Effort) -> tuple[Act, ...]:
+def adapted(plan: FoundPlan, problem: Problem, effort: Effort) -> tuple[Act, ...]:
     """What a solved plan does, done in another problem as far as that can be; it may be all of it.
 
     What is looked at is added to an effort.

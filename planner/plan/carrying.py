@@ -175,7 +175,7 @@ class Carrier:
             answers = self._collisions.arm_free(arm, leads.bases[steps], joints, is_certain=is_certain)
             for cloth, must_clear in zip(cloths, lead.must_clear(steps), strict=True):
                 asked = np.flatnonzero(answers & must_clear)
-                if len(asked):
+                if cloth is not None and len(asked):
                     bases = leads.bases[steps[asked]]
                     answers[asked] = cloth.arm_clear(arm, bases, joints[asked], is_certain=is_certain)
             if is_alone:

@@ -22,7 +22,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
 from planner.plan.frame import ClothSurface
-from planner.task.cloth_motion import ClothMotion
+from planner.task.phase import ClothMotion
 
 LAYER_GAP_M = 0.0015
 """How far apart neighbouring layers are drawn (m)."""

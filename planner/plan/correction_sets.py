@@ -135,7 +135,7 @@ def _needed(way: Way, amount: float, trial: Trial) -> float:
 
 def _stays(relaxed: Relaxed) -> bool:
     """Whether the cloth stays where it lies at the start."""
-    return relaxed.work.unrest(0, relaxed.problem.start.offset) is None
+    return relaxed.problem.unrest is None
 
 
 class _Corrections:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
-from planner.primitives.phase import Phase
+from planner.task.phase import Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,8 +4,8 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from planner.plan.plan import Statistics
 from planner.primitives.reach import Reach
+from planner.task.plan import Statistics
 
 
 class Effort:

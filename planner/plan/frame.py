@@ -39,7 +39,9 @@ class Frame:
         base: the base in the table frame.
         torso_m: the lift (m).
         joints: every actuated joint by its URDF name (rad, m for prismatic ones).
+        velocities: every actuated joint's velocity just after that time (rad/s, m/s for prismatic ones).
         grippers_m: each gripper's opening by the arm's name (m).
+        placement: the article frame in the table frame.
         cloth: the cloth.
         top: the table top over which the cloth does not hang, open where it is held out beyond an edge.
     """
@@ -49,7 +51,9 @@ class Frame:
     base: Pose2
     torso_m: float
     joints: dict[str, float]
+    velocities: dict[str, float]
     grippers_m: dict[str, float]
+    placement: Pose2
     cloth: ClothSurface
     top: TableTop
 
@@ -61,5 +65,6 @@ class Frame:
             "base": self.base.to_dict(),
             "torso_m": self.torso_m,
             "joints": self.joints,
+            "velocities": self.velocities,
             "grippers_m": self.grippers_m,
         }

@@ -127,6 +127,8 @@ class FreeHands:
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
         away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
+        if away is None and np.array_equal(tail.joints[-1], home):  # at home already, at a table as high as the hands
+            away = np.array([home, home])
         back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
         assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)

@@ -7,7 +7,7 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.plan.cue import Cue
 from planner.plan.lying_cloth import LyingCloth
-from planner.primitives.phase import Phase
+from planner.task.phase import Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -44,9 +44,9 @@ class JointTrack:
         share = (t_s - start) / (end - start)
         return np.asarray((1.0 - share) * self.joints[after - 1] + share * self.joints[after])
 
-    def opening_at(self, arm: int, t_s: float) -> float:
-        """A gripper's opening at a time (m)."""
-        return float(np.interp(t_s, self._grip_times_s[arm], self._openings_m[arm]))
+    def openings(self, arm: int) -> tuple[list[float], list[float]]:
+        """Return a gripper's keyframes: when they are (s), and how far it is open then (m)."""
+        return self._grip_times_s[arm], self._openings_m[arm]
 
     def add(self, times_s: FloatArray, joints: FloatArray) -> None:
         """Add keyframes, shape (n,) and (n, arms, 7); those no later than the last are left out."""
@@ -54,6 +54,10 @@ class JointTrack:
             if t > self.times_s[-1]:
                 self.times_s.append(t)
                 self.joints.append(here)
+
+    def begin_closed(self, arm: int) -> None:
+        """Have a gripper hold cloth from the beginning."""
+        self._openings_m[arm][0] = CLOSED_M
 
     def close(self, arm: int, start_s: float, end_s: float) -> None:
         """Close a gripper from one time to another."""

@@ -42,8 +42,8 @@ HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray, LyingCloth | None],
 can it be there, clear of the cloth?"""
 
 
-Cloths = tuple[LyingCloth, LyingCloth]
-"""The cloth as it lies before a run, and after it."""
+Cloths = tuple[LyingCloth | None, LyingCloth]
+"""The cloth as it lies before a run, and after it; None before one that begins with cloth in the hands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,6 +169,9 @@ def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: Ha
     for number, line, cloth in ((0, APPROACH_M * coming, cloths[0]), (-1, leaving, cloths[1])):
         base, rotation = moments.bases[held[number]], rotations[number]
         corners = _corners(positions[number], line, lines.shares, height_m)
+        if number == 0 and cloth is None:
+            ends.append(positions[[0] * 3])
+            continue
         able = (c for c in corners if has_room(arm, base, c[-1], rotation, cloth if _is_far(c) else None))
         ends.append(next(able, positions[[number] * 3]))
     spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]

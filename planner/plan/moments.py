@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from planner.geometry.pose import Approach, BoolArray, FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, EDGE_RAD, nearest_whole
 from planner.plan.phase_shares import STEP_RAD, shares_of
-from planner.primitives.phase import Hand, Phase
+from planner.task.phase import Hand, Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
-from planner.primitives.phase import Phase
+from planner.task.phase import Phase
 
 STEP_M = 0.01
 """How far a tool or the base goes from one moment to the next at most (m)."""

@@ -14,9 +14,9 @@ from planner.plan.correction_sets import corrected
 from planner.plan.driving_bound import DrivingBound
 from planner.plan.edges import Edges
 from planner.plan.effort import Effort
+from planner.plan.found_plan import FoundPlan
 from planner.plan.greedy import WEIGHT, greedy
 from planner.plan.heuristic import HEURISTICS, Heuristic, arm_time
-from planner.plan.plan import Plan, Statistics
 from planner.plan.problem import Problem
 from planner.plan.quick_plan import quickly_planned
 from planner.plan.realizer import OutOfTimeError, Realizer
@@ -28,6 +28,7 @@ from planner.primitives.obstacle import situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.search.a_star import Outcome, SearchResult, a_star
+from planner.task.plan import Statistics
 from planner.task.reason import Reason
 
 LOOK_ALONE_AFTER = 180
@@ -60,9 +61,9 @@ class PlanSearch:
         heuristic: str,
         budget: Budget,
         max_expanded: int,
-        known: Plan | None = None,
-        like: Sequence[Plan] = (),
-        on_found: Callable[[Plan], None] | None = None,
+        known: FoundPlan | None = None,
+        like: Sequence[FoundPlan] = (),
+        on_found: Callable[[FoundPlan], None] | None = None,
     ) -> None:
         """A search that has not begun; its time runs.
 
@@ -73,7 +74,8 @@ class PlanSearch:
             max_expanded: the budget in states.
             known: a plan for the problem; only a quicker one is looked for.
             like: plans for problems like it, for one to fall back on.
-            on_found: told of a plan that was found meanwhile, while the search for the quickest goes on.
+            on_found: told of a plan that was found meanwhile, while the search for the quickest goes on; where there is
+                none, of the reasons that were met, while they are tried.
         """
         self._problem = problem
         self._work = problem.work
@@ -100,9 +102,14 @@ class PlanSearch:
         self._joint_time_s = 0.0
         self._is_looked_at_alone = self._has_tried_less = False
 
-    def plan(self, *, with_reasons: bool = True) -> Plan:
-        """The quickest plan, or why there is none, if that is of interest."""
-        unrest = self._work.unrest(0, self._problem.start.offset)
+    def plan(self, *, with_reasons: bool = True) -> FoundPlan:
+        """Return the quickest plan, or why there is none, if that is of interest."""
+        found = self._plan(with_reasons=with_reasons)
+        self._work.forget()
+        return found
+
+    def _plan(self, *, with_reasons: bool) -> FoundPlan:
+        unrest = self._problem.unrest
         if unrest is not None:
             met = Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
             why = self._tried(met) if with_reasons else ()
@@ -177,7 +184,7 @@ class PlanSearch:
         self._wanted, self._greedy_at_s = folds, math.inf
         self._is_trial = True
         start = self._problem.start
-        unrest = self._work.unrest(0, start.offset)
+        unrest = self._problem.unrest
         if unrest is not None:
             return Trial(self._work, None, False, lambda: (reason_at_start(self._work, unrest),))
         acts = None if may_collide else greedy(self._problem, start, Effort(), self._is_out_of_budget, folds)
@@ -248,7 +255,7 @@ class PlanSearch:
     @property
     def _limit_s(self) -> float:
         """What takes as long is no quicker than what is known (s)."""
-        known_s = [math.inf] if self._known is None else [self._known.cost_s or 0.0]
+        known_s = [math.inf] if self._known is None else [self._known.plan.cost_s or 0.0]
         if self._found:
             known_s.append(duration_s(self._found))
         return min(known_s) - TIME_S
@@ -259,7 +266,12 @@ class PlanSearch:
         return self._tried(found)
 
     def _tried(self, met: Trial) -> tuple[Reason, ...]:
-        return corrected(Relaxed.of(self._problem), met, self._ask, self._have_tried_enough)
+        """Return the reasons among what was met, each tried; what was met is told before, since to try takes long."""
+        why = met.measured()
+        if self._on_found is not None:
+            self._on_found(self._answer(Outcome.INFEASIBLE, (), why, is_cut_short=False))
+        known = replace(met, measured=lambda: why)
+        return corrected(Relaxed.of(self._problem), known, self._ask, self._have_tried_enough)
 
     def _ask(self, relaxed: Relaxed, folds: int) -> Trial:
         """Look whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
@@ -320,7 +332,7 @@ class PlanSearch:
         self._known = quickly_planned(self._budget.watch(self._problem.anew()), self._like, self._is_out_of_budget)
         if self._known is None:
             return
-        self._started += self._known.statistics.search_time_s + self._known.statistics.joint_time_s
+        self._started += self._known.plan.statistics.search_time_s + self._known.plan.statistics.joint_time_s
         if self._on_found is not None:
             self._on_found(self._known)
 
@@ -332,7 +344,9 @@ class PlanSearch:
         available = self._work.sequence.dag.available(self._achieved)
         return [fold for fold in available if self._wanted & ~self._achieved & 1 << fold]
 
-    def _answer(self, outcome: Outcome, acts: tuple[Act, ...], why: tuple[Reason, ...], is_cut_short: bool) -> Plan:
+    def _answer(
+        self, outcome: Outcome, acts: tuple[Act, ...], why: tuple[Reason, ...], is_cut_short: bool
+    ) -> FoundPlan:
         reach = self._work.reach
         elapsed = time.perf_counter() - self._started - self._joint_time_s
         statistics = Statistics(
@@ -347,7 +361,8 @@ class PlanSearch:
             is_cut_short,
         )
         if self._known is not None:
-            statistics = statistics.after(self._known.statistics)
-        self._work.forget()
+            statistics = statistics.after(self._known.plan.statistics)
         is_exhaustive = not is_cut_short and (bool(self._blocking) or not self._realizer.has_doubts)
-        return Plan.of(self._problem, outcome.value, acts, why, statistics, is_exhaustive)
+        if self._known is not None and acts is self._known.acts:
+            return self._known.told_again(self._problem.task, statistics, is_exhaustive=is_exhaustive)
+        return FoundPlan.of(self._problem, outcome.value, acts, why, statistics, is_exhaustive=is_exhaustive)

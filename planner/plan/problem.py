@@ -1,27 +1,25 @@
-"""One planning problem: a garment on a table, a robot, where it starts."""
+"""One planning problem: a task, made ready for planning."""
 
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 from planner.cloth.cloth_state import spread_out
+from planner.cloth.g_state import Unrest
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.folds.fold_cloth import fold_cloth
-from planner.folds.fold_sequence import FoldSequence
+from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.plan.machine import Machine
 from planner.plan.run_maker import RunMaker
 from planner.primitives.reach import Reach
-from planner.primitives.state import State
+from planner.primitives.state import Held, State
 from planner.primitives.unlimited_reach import UnlimitedReach
-from planner.primitives.work import Work
+from planner.primitives.work import BACK_OFFS_PER_M, DRAGS_PER_M, Work
 from planner.robot.pr2 import load_robot
 from planner.task.scene import Scene
-
-COMFORT_MAX_M = 0.1
-
-_GARMENTS = 8
-"""So many are not replayed again when somebody plans for them once more."""
+from planner.task.task import Task
+from planner.task.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,16 +27,46 @@ class Problem:
     """What is to be planned.
 
     Attributes:
+        task: what was asked.
         work: the garment's folds, the scene, the robot's reach, where the article lies.
         robot: the robot.
         maker: what finds its joint paths.
-        start: the state before the first primitive.
     """
 
+    task: Task
     work: Work
     robot: Machine
     maker: RunMaker
-    start: State
+
+    @property
+    def start(self) -> State:
+        """The state before the first primitive."""
+        return self.work.start
+
+    @property
+    def unrest(self) -> Unrest | None:
+        """Why the cloth would not stay where it lies at the start; None if it does."""
+        return self.work.unrest(self.start.done, self.start.offset)
+
+    def state_of(self, world: WorldState) -> State:
+        """Return a state of the world as the search knows it.
+
+        Raises:
+            RequestError: the base stands at no station, or an arm has a name that the robot has not.
+        """
+        names = [name for name, _ in self.work.scene.stations]
+        station = world.base.station or ""
+        if station not in names:
+            raise RequestError("base.station", f"{station!r} is none of {', '.join(names)}")
+        here, there = self.work.placement, world.placement
+        return State(
+            world.done,
+            (there.x_m - here.x_m, there.y_m - here.y_m),
+            names.index(station),
+            nearest_whole(world.base.back_off_m * BACK_OFFS_PER_M),
+            _held(world, self.robot),
+            nearest_whole(world.dragged_m * DRAGS_PER_M),
+        )
 
     def is_goal(self, state: State) -> bool:
         """Whether all folds are done."""
@@ -57,16 +85,28 @@ class Problem:
 
         So both are for one thread.
         """
-        work = self.work
-        wanted = scene or work.scene
-        machine, comfort = self.robot, work.reach.comfort_m if comfort_m is None else comfort_m
+        task, work, machine = self.task, self.work, self.robot
+        comfort = work.reach.comfort_m if comfort_m is None else comfort_m
+        moved = replace(task, garment=garment or task.garment).at(placement or task.start.placement).within(comfort)
+        changed = moved if scene is None else moved.in_scene(_without_nameless(scene))
         sequence = work.sequence if garment is None else replayed(garment)
+        wanted, start = _searched(changed, sequence, machine)
         is_alike = (wanted.torso_m, comfort) == (work.scene.torso_m, work.reach.comfort_m)
         reach = work.reach if is_alike else machine.reach(wanted.torso_m, comfort)
         behind = work.behind_max_m if behind_max_m is None else behind_max_m
         apart = work.grips_apart_m if grips_apart_m is None else grips_apart_m
-        changed = Work(sequence, wanted, reach, placement or work.placement, work.circle_m, behind, apart)
-        return Problem(changed, machine, RunMaker(changed, machine), self.start)
+        fresh = Work(sequence, wanted, reach, changed.start.placement, work.circle_m, behind, apart, start)
+        return Problem(changed, fresh, machine, RunMaker(fresh, machine))
+
+    @property
+    def may_let_go(self) -> bool:
+        """Whether something is held at the start that no red fold needs: to let go of it is free."""
+        return bool(self.start.held) and self.work.sequence.dag.last_of_begun_chain(self.start.done) is None
+
+    def let_go(self) -> "Problem":
+        """The same with free hands at the start; nothing is worked out yet."""
+        fresh = replace(self.anew().work, start=replace(self.start, held=(), dragged=0))
+        return Problem(self.task, fresh, self.robot, RunMaker(fresh, self.robot))
 
     def with_long_arms(self, more_hands: int = 0) -> "Problem":
         """The same for a robot whose hands reach every place, and some more; joint paths are not to be asked for."""
@@ -79,43 +119,71 @@ class Problem:
     def _with_reach(self, reach: Reach) -> "Problem":
         work = self.work
         limits = (work.circle_m, work.behind_max_m, work.grips_apart_m)
-        fresh = Work(work.sequence, work.scene, reach, work.placement, *limits)
-        return Problem(fresh, self.robot, RunMaker(fresh, self.robot), self.start)
+        fresh = Work(work.sequence, work.scene, reach, work.placement, *limits, work.start)
+        return Problem(self.task, fresh, self.robot, RunMaker(fresh, self.robot))
 
     @staticmethod
-    def of(
-        garment: Garment,
-        scene: Scene,
-        placement: Pose2 | None,
-        start_station: str,
-        robot: str,
-        comfort_radius_m: float,
-    ) -> "Problem":
-        """A problem; the attributes are those of `make_plan`.
+    def of(task: Task) -> "Problem":
+        """Make a task ready for planning.
 
         Raises:
             FoldError: a fold is not legal on the cloth as it is then.
-            RequestError: an option is out of range.
+            RequestError: there is no such robot, or the start is none that the folds allow.
         """
-        names = [name for name, _ in scene.stations]
-        if start_station not in names:
-            raise RequestError("start_station", f"{start_station!r} is none of {', '.join(names)}")
-        require_between("comfort_radius_m", comfort_radius_m, 0.0, COMFORT_MAX_M)
-        machine = load_robot(robot)
-        reach = machine.reach(scene.torso_m, comfort_radius_m)
-        work = Work(replayed(garment), scene, reach, placement or garment.placement, machine.card.base_radius_m)
-        start = State(0, (0.0, 0.0), names.index(start_station), 0)
-        return Problem(work, machine, RunMaker(work, machine), start)
+        machine, sequence = load_robot(task.robot), replayed(task.garment)
+        scene, start = _searched(task, sequence, machine)
+        reach = machine.reach(scene.torso_m, task.limits.comfort_radius_m)
+        work = Work(sequence, scene, reach, task.start.placement, machine.card.base_radius_m, start=start)
+        return Problem(task, work, machine, RunMaker(work, machine))
 
 
-def require_between(field: str, value: float, low: float, high: float) -> None:
-    """Raise `RequestError` for an option that is out of range."""
-    if not low <= value <= high:
-        raise RequestError(field, f"{value} is not between {low:g} and {high:g}")
+def _searched(task: Task, sequence: FoldSequence, machine: Machine) -> tuple[Scene, State]:
+    """Return the scene and the start as the search knows them: a base at no station has a station without a name."""
+    start, scene = task.start, task.scene
+    _require_folds_in_order(start, sequence)
+    station, back_off = _stand(task)
+    if station is None:
+        scene = replace(scene, stations=(*scene.stations, ("", start.base.pose)))
+        station = len(scene.stations) - 1
+    dragged = nearest_whole(start.dragged_m * DRAGS_PER_M)
+    return scene, State(start.done, (0.0, 0.0), station, back_off, _held(start, machine), dragged)
 
 
-replayed = lru_cache(_GARMENTS)(FoldSequence.of)
-"""A garment with its folds made legal. The latest are remembered, with what was worked out about their cloth."""
+def _without_nameless(scene: Scene) -> Scene:
+    """Return a scene without the station that stands for a base at none."""
+    return replace(scene, stations=tuple((name, pose) for name, pose in scene.stations if name))
+
+
+def _stand(task: Task) -> tuple[int | None, int]:
+    """Return the base's station and back-off on its grid; no station where it stands elsewhere."""
+    base, scene = task.start.base, task.scene
+    back_off = nearest_whole(base.back_off_m * BACK_OFFS_PER_M)
+    for number, (name, pose) in enumerate(scene.stations):
+        at = pose.ahead(-back_off / BACK_OFFS_PER_M)
+        is_there = max(abs(at.x_m - base.x_m), abs(at.y_m - base.y_m)) <= LENGTH_M
+        if name == base.station and is_there and back_off / BACK_OFFS_PER_M <= scene.back_off_max_m + LENGTH_M:
+            return number, back_off
+    return None, 0
+
+
+def _held(start: WorldState, machine: Machine) -> tuple[Held, ...]:
+    names = [arm.name for arm in machine.card.arms]
+    for number, held in enumerate(start.held):
+        if held.arm not in names:
+            raise RequestError(f"start.held[{number}].arm", f"{held.arm!r} is none of {', '.join(names)}")
+    found = [Held(names.index(held.arm), held.point) for held in start.held]
+    if len({held.arm for held in found}) < len(found):
+        raise RequestError("start.held", "an arm holds two points")
+    return tuple(sorted(found, key=lambda held: held.arm))
+
+
+def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
+    """Raise `RequestError` unless the folds done could be done in this order."""
+    done = 0
+    for number, fold in enumerate(start.folds_done):
+        if fold not in sequence.dag.available(done):
+            raise RequestError(f"start.folds_done[{number}]", f"fold {fold} cannot come there: it waits for others")
+        done |= 1 << fold
 
 
 def forget_garments() -> None:

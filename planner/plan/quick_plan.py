@@ -6,14 +6,14 @@ from dataclasses import replace
 from planner.plan.act import Act, in_turn
 from planner.plan.adapted import adapted
 from planner.plan.effort import Effort
+from planner.plan.found_plan import FoundPlan
 from planner.plan.greedy import greedy
 from planner.plan.heuristic import arm_time
-from planner.plan.plan import Plan
 from planner.plan.problem import Problem
 from planner.primitives.state import State
 
 
-def quickly_planned(problem: Problem, like: Sequence[Plan], is_over: Callable[[], bool]) -> Plan | None:
+def quickly_planned(problem: Problem, like: Sequence[FoundPlan], is_over: Callable[[], bool]) -> FoundPlan | None:
     """The first of some solved plans that still does, or the longest beginning of one and the rest found greedily.
 
     Args:
@@ -22,13 +22,13 @@ def quickly_planned(problem: Problem, like: Sequence[Plan], is_over: Callable[[]
         is_over: asked again and again; true means that there is no time.
     """
     work, effort = problem.work, Effort()
-    acts = _acts(problem, like, effort, is_over) if work.unrest(0, problem.start.offset) is None else ()
+    acts = _acts(problem, like, effort, is_over) if problem.unrest is None else ()
     statistics = effort.statistics(work.reach, arm_time(work)(problem.start))
     work.forget()
-    return Plan.of(problem, "solved", in_turn(acts), (), statistics, is_exhaustive=False) if acts else None
+    return FoundPlan.of(problem, "solved", in_turn(acts), (), statistics, is_exhaustive=False) if acts else None
 
 
-def _acts(problem: Problem, like: Sequence[Plan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:
+def _acts(problem: Problem, like: Sequence[FoundPlan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:
     """All that is to be done; nothing where that was not found."""
     begun: tuple[Act, ...] = ()
     for plan in like:

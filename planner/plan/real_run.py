@@ -6,8 +6,8 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.plan.carried import Carried
 from planner.plan.run_timing import RunTiming
-from planner.primitives.phase import Phase
 from planner.primitives.primitive import Step
+from planner.task.phase import Phase
 
 
 def is_carrying(phase: Phase) -> bool:

@@ -9,7 +9,6 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
-from planner.geometry.tolerance import grid_key
 from planner.plan.carried import Carried
 from planner.plan.carrying import Carrier
 from planner.plan.joint_track import CLOSED_M, OPEN_M
@@ -24,10 +23,10 @@ from planner.plan.snags import Snags
 from planner.plan.transits import Transits
 from planner.plan.tries import QUICK, Tries
 from planner.primitives.obstacle import Snag
-from planner.primitives.phase import Phase
 from planner.primitives.primitive import Step
 from planner.primitives.work import Work
 from planner.robot.tool_path import NoPath
+from planner.task.phase import Phase
 
 MARGIN_M = 0.001
 """How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
@@ -167,7 +166,8 @@ class RunMaker:
     def _candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
-        cloths = (self._cloths.of(steps[0].before), self._cloths.of(steps[-1].after))
+        before = None if steps[0].before.held else self._cloths.of(steps[0].before)
+        cloths = (before, self._cloths.of(steps[-1].after))
         return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> RealRun | None:
@@ -212,9 +212,12 @@ class RunMaker:
         lead, tail = carried.joints[: carried.first + 1], carried.joints[carried.last :]
         share_s = _HALF * max(motion_s - self.dwell_s, 0.0)
         room_s = motion_s - self.dwell_s - borrowed_s
-        is_first = steps[0].before.done == 0 and grid_key(max(map(abs, steps[0].before.offset))) == 0
+        start, before = self._work.start, steps[0].before
+        is_first = (before.done, before.place) == (start.done, start.place)
         is_last = steps[-1].after.done == (1 << len(self._work.sequence.folds)) - 1
-        came_s = self._needed_s(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0])
+        came_s: float | None = 0.0
+        if carried.cloths[0] is not None:
+            came_s = self._needed_s(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0])
         left_s: float | None = 0.0
         if came_s is not None and not is_last:
             left_s = self._needed_s(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1])

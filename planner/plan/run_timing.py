@@ -14,7 +14,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.plan.cue import Cue
 from planner.plan.moments import Moments
 from planner.plan.pacing import paced_s
-from planner.primitives.phase import Phase
+from planner.task.phase import Phase
 
 Carrying = Sequence[tuple[int, Phase]]
 """The phases of a run in which cloth is held, each with its primitive's number."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner.message import Message
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 
 ASSUMPTIONS = frozenset({"friction", "grip_radius", "comfort_radius"})
 """Kinds of suggestions that nobody can carry out: they hold only if the world is kinder than assumed."""

@@ -1,8 +1,10 @@
 """The work that a search for suggestions may do, and how much of it one trial may take."""
 
 from planner.plan.budget import Budget
-from planner.plan.plan import Plan
-from planner.plan.suggestion_trial import Asked
+from planner.plan.plan_search import PlanSearch
+from planner.plan.problem import Problem
+from planner.task.plan import Plan
+from planner.task.task import Task
 
 SHORTEST_TRIAL_S = 1.0
 """Less work would cut off most plans just before they are found (s, see `Budget`)."""
@@ -38,12 +40,13 @@ class TrialBudget:
         """Whether this share of the work has been done, or there is no more time."""
         return self.spent_s >= share * self._whole.work_limit_s or self.is_late
 
-    def plan(self, asked: Asked, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
-        """Plan a request with so much work, or what is left if that is less; else with a fraction of what is left."""
+    def plan(self, task: Task, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
+        """Plan a task with so much work, or what is left if that is less; else with a fraction of what is left."""
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
         part = self._whole.part(min(wanted_s, left_s))
         self.spent_s += _SETTING_UP_S
-        plan = asked.plan(part, with_reasons=with_reasons)
+        search = PlanSearch(Problem.of(task), task.limits.heuristic, part, task.limits.max_expanded)
+        plan = search.plan(with_reasons=with_reasons).plan
         self.spent_s += part.spent_s
         return plan

@@ -13,8 +13,9 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.message import Message
-from planner.plan.suggestion_trial import Asked, Proof, Search, Trial, narrowed
+from planner.plan.suggestion_trial import Proof, Search, Trial, narrowed
 from planner.plan.suggestion_words import direction_words, in_cm
+from planner.task.task import Task
 
 STEPS_M = (0.1, 0.2)
 NARROWED_TO_M = 0.0125
@@ -22,10 +23,10 @@ _FAR_M = 20.0
 _DECIMALS = 5
 
 
-def fold_lines(asked: Asked, folds: Sequence[int]) -> Search:
+def fold_lines(task: Task, folds: Sequence[int]) -> Search:
     """Look for the smallest shift of some folds, each alone and then all, to the side where less cloth moves first."""
-    each = [_Shift(asked, (fold,), sign) for fold in folds for sign in (1, -1)]
-    sides = each + ([_Shift(asked, tuple(folds), sign) for sign in (1, -1)] if len(folds) > 1 else [])
+    each = [_Shift(task, (fold,), sign) for fold in folds for sign in (1, -1)]
+    sides = each + ([_Shift(task, tuple(folds), sign) for sign in (1, -1)] if len(folds) > 1 else [])
     for before_m, shift_m in zip((0.0, *STEPS_M), STEPS_M, strict=False):
         for side in tuple(sides):
             trial = side.shifted(shift_m)
@@ -44,13 +45,13 @@ def fold_lines(asked: Asked, folds: Sequence[int]) -> Search:
 class _Shift:
     """Folds, and the side to which their lines may be shifted: 1 is left of each, where less moves; -1 right."""
 
-    asked: Asked
+    task: Task
     folds: tuple[int, ...]
     sign: int
 
     def shifted(self, by_m: float) -> Trial | None:
         """The trial of a shift of all their lines by as much; None where it is not legal."""
-        garment: Garment | None = self.asked.garment
+        garment: Garment | None = self.task.garment
         says = []
         for fold in self.folds:
             if garment is None:
@@ -62,7 +63,7 @@ class _Shift:
         change = {"garment": garment.to_dict()}
         text = " and ".join(one.text for one in says)
         told = says[0] if len(says) == 1 else Message("shift_folds", text, {"shifts": [one.to_dict() for one in says]})
-        return Trial("fold_line", told, change, by_m, replace(self.asked, garment=garment))
+        return Trial("fold_line", told, change, by_m, replace(self.task, garment=garment))
 
     def _moved(self, drawn: DrawnFold, by_m: float) -> Segment:
         line = Segment(drawn.start, drawn.end)
@@ -72,7 +73,7 @@ class _Shift:
 
     def _said(self, fold: int, by_m: float) -> Message:
         """What is to be done to one of them."""
-        drawn, placement = self.asked.garment.folds[fold], self.asked.placement
+        drawn, placement = self.task.garment.folds[fold], self.task.start.placement
         left = np.array(Segment(drawn.start, drawn.end).left)
         x, y = placement.to_outer(self.sign * left) - placement.to_outer(np.zeros(2))
         text = f"Shift fold {fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"

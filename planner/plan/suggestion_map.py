@@ -2,18 +2,16 @@
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
-from planner.cloth.garment import Garment
+from planner.errors import RequestError
 from planner.geometry.pose import Pose2
 from planner.plan.budget import Budget
-from planner.plan.make_plan import TIME_LIMIT_S, compile_kernels
-from planner.plan.problem import require_between
+from planner.plan.make_plan import compile_kernels
 from planner.plan.suggestion_budget import TrialBudget
 from planner.plan.suggestion_grid import Room
-from planner.plan.suggestion_trial import Asked
-from planner.task.scene import Scene
+from planner.task.task import Task
 
 STEP_M = (0.02, 1.0)
 """The finest and the coarsest map (m)."""
@@ -70,52 +68,27 @@ class PlacementMap:
         }
 
 
-def placement_map(
-    garment: Garment,
-    scene: Scene | None = None,
-    *,
-    placement: Pose2 | None = None,
-    start_station: str = "front",
-    robot: str = "pr2",
-    comfort_radius_m: float = 0.03,
-    heuristic: str = "arm_time",
-    time_limit_s: float = 10.0,
-    work_limit_s: float | None = None,
-    max_expanded: int = 100_000,
-    should_stop: Callable[[], bool] | None = None,
-    step_m: float = 0.1,
-) -> PlacementMap:
+def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], bool] | None = None) -> PlacementMap:
     """Plan a garment at every place of a grid; work left over is given to places that need more.
 
     Args:
-        garment: as for `make_plan`.
-        scene: likewise.
-        placement: likewise; the grid goes through it, and all placements have its heading.
-        start_station: as for `make_plan`.
-        robot: likewise.
-        comfort_radius_m: likewise.
-        heuristic: likewise.
-        time_limit_s: the budget of the whole map (s, 0.01..60).
-        work_limit_s: its budget in work; None for as much as the time limit. Where it ends the map, and not the time,
-            the same request has the same map on every machine.
-        max_expanded: the budget of each plan in states.
-        should_stop: asked while planning; true ends the map where it is.
+        task: what is to be planned; the grid goes through its placement, and all placements have its heading. Its
+            limits of time and work are the budget of the whole map, its limit in states that of each plan.
         step_m: the distance of neighbours (m, 0.02..1).
+        should_stop: asked while planning; true ends the map where it is.
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
         RequestError: an option is out of range.
     """
-    require_between("step_m", step_m, *STEP_M)
-    require_between("time_limit_s", time_limit_s, *TIME_LIMIT_S)
+    if not STEP_M[0] <= step_m <= STEP_M[1]:
+        raise RequestError("step_m", f"{step_m} is not between {STEP_M[0]:g} and {STEP_M[1]:g}")
     compile_kernels()
-    budget = TrialBudget(Budget.of(work_limit_s, time_limit_s, should_stop))
-    here = placement or garment.placement
-    scene = scene or Scene()
-    asked = Asked(garment, scene, here, start_station, robot, comfort_radius_m, heuristic, max_expanded)
-    moves = Room.of(garment, here, scene.table).moves(step_m)
+    budget = TrialBudget(Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop))
+    here = task.start.placement
+    moves = Room.of(task.garment, here, task.scene.table).moves(step_m)
     poses = [here.moved(i * step_m, j * step_m) for i, j in sorted(moves, key=_coarse_first)]
-    cells = _planned(asked, poses, budget)
+    cells = _planned(task, poses, budget)
     cells.sort(key=lambda cell: (cell.placement.x_m, cell.placement.y_m))
     return PlacementMap(step_m, tuple(cells), len(cells) == len(poses))
 
@@ -126,13 +99,13 @@ def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
     return (i % 2 + j % 2, i, j)
 
 
-def _planned(asked: Asked, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
+def _planned(task: Task, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
     """The cells known when the work is done; what needs more than a first try waits for the others."""
     waiting = deque((pose, _FIRST_TRY_S) for pose in poses)
     cells = []
     while waiting and not budget.has_spent(1.0):
         pose, try_s = waiting.popleft()
-        plan = budget.plan(replace(asked, placement=pose), try_s)
+        plan = budget.plan(task.at(pose), try_s)
         if plan.status != "budget_exceeded":
             cells.append(Cell(pose, plan.cost_s))
         else:

@@ -13,7 +13,8 @@ from planner.errors import FieldError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.message import Message
-from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
+from planner.plan.suggestion_trial import Proof, Search, Trial
+from planner.task.task import Task
 
 SWAPS_MAX = 3
 """Orders further than so many swaps of neighbours from the user's are not tried."""
@@ -45,12 +46,12 @@ class _Order:
             yield _Order((*self.chains[:i], second, first, *self.chains[i + 2 :]), self.swaps + 1)
 
 
-def orders(asked: Asked) -> Search:
+def orders(task: Task) -> Search:
     """Look for another order that gives a plan, the fewest swaps first; then for cheaper ones."""
     to_beat = None
-    for order, garment in _other_orders(asked.garment):
-        says = _in_words(asked.garment, order)
-        trial = Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(asked, garment=garment))
+    for order, garment in _other_orders(task.garment):
+        says = _in_words(task.garment, order)
+        trial = Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
         plan = yield trial
         if plan is None:
             return

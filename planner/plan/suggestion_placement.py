@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.plan.suggestion_grid import Room, turned_in_place
-from planner.plan.suggestion_trial import Asked, Narrowing, Proof, Search, Trial, narrowed
+from planner.plan.suggestion_trial import Narrowing, Proof, Search, Trial, narrowed
 from planner.plan.suggestion_words import moved_words
+from planner.task.task import Task
 
 STEP_M = 0.1
 """The grid of placements; every other one is looked at first."""
@@ -45,16 +46,16 @@ class _Place:
         return Message("place", text, {"quarters": self.quarters, "by": [self.dx_m, self.dy_m]})
 
 
-def placements(asked: Asked, known_cost_s: float | None) -> Search:
+def placements(task: Task, known_cost_s: float | None) -> Search:
     """Look for a nearby placement that gives a plan, and for the best one.
 
     Args:
-        asked: the request.
+        task: the task.
         known_cost_s: what its plan costs (s); then only a better place is told. None: it has none.
     """
     to_beat, best = known_cost_s, None
-    for place in _places(asked):
-        trial = _trial(asked, place)
+    for place in _places(task):
+        trial = _trial(task, place)
         plan = yield trial
         if plan is None:
             break
@@ -62,41 +63,41 @@ def placements(asked: Asked, known_cost_s: float | None) -> Search:
         if proof is None:
             continue
         if to_beat is None:
-            nearest = yield from _nearer(asked, place, proof)
+            nearest = yield from _nearer(task, place, proof)
             to_beat = nearest.cost_s
         best = proof if best is None or proof.cost_s < best.cost_s else best
     if best is not None and to_beat is not None and best.is_worth_more_than(to_beat):
         yield best.suggestion
 
 
-def _nearer(asked: Asked, place: _Place, proof: Proof) -> Narrowing:
+def _nearer(task: Task, place: _Place, proof: Proof) -> Narrowing:
     """The nearest place in the same direction that works."""
     far_m = place.distance_m
-    room = _room(asked, place.quarters)
+    room = _room(task, place.quarters)
 
     def at(distance_m: float) -> Trial | None:
         share = distance_m / far_m
         nearer = replace(place, dx_m=share * place.dx_m, dy_m=share * place.dy_m)
-        return _trial(asked, nearer) if room.holds(nearer.dx_m, nearer.dy_m) else None
+        return _trial(task, nearer) if room.holds(nearer.dx_m, nearer.dy_m) else None
 
     start_m = far_m - NARROWED_TO_M * round(far_m / NARROWED_TO_M)
     return narrowed(at, start_m, far_m, proof, NARROWED_TO_M)
 
 
-def _trial(asked: Asked, place: _Place) -> Trial:
-    pose = _turned(asked, place.quarters).moved(place.dx_m, place.dy_m)
-    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, replace(asked, placement=pose))
+def _trial(task: Task, place: _Place) -> Trial:
+    pose = _turned(task, place.quarters).moved(place.dx_m, place.dy_m)
+    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose))
 
 
-def _places(asked: Asked) -> list[_Place]:
+def _places(task: Task) -> list[_Place]:
     """All places but the one where it lies: on the coarse grid first, and there the nearest."""
-    found = [(is_coarse, place) for quarters in _TURNS for is_coarse, place in _turned_places(asked, quarters)]
+    found = [(is_coarse, place) for quarters in _TURNS for is_coarse, place in _turned_places(task, quarters)]
     found.sort(key=lambda one: (not one[0], one[1].size, one[1].dx_m, one[1].dy_m))
     return [place for _, place in found if place.size > NARROWED_TO_M / 2]
 
 
-def _turned_places(asked: Asked, quarters: int) -> Iterator[tuple[bool, _Place]]:
-    room = _room(asked, quarters)
+def _turned_places(task: Task, quarters: int) -> Iterator[tuple[bool, _Place]]:
+    room = _room(task, quarters)
     if not room.is_none:
         yield True, _Place(quarters, *room.nearest)
     for i, j in room.moves(STEP_M):
@@ -104,9 +105,9 @@ def _turned_places(asked: Asked, quarters: int) -> Iterator[tuple[bool, _Place]]
             yield i % 2 == 0 and j % 2 == 0, _Place(quarters, i * STEP_M, j * STEP_M)
 
 
-def _room(asked: Asked, quarters: int) -> Room:
-    return Room.of(asked.garment, _turned(asked, quarters), asked.scene.table)
+def _room(task: Task, quarters: int) -> Room:
+    return Room.of(task.garment, _turned(task, quarters), task.scene.table)
 
 
-def _turned(asked: Asked, quarters: int) -> Pose2:
-    return turned_in_place(asked.garment, asked.placement, quarters)
+def _turned(task: Task, quarters: int) -> Pose2:
+    return turned_in_place(task.garment, task.start.placement, quarters)

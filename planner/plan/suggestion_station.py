@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from planner.geometry.pose import Pose2, wrapped_angle
 from planner.message import Message
-from planner.plan.suggestion_trial import Asked, Proof, Search, Trial
+from planner.plan.suggestion_trial import Proof, Search, Trial
 from planner.plan.suggestion_words import moved_words
 from planner.task.scene import STATIONS_MAX, Scene
+from planner.task.task import Task
 
 STAND_OFF_M = 0.15
 """How far outside the table's edge the base's centre stands."""
@@ -17,11 +18,11 @@ _SAME_M = 0.05
 _SAME_RAD = 0.1
 
 
-def stations(asked: Asked) -> Search:
+def stations(task: Task) -> Search:
     """Look for one more station that gives a plan; then for one that gives a cheaper plan."""
     to_beat = None
-    for name, pose in _others(asked.scene):
-        trial = _trial(asked, name, pose)
+    for name, pose in _others(task.scene):
+        trial = _trial(task, name, pose)
         plan = yield trial
         if plan is None:
             return
@@ -31,11 +32,11 @@ def stations(asked: Asked) -> Search:
             to_beat = proof.cost_s
 
 
-def _trial(asked: Asked, name: str, pose: Pose2) -> Trial:
-    scene = replace(asked.scene, stations=(*asked.scene.stations, (name, pose)))
+def _trial(task: Task, name: str, pose: Pose2) -> Trial:
+    scene = replace(task.scene, stations=(*task.scene.stations, (name, pose)))
     text = f"Let the robot also stand at {_in_words(name, pose)}"
     says = Message("stand_also_at", text, {"station": name, "at": [pose.x_m, pose.y_m]})
-    return Trial("station", says, {"scene": scene.to_dict()}, 1.0, replace(asked, scene=scene))
+    return Trial("station", says, {"scene": scene.to_dict()}, 1.0, task.in_scene(scene))
 
 
 def _in_words(name: str, pose: Pose2) -> str:

@@ -9,40 +9,13 @@ from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
-from planner.cloth.garment import Garment
-from planner.geometry.pose import Pose2
 from planner.message import Message
-from planner.plan.budget import Budget
-from planner.plan.plan import Plan
-from planner.plan.plan_search import PlanSearch
-from planner.plan.problem import Problem
 from planner.plan.suggestion import Suggestion
-from planner.task.scene import Scene
+from planner.task.plan import Plan
+from planner.task.task import Task
 
 WORTH_TELLING_S = 1.0
 """A second suggestion of a kind, or one where there is a plan already, saves at least this much (s)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A plan request, budget apart; the attributes are those of `make_plan`, `placement` filled in."""
-
-    garment: Garment
-    scene: Scene
-    placement: Pose2
-    start_station: str
-    robot: str
-    comfort_radius_m: float
-    heuristic: str
-    max_expanded: int
-
-    def plan(self, budget: Budget, *, with_reasons: bool = False) -> Plan:
-        """The answer to the request, reasons aside unless they are asked for; raises what `make_plan` does."""
-        problem = Problem.of(
-            self.garment, self.scene, self.placement, self.start_station, self.robot, self.comfort_radius_m
-        )
-        search = PlanSearch(problem, self.heuristic, budget, self.max_expanded)
-        return search.plan(with_reasons=with_reasons)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +27,14 @@ class Trial:
         says: what to do.
         change: the fields of the request that change.
         size: how big the change is.
-        asked: the request with the change.
+        task: the task with the change.
     """
 
     kind: str
     says: Message
     change: Mapping[str, Any]
     size: float
-    asked: Asked
+    task: Task
 
 
 class Proof(NamedTuple):

@@ -8,14 +8,8 @@ assumptions about the world after it. A request that has a plan is only told of 
 from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TypeAlias
 
-from planner.cloth.garment import Garment
-from planner.errors import RequestError
-from planner.geometry.pose import Pose2
 from planner.plan.budget import Budget
-from planner.plan.heuristic import HEURISTICS
-from planner.plan.make_plan import EXPANDED_MAX, TIME_LIMIT_S, compile_kernels
-from planner.plan.plan import Plan
-from planner.plan.problem import require_between
+from planner.plan.make_plan import compile_kernels
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_assumption import comforts, frictions, grip_radii
 from planner.plan.suggestion_budget import TrialBudget
@@ -23,9 +17,10 @@ from planner.plan.suggestion_fold_line import fold_lines
 from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_placement import placements
 from planner.plan.suggestion_station import stations
-from planner.plan.suggestion_trial import Asked, Search, Trial
+from planner.plan.suggestion_trial import Search, Trial
+from planner.task.plan import Plan
 from planner.task.reason import Code
-from planner.task.scene import Scene
+from planner.task.task import Task
 
 TOLD_MAX = 3
 """So many suggestions of one kind at most."""
@@ -38,39 +33,16 @@ _CHANGES_SHARE = 0.6
 _FOLDS_MAX = 3
 
 
-def suggestions(
-    garment: Garment,
-    scene: Scene | None = None,
-    *,
-    placement: Pose2 | None = None,
-    start_station: str = "front",
-    robot: str = "pr2",
-    comfort_radius_m: float = 0.03,
-    heuristic: str = "arm_time",
-    time_limit_s: float = 10.0,
-    work_limit_s: float | None = None,
-    max_expanded: int = 100_000,
-    should_stop: Callable[[], bool] | None = None,
-    plan: Plan | None = None,
-) -> Suggestions:
+def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, plan: Plan | None = None) -> Suggestions:
     """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
 
-    The request is planned before this returns, so that bad input raises here and not while iterating.
+    The task is planned before this returns, so that bad input raises here and not while iterating.
 
     Args:
-        garment: as for `make_plan`, like all that follow.
-        scene: likewise.
-        placement: likewise.
-        start_station: likewise.
-        robot: likewise.
-        comfort_radius_m: likewise.
-        heuristic: likewise.
-        time_limit_s: the budget of the whole search (s, 0.01..60).
-        work_limit_s: its budget in work; None for as much as the time limit. Where it ends the search, and not the
-            time, the same request has the same suggestions on every machine.
-        max_expanded: the budget of each plan in states.
+        task: what is to be planned; its limits of time and work are the budget of the whole search, its limit in
+            states that of each plan.
         should_stop: asked while searching; true ends the suggestions.
-        plan: the answer to the request, where it is known.
+        plan: the answer to the task, where it is known.
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; in the end whether every change that could
@@ -78,37 +50,23 @@ def suggestions(
 
     Raises:
         FoldError: a fold is not legal on the cloth as it is then.
-        RequestError: an option is out of range.
+        RequestError: the task's start is none that its folds allow, or there is no such robot.
     """
-    require_between("time_limit_s", time_limit_s, *TIME_LIMIT_S)
-    require_between("max_expanded", max_expanded, 1, EXPANDED_MAX)
-    if heuristic not in HEURISTICS:
-        raise RequestError("heuristic", f"{heuristic!r} is none of {', '.join(HEURISTICS)}")
-    asked = Asked(
-        garment,
-        scene or Scene(),
-        placement or garment.placement,
-        start_station,
-        robot,
-        comfort_radius_m,
-        heuristic,
-        max_expanded,
-    )
     compile_kernels()
-    whole = Budget.of(work_limit_s, time_limit_s, should_stop)
+    whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     budget = TrialBudget(whole)
-    known = plan or budget.plan(asked, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
-    return _searched(asked, known, budget)
+    known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
+    return _searched(task, known, budget)
 
 
-def _searched(asked: Asked, known: Plan, budget: TrialBudget) -> Suggestions:
+def _searched(task: Task, known: Plan, budget: TrialBudget) -> Suggestions:
     """Let every kind of change have its turns, and in the end its last word."""
     if known.is_solved:
-        changes, assumptions = [_Lane(placements(asked, known.cost_s))], []
+        changes, assumptions = [_Lane(placements(task, known.cost_s))], []
     else:
         folds = _blocking(known)
-        changes = _lanes(fold_lines(asked, folds), placements(asked, None), orders(asked), stations(asked))
-        assumptions = _lanes(comforts(asked), frictions(asked, known.reasons), grip_radii(asked, folds, known.reasons))
+        changes = _lanes(fold_lines(task, folds), placements(task, None), orders(task), stations(task))
+        assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
     yield from _by_turns(changes, budget, _CHANGES_SHARE if assumptions else 1.0)
     yield from _by_turns(assumptions, budget, 1.0)
     yield from _by_turns(changes, budget, 1.0)
@@ -160,7 +118,7 @@ class _Lane:
         begun_s = budget.spent_s
         found = [] if self._trial is not None else list(self._told_of(None))
         if self._trial is not None and not self.is_done:
-            found += self._told_of(budget.plan(self._trial.asked))
+            found += self._told_of(budget.plan(self._trial.task))
         self.spent_s += budget.spent_s - begun_s
         yield from found
 

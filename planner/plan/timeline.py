@@ -1,26 +1,18 @@
-"""A plan as a film: what robot and cloth do at every moment.
+"""What a plan looks like at every moment: a function of the plan alone.
 
-A plan is turned once into cues for base and cloth and keyframes for the arms (see `planner.plan.film`), between which
-everything moves evenly; the cloth is drawn from the phase itself. `Timeline.at` only looks up and interpolates, so
-the same time always gives the same frame.
+It needs no robot and no search, so a plan that was read from a file is played like one that was just made.
 """
 
-from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from planner.errors import RequestError
+from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
-from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.plan.cloth_surface import ClothSurfaces
-from planner.plan.film import Film
 from planner.plan.frame import Frame
-from planner.primitives.phase import Hand, Phase
-from planner.primitives.state import State
-from planner.primitives.work import Work
-from planner.robot.card import RobotCard
-from planner.task.cloth_motion import ClothMotion
+from planner.task.plan import Plan
+from planner.task.trajectory import Trajectory
 
 RATE_HZ = (1.0, 200.0)
 
@@ -30,60 +22,63 @@ _SINK_S = 0.4
 
 @dataclass(frozen=True)
 class Timeline:
-    """What happens from 0 to the plan's end.
+    """A solved plan from 0 to its end.
 
     Attributes:
-        duration_s: the plan's cost (s).
+        plan: the plan.
+        trajectory: its trajectory.
     """
 
-    duration_s: float
-    _film: Film
-    _surfaces: ClothSurfaces
-    _card: RobotCard
-    _torso_m: float
+    plan: Plan
+    trajectory: Trajectory
+    _surfaces: ClothSurfaces = field(repr=False, compare=False)
 
     @staticmethod
-    def of(film: Film, duration_s: float, work: Work, card: RobotCard) -> "Timeline":
-        """The timeline of a film that lasts as long as the plan (s)."""
-        return Timeline(duration_s, film, ClothSurfaces(work.sequence), card, work.scene.torso_m)
+    def of(plan: Plan) -> "Timeline":
+        """Return the timeline of a plan; raises `UnsolvedPlanError`."""
+        if plan.trajectory is None:
+            raise UnsolvedPlanError(plan.status)
+        return Timeline(plan, plan.trajectory, ClothSurfaces(plan.sequence))
+
+    @property
+    def duration_s(self) -> float:
+        """The plan's cost (s)."""
+        return self.trajectory.duration_s
 
     def at(self, t_s: float) -> Frame:
-        """The frame at a time (s); times before the start or after the end give the first or last frame."""
+        """Return the frame at a time (s); times before the start or after the end give the first or last frame."""
+        path = self.trajectory
         t = min(max(t_s, 0.0), self.duration_s)
-        number = self._cue_at(t)
-        cue, since = self._film.cues[number], t - self._film.starts_s[number]
-        arms = self._card.arms
-        openings = [self._film.track.opening_at(arm, t) for arm in range(len(arms))]
-        phase = cue.phase
+        number = path.index_at(t)
+        segment = path.segments[number]
+        cloth = segment.phase.cloth
         return Frame(
             t,
-            cue.primitive,
-            cue.base_at(since),
-            self._torso_m,
-            self._card.joint_values(self._torso_m, list(self._film.track.joints_at(t)), openings),
-            {arm.name: opening for arm, opening in zip(arms, openings, strict=True)},
-            self._surfaces.at(phase.cloth, cue.fraction_at(since), self._droop(number, t)),
-            phase.cloth.top,
+            segment.step,
+            segment.base_at(t),
+            path.torso_m,
+            path.joints_at(t),
+            path.velocities_at(t),
+            {track.arm: track.opening_at(t) for track in path.grippers},
+            segment.placement_at(t),
+            self._surfaces.at(cloth, segment.fraction_at(t), self._droop(number, t)),
+            cloth.top,
         )
 
     def base_at(self, t_s: float) -> Pose2:
-        """Where the base is at a time, table frame; the same as in the frame of that time, and soon known."""
+        """Return where the base is at a time, table frame: the same as in the frame of that time, and soon known."""
         t = min(max(t_s, 0.0), self.duration_s)
-        number = self._cue_at(t)
-        return self._film.cues[number].base_at(t - self._film.starts_s[number])
-
-    def _cue_at(self, t_s: float) -> int:
-        return max(0, bisect_right(self._film.starts_s, t_s) - 1)
+        return self.trajectory.segment_at(t).base_at(t)
 
     def _droop(self, number: int, t_s: float) -> float:
-        """How far cloth that was held out in the phase before has sunk: 1 when it hangs."""
-        cues = self._film.cues
-        if number == 0 or cues[number - 1].phase.cloth.top == cues[number].phase.cloth.top:
+        """How far cloth that was held out in the segment before has sunk: 1 when it hangs."""
+        segments = self.trajectory.segments
+        if number == 0 or segments[number - 1].phase.cloth.top == segments[number].phase.cloth.top:
             return 1.0
-        return min((t_s - self._film.starts_s[number]) / _SINK_S, 1.0)
+        return min((t_s - segments[number].start_s) / _SINK_S, 1.0)
 
     def samples(self, rate_hz: float) -> Iterator[Frame]:
-        """Frames at an even rate from 0 to the end; the last stands exactly at the end.
+        """Yield frames at an even rate from 0 to the end; the last stands exactly at the end.
 
         Raises:
             RequestError: the rate is not between 1 and 200 Hz.
@@ -95,11 +90,3 @@ class Timeline:
             yield self.at(count / rate_hz)
             count += 1
         yield self.at(self.duration_s)
-
-
-def standing(work: Work, state: State) -> Phase:
-    """A phase of no length in which nothing moves: all there is to see of a plan without primitives."""
-    base, placement = work.base_pose(state.station, state.back_off), work.placed(state.offset)
-    free: tuple[Hand | None, ...] = (None,) * len(work.reach.arm_names)
-    still = ClothMotion(state.done, placement, placement, TableTop.of(work.scene.table))
-    return Phase(0.0, (base, base), free, still)

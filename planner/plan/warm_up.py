@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from planner.cloth.garment import Garment
 from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.plan.driving_bound import DrivingBound
-from planner.plan.plan import Plan
+from planner.plan.found_plan import FoundPlan
+from planner.plan.timeline import Timeline
 from planner.primitives.base_legs import travel
 from planner.robot.tool_path import ToolPath
 
@@ -39,7 +40,7 @@ class _InTheWay:
 
 
 @cache
-def warm_up(plan: Callable[[Garment], Plan]) -> None:
+def warm_up(plan: Callable[[Garment], FoundPlan]) -> None:
     """Plan a napkin, play it, ask why places are out of reach, lead arms past each other: that touches all.
 
     Args:
@@ -47,16 +48,16 @@ def warm_up(plan: Callable[[Garment], Plan]) -> None:
     """
     gc.freeze()  # modules are no garbage, and to look through them stops everything for some hundredths of a second
     found = plan(Garment.from_dict(_NAPKIN))
-    found.timeline().at(0.0)
-    reach = found.work.reach
+    Timeline.of(found.plan).at(0.0)
+    reach = found.problem.work.reach
     for point in (_FAR, _EDGE):
         reach.shortfall(0, point, np.array([0]))
         reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
         reach.shortfall_together(0, point[None, None], np.array([0]))
         reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
     travel(np.ones((1, 2), dtype=np.uint32), 2)
-    DrivingBound(found.work, found.problem.start)
-    robot, torso_m = found.problem.robot, found.work.scene.torso_m
+    DrivingBound(found.problem.work, found.problem.start)
+    robot, torso_m = found.problem.robot, found.problem.work.scene.torso_m
     left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
     robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
     gc.freeze()  # nor is what has been compiled

@@ -18,12 +18,11 @@ from planner.geometry.pose import Point2, Pose2, wrapped_angle
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
-from planner.primitives.phase import Hand, Phase
 from planner.primitives.primitive import InTime, Later
 from planner.primitives.state import State
 from planner.primitives.work import Work
-from planner.task.cloth_motion import ClothMotion
-from planner.task.grip import Grip
+from planner.task.grip import Grip, Holding
+from planner.task.phase import ClothMotion, Hand, Phase
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +77,7 @@ class MoveStep:
     @property
     def details(self) -> dict[str, Any]:
         """From where, to where, and the way."""
-        names = [name for name, _ in self.work.scene.stations]
+        names = [name or None for name, _ in self.work.scene.stations]
         waypoints = [[p.x_m, p.y_m, p.yaw_rad] for p in self.route.waypoints]
         return {
             "from": names[self.before.station],
@@ -86,10 +85,9 @@ class MoveStep:
             "waypoints": waypoints,
         }
 
-    @property
-    def summary(self) -> str:
-        """From where to where."""
-        return f"{self.details['from']} to {self.details['to']}"
+    def holdings(self) -> tuple[Holding, ...]:
+        """Nothing is held."""
+        return ()
 
     def phases(self) -> tuple[Phase, ...]:
         """One phase for each leg, the hands free."""

@@ -6,10 +6,7 @@ from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.primitives.work import Work
-
-DRAGS_PER_M = 10
-"""The grid of drag distances: one every 10 cm."""
+from planner.primitives.work import DRAGS_PER_M, Work
 
 
 def longest_drag(work: Work) -> int:

@@ -10,14 +10,13 @@ import numpy as np
 
 from planner.geometry.pose import Approach, FloatArray, Point3
 from planner.geometry.table_top import TableTop
-from planner.primitives.drag_grips import DRAGS_PER_M, dragged
+from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
 from planner.primitives.drag_way import DragWay, DragWays
-from planner.primitives.grasping import approaches_from_outside, by_nearness
-from planner.primitives.phase import Hand, Phase
+from planner.primitives.grasping import approaches_from_outside, by_nearness, holdings
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, Work
-from planner.task.cloth_motion import ClothMotion
-from planner.task.grip import Grip
+from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, DRAGS_PER_M, Work
+from planner.task.grip import Grip, Holding
+from planner.task.phase import ClothMotion, Hand, Phase
 
 
 @dataclass(frozen=True)
@@ -68,10 +67,11 @@ class DragStep:
         """How far, and whether the hands keep hold afterwards."""
         return {"distance_m": self.distance_m, "holds": bool(self.after.held)}
 
-    @property
-    def summary(self) -> str:
-        """How far."""
-        return f"{self.distance_m:.1f} m" + (", hold on" if self.after.held else "")
+    def holdings(self) -> tuple[Holding, ...]:
+        """Return what each arm holds, and which vertices Theorem 2 asks for."""
+        before = self.before
+        covers = drag_covers(self.work, before.done, before.offset, towards_robot(self.work, before.station))
+        return holdings(self.way.taken, covers.vertices, self.work.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, back off with the cloth."""

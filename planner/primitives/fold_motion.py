@@ -11,10 +11,9 @@ from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, nearest_whole
 from planner.primitives.base_legs import legs
 from planner.primitives.fold_way import FoldWay
-from planner.primitives.phase import Hand, Phase
 from planner.primitives.state import State
 from planner.primitives.work import Work
-from planner.task.cloth_motion import ClothMotion
+from planner.task.phase import ClothMotion, Hand, Phase
 
 _DENSE_SWEEP = 0.02
 

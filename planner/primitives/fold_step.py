@@ -13,11 +13,11 @@ from planner.primitives.fold_motion import FoldMotion
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
-from planner.primitives.grasping import by_nearness, like_approach
-from planner.primitives.phase import Phase
+from planner.primitives.grasping import by_nearness, holdings, like_approach
 from planner.primitives.state import Held, State
 from planner.primitives.work import Work
-from planner.task.grip import Grip
+from planner.task.grip import Grip, Holding
+from planner.task.phase import Phase
 
 _DENSE_SWEEP = 0.02
 
@@ -69,10 +69,11 @@ class FoldStep:
         """Which fold, and whether the hands keep hold for a red fold that follows."""
         return {"fold": self.way.trial.fold, "holds": bool(self.after.held)}
 
-    @property
-    def summary(self) -> str:
-        """The fold's name."""
-        return self.work.sequence.folds[self.way.trial.fold].name
+    def holdings(self) -> tuple[Holding, ...]:
+        """Return what each arm holds, and which vertices Theorem 1 asks for."""
+        work, trial = self.work, self.way.trial
+        covers = work.sequence.covers(trial.fold, work.scene.support_angle_rad, len(work.reach.arm_names))
+        return holdings(trial.taken, covers.vertices, work.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, and follow the path with the base's legs in between."""

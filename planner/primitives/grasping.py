@@ -1,7 +1,7 @@
 """Which arm takes which grip, and from which directions it may."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, permutations
 from typing import Protocol, TypeVar
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
 from planner.primitives.work import Work
+from planner.task.grip import Holding
 
 _PREFERRED_PITCH_RAD = math.radians(30.0)
 
@@ -65,6 +66,21 @@ def hand_key(work: Work, station: int, arm: int, tools: FloatArray) -> tuple[int
 def side_of(work: Work, arm: int) -> float:
     """Return on which side of the robot an arm is: 1 left, -1 right."""
     return math.copysign(1.0, work.reach.shoulders[arm][1])
+
+
+def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names: Sequence[str]) -> tuple[Holding, ...]:
+    """Return what each arm holds, from the leftmost to the rightmost, each vertex with the grip nearest to it.
+
+    Args:
+        taken: the grip of each arm, article frame (m).
+        vertices: what must be held, article frame (m).
+        arm_names: the names of all arms.
+    """
+    nearest = [min(taken, key=lambda arm: (math.dist(taken[arm], vertex), arm)) for vertex in vertices]
+    return tuple(
+        Holding(arm_names[arm], taken[arm], tuple(v for v, by in zip(vertices, nearest, strict=True) if by == arm))
+        for arm in sorted(taken)
+    )
 
 
 class Taking(Protocol):

@@ -12,14 +12,13 @@ import numpy as np
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
-from planner.primitives.drag_grips import DRAGS_PER_M
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_question import FoldQuestions
 from planner.primitives.fold_trial import held_covers
 from planner.primitives.primitive import Later
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFFS_PER_M, Work
+from planner.primitives.work import BACK_OFFS_PER_M, DRAGS_PER_M, Work
 
 STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
 """So many steps of the back-off grid has one of the grid of drags."""

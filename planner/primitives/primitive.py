@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
-from planner.primitives.phase import Phase
 from planner.primitives.state import State
 from planner.primitives.work import Work
-from planner.task.grip import Grip
+from planner.task.grip import Grip, Holding
+from planner.task.phase import Phase
 
 
 class Step(Protocol):
@@ -43,9 +43,8 @@ class Step(Protocol):
         """The fields of its JSON that only this kind has."""
         ...
 
-    @property
-    def summary(self) -> str:
-        """What it does, in a few words."""
+    def holdings(self) -> tuple[Holding, ...]:
+        """Return what each arm holds, from the leftmost to the rightmost, and which vertices had to be held."""
         ...
 
     def phases(self) -> tuple[Phase, ...]:

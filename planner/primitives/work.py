@@ -29,6 +29,11 @@ BACK_OFFS_PER_M = 20
 BACK_OFF_STEP_M = 1 / BACK_OFFS_PER_M
 """From one back-off to the next (m)."""
 
+DRAGS_PER_M = 10
+"""The grid of drag distances: one every 10 cm."""
+
+_START = State(0, (0.0, 0.0), 0, 0)
+
 
 @dataclass(frozen=True)
 class Work:
@@ -42,6 +47,7 @@ class Work:
         circle_m: radius of the circle round the base that must clear the table when it turns (m).
         behind_max_m: how far the part that a fold moves may reach behind its line's extension (m).
         grips_apart_m: two grips nearer to each other than this cannot be taken by two hands (m).
+        start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
     """
 
@@ -52,6 +58,7 @@ class Work:
     circle_m: float
     behind_max_m: float = 0.0
     grips_apart_m: float = GRIPS_APART_M
+    start: State = _START
     obstacles: Obstacles = field(default_factory=Obstacles)
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
@@ -88,10 +95,9 @@ class Work:
         return self.station_pose(station).ahead(-back_off / BACK_OFFS_PER_M)
 
     def base_stop(self, state: State) -> BaseStop:
-        """Where the base stands in a state."""
-        name = self.scene.stations[state.station][0]
-        pose = self.base_pose(state.station, state.back_off)
-        return BaseStop(name, state.back_off / BACK_OFFS_PER_M, pose)
+        """Return where the base stands in a state; a station without a name is none."""
+        name, pose = self.scene.stations[state.station]
+        return BaseStop.at(name or None, pose, state.back_off / BACK_OFFS_PER_M)
 
     def drive_s(self, steps: float) -> float:
         """The time to drive so many steps of the back-off grid (s)."""

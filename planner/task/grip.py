@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from planner.geometry.pose import Point3, Pose2
+from planner.geometry.pose import Point2, Point3, Pose2
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,19 +29,49 @@ class Grip:
 
 
 @dataclass(frozen=True, slots=True)
-class BaseStop:
-    """Where a primitive leaves the base.
+class Holding:
+    """What one arm holds in a step, and why.
 
     Attributes:
-        station: the station's name.
-        back_off_m: how far the base has backed off from it (m).
-        pose: the base in the table frame.
+        arm: the arm's name.
+        point: where it grips, article frame as the cloth lies before the step (m).
+        vertices: the vertices that must be held and that this grip holds, same frame (m).
     """
 
-    station: str
+    arm: str
+    point: Point2
+    vertices: tuple[Point2, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BaseStop:
+    """Where the base stands, in the table frame.
+
+    Attributes:
+        station: the station's name; None where it stands at none.
+        back_off_m: how far it has backed off from the station, along its own -x (m).
+        x_m: the base's x (m).
+        y_m: its y (m).
+        yaw_rad: its heading (rad).
+    """
+
+    station: str | None
     back_off_m: float
-    pose: Pose2
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+    @staticmethod
+    def at(station: str | None, station_pose: Pose2, back_off_m: float = 0.0) -> "BaseStop":
+        """Return the place of a base that has backed off from a station's pose."""
+        pose = station_pose.ahead(-back_off_m)
+        return BaseStop(station, back_off_m, pose.x_m, pose.y_m, pose.yaw_rad)
+
+    @property
+    def pose(self) -> Pose2:
+        """The base in the table frame."""
+        return Pose2(self.x_m, self.y_m, self.yaw_rad)
 
     def to_dict(self) -> dict[str, Any]:
-        """The stop as JSON."""
-        return {"station": self.station, "back_off_m": self.back_off_m, **self.pose.to_dict()}
+        """Return the place as JSON."""
+        return {name: getattr(self, name) for name in self.__slots__}

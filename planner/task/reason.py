@@ -7,6 +7,7 @@ from typing import Any
 
 from planner.geometry.pose import Approach, Point2, Point3
 from planner.message import Message
+from planner.task.json_form import STRICT, JsonForm
 
 
 class Code(StrEnum):
@@ -58,6 +59,8 @@ class Reason:
             what no request can ask for, as longer arms.
     """
 
+    __pydantic_config__ = STRICT
+
     fold: int | None
     code: Code
     says: Message
@@ -92,16 +95,17 @@ class Reason:
         return self.set is not None or self.code is Code.WAITS_FOR_FOLD
 
     def to_dict(self) -> dict[str, Any]:
-        """The reason as JSON."""
-        found = {name: getattr(self, name) for name in self.__slots__}
-        found |= {"message": self.message, "says": self.says.to_dict()}
-        for name in ("point", "towards", "offset_m", "shift_towards"):
-            found[name] = None if found[name] is None else list(found[name])
-        found["change"] = None if self.change is None else dict(self.change)
-        return {**found, "code": self.code.value, "approach": _turn(self.approach)}
+        """Return the reason as JSON: the sentence as `message`, its code and numbers as `says`."""
+        written: dict[str, Any] = _REASONS.write(self)
+        return {**written, "message": self.message, "says": self.says.to_dict()}
+
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> "Reason":
+        """Return the reason that JSON holds; raises `RequestError`."""
+        fields = dict(data)
+        says = dict(fields.pop("says", None) or {"code": ""})
+        message = {"code": says.pop("code", ""), "text": fields.pop("message", None), "values": says}
+        return _REASONS.read({**fields, "says": message})
 
 
-def _turn(approach: Approach | None) -> dict[str, float] | None:
-    if approach is None:
-        return None
-    return {"heading_rad": approach.heading_rad, "pitch_rad": approach.pitch_rad}
+_REASONS = JsonForm(Reason)

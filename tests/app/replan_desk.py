@@ -13,7 +13,7 @@ from app.drawing.solve import solve
 from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore
-from planner import make_plan
+from planner import find_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled
 from tests.app.samples import towel
@@ -77,7 +77,7 @@ class Endless:
             while not should_stop():
                 time.sleep(0.001)
             self.stopped.set()
-        return make_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+        return find_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
 
 
 def nothing(*_: object, **__: object) -> None:

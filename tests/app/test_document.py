@@ -38,7 +38,7 @@ def plan() -> Plan:
 
 @pytest.fixture(scope="module")
 def no_plan() -> Plan:
-    return replace(make_plan(Garment.from_dict(towel())), status="infeasible", primitives=(), cost_s=None)
+    return replace(make_plan(Garment.from_dict(towel())), status="infeasible", steps=(), trajectory=None)
 
 
 def document(clock: HandClock | None = None) -> Document:
@@ -49,12 +49,10 @@ def moved(millimetres: int) -> Drawing:
     return solve(pulled(TOWEL.drawing, 0, -0.001 * millimetres, 0.0)).drawing
 
 
-def answer(document: Document, plan: Plan, *, film: bool = True) -> None:
-    question = document.state.question
-    assert question is not None
-    document.settle(document.state.version, question, plan, "id")
-    if film and plan.is_solved:
-        document.show_film(plan, plan.timeline())
+def answer(document: Document, plan: Plan) -> None:
+    task = document.state.task
+    assert task is not None
+    document.settle(document.state.version, task, plan, "id")
 
 
 def answered(plan: Plan, clock: HandClock | None = None) -> Document:
@@ -104,18 +102,21 @@ def test_while_planning_the_plan_before_stays_and_says_so(plan: Plan) -> None:
     assert message["plan"]["is_stale"] is True
 
 
-def test_an_answer_to_an_older_question_is_shown_only_if_it_is_newer_than_what_is_shown(plan: Plan) -> None:
+def test_an_answer_to_an_older_task_is_shown_only_if_it_is_newer_than_what_is_shown(plan: Plan, no_plan: Plan) -> None:
     changed = document()
-    first = changed.state.question
+    first = changed.state.task
     assert first is not None
-    second = changed.edit(Edit("Move", moved(1))).question
+    second = changed.edit(Edit("Move", moved(1))).task
     assert second is not None
     changed.edit(Edit("Move", moved(2)))
     changed.settle(2, second, plan, "second")
     assert changed.state.answer is not None
     assert (changed.state.answer.version, changed.state.is_planning) == (2, True)
-    changed.settle(1, first, plan, "first")
-    assert changed.state.answer.plan_id == "second"
+    for late in (replace(plan), no_plan):
+        changed.settle(1, first, late, "first")
+        assert changed.state.answer.plan_id == "second"
+        assert changed.state.film is not None and changed.state.film.plan is plan
+        assert changed.state.playback.duration_s == plan.cost_s
 
 
 def test_the_same_drawing_again_has_the_same_plan_at_once(plan: Plan) -> None:
@@ -174,20 +175,38 @@ def test_checks_of_a_preview_are_those_of_its_commit() -> None:
     assert changed.state.checks == Checks(3, ())
 
 
-def test_a_film_of_another_plan_is_dropped(plan: Plan, no_plan: Plan) -> None:
+def test_with_an_answer_comes_its_film_and_with_one_that_is_no_plan_it_goes(plan: Plan, no_plan: Plan) -> None:
     changed = document()
+    heard: list[tuple[bool, bool]] = []
+    changed.subscribe(lambda: heard.append((changed.state.is_answered, changed.state.film is not None)))
+    answer(changed, plan)
+    assert heard == [(True, True)], "in one change, so that nobody sees the one without the other"
+    film = changed.state.film
+    assert film is not None and (film.version, film.plan, film.timeline.duration_s) == (1, plan, plan.cost_s)
+    assert changed.state.playback.duration_s == plan.cost_s
+    changed.edit(Edit("Move", moved(1)))
     answer(changed, no_plan)
-    changed.show_film(plan, plan.timeline())
-    assert changed.state.film is None
-
-
-def test_a_film_that_comes_when_something_is_wrong_by_now_is_dropped(plan: Plan) -> None:
-    changed = document()
-    answer(changed, plan, film=False)
-    changed.edit(Edit("Spoil", SPOILT))
-    changed.show_film(plan, plan.timeline())
     assert changed.state.film is None
     assert changed.state.playback.duration_s == 0.0
+
+
+def test_an_answer_that_comes_when_something_is_wrong_by_now_is_not_played(plan: Plan) -> None:
+    changed = document()
+    task = changed.state.task
+    assert task is not None
+    changed.edit(Edit("Spoil", SPOILT))
+    changed.settle(1, task, plan, "id")
+    assert changed.state.answer is not None and changed.state.answer.plan is plan
+    assert changed.state.film is None
+    assert changed.state.playback.duration_s == 0.0
+
+
+def test_with_what_was_wrong_mended_the_old_plan_is_played_again(plan: Plan) -> None:
+    changed = answered(plan)
+    assert changed.edit(Edit("Spoil", SPOILT)).film is None
+    film = changed.undo().film
+    assert film is not None and (film.version, film.plan) == (3, plan)
+    assert changed.state.playback.duration_s == plan.cost_s
 
 
 def test_a_failure_is_told_as_a_sentence_until_the_next_change() -> None:

@@ -108,8 +108,8 @@ async def test_what_failed_is_planned_again_when_a_page_asks_for_it(
         raise RuntimeError("a bug")
 
     with monkeypatch.context() as patch:
-        patch.setattr("app.replanner.make_plan", fail)
-        patch.setattr("app.replanner.quick_plan", fail)
+        patch.setattr("app.live_search.find_plan", fail)
+        patch.setattr("app.live_search.quick_plan", fail)
         await move(client, state, -0.01)
         await page.until("plan", status="failed", version=2)
     page.say({"do": "plan"})

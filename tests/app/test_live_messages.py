@@ -16,9 +16,9 @@ T_SHIRT = load_garment("t-shirt")
 def answered(plan: Plan, *, is_final: bool = True) -> DocumentState:
     """A T-shirt with an answer."""
     document = Document(draft_of(drawing_of(T_SHIRT)))
-    question = document.state.question
-    assert question is not None
-    document.settle(1, question, plan, "id", is_final=is_final)
+    task = document.state.task
+    assert task is not None
+    document.settle(1, task, plan, "id", is_final=is_final)
     return document.state
 
 

@@ -10,8 +10,9 @@ from app import replanner
 from app.document_state import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
-from planner import make_plan
+from planner import Task, find_plan
 from planner.plan import plan_search
+from planner.plan.found_plan import FoundPlan
 from tests.app.drawing.drawings import crease
 from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, replanning
 
@@ -32,9 +33,9 @@ def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_o
 
     def waiting(*arguments: object, **options: object) -> object:
         assert may_end.wait(PATIENCE_S)
-        return make_plan(*arguments, **options)  # type: ignore[arg-type]
+        return find_plan(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("app.replanner.make_plan", waiting)
+    monkeypatch.setattr("app.live_search.find_plan", waiting)
     desk.document.edit(Edit("Move", moved(20)))
     desk.until(lambda: desk.is_answered and desk.has_film)
     first = desk.document.state.answer
@@ -52,7 +53,7 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
 ) -> None:
     desk.rest()
     endless = Endless(is_once=False)
-    monkeypatch.setattr("app.replanner.make_plan", endless)
+    monkeypatch.setattr("app.live_search.find_plan", endless)
     desk.document.edit(Edit("Move", moved(20)))
     assert endless.begun.wait(PATIENCE_S)
     shown = desk.document.state.answer
@@ -108,7 +109,7 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
     assert [answer.is_final for answer in shown] == [False, True]
     meanwhile, last = (answer.plan for answer in shown)
     begins = meanwhile.primitives[: len(before.primitives)]
-    assert [p.summary for p in begins] == [p.summary for p in before.primitives]
+    assert [(p.kind, p.details) for p in begins] == [(p.kind, p.details) for p in before.steps]
     assert last.is_proven and last.cost_s <= meanwhile.cost_s
     assert all(desk.plans.plan(answer.plan_id) is answer.plan for answer in shown)
 
@@ -131,13 +132,14 @@ def test_what_was_not_found_with_little_work_is_found_by_who_looks_longer(monkey
 def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def unproven(*arguments: object, work_limit_s: float, **options: object) -> object:
-        plan = make_plan(*arguments, work_limit_s=work_limit_s, **options)  # type: ignore[arg-type]
-        if work_limit_s > replanner.WORK_S:
-            return plan
-        return replace(plan, statistics=replace(plan.statistics, bound_s=1.0, is_cut_short=True))
+    def unproven(task: Task, **options: object) -> FoundPlan:
+        found = find_plan(task, **options)  # type: ignore[arg-type]
+        if task.limits.work_limit_s > replanner.WORK_S:
+            return found
+        statistics = replace(found.plan.statistics, bound_s=1.0, is_cut_short=True)
+        return replace(found, plan=replace(found.plan, statistics=statistics))
 
-    monkeypatch.setattr("app.replanner.make_plan", unproven)
+    monkeypatch.setattr("app.live_search.find_plan", unproven)
     desk.rest()
     desk.document.edit(Edit("Move", moved(20)))
     desk.rest()
@@ -148,3 +150,24 @@ def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
     desk.rest()
     assert [(answer.is_final, answer.plan.is_proven) for answer in noted] == [(False, False), (True, True)]
     assert noted[0].plan is shown.plan
+
+
+def test_that_there_is_no_plan_is_told_before_the_reasons_are_tried(desk: Desk) -> None:
+    """Reasons that were met come at once, marked as not tried; then those that were."""
+    desk.rest()
+    seen: list[Answer] = []
+
+    def look() -> None:
+        answer = desk.document.state.answer
+        if answer is not None and desk.is_answered and not any(answer is one for one in seen):
+            seen.append(answer)
+
+    desk.document.subscribe(look)
+    far = replace(TOWEL, placement=replace(TOWEL.placement, x_m=0.4))
+    alone = replace(far.scene, stations=far.scene.stations[:1], back_off_max_m=0.0)
+    desk.document.edit(Edit("Lay far away", solve(replace(far, scene=alone)).drawing))
+    desk.until(lambda: desk.is_answered and desk.document.state.answer.is_final)
+    first, last = seen[0], seen[-1]
+    assert not first.is_final and first.plan.status == "infeasible"
+    assert first.plan.reasons and all(reason.set is None for reason in first.plan.reasons)
+    assert last.is_final and any(reason.set is not None for reason in last.plan.reasons)

@@ -55,10 +55,9 @@ def towel_document() -> Document:
 
 
 def answer(document: Document, plan: Plan) -> None:
-    question = document.state.question
-    assert question is not None
-    document.settle(document.state.version, question, plan, "id")
-    document.show_film(plan, plan.timeline())
+    task = document.state.task
+    assert task is not None
+    document.settle(document.state.version, task, plan, "id")
 
 
 def until(condition) -> None:
@@ -161,12 +160,7 @@ def test_the_stage_waits_with_a_drawing_for_its_plan_if_there_is_one(
     try:
         until(lambda: stage.lying == 1)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
-        question = document.state.question
-        assert question is not None
-        found = replace(plan, status=status)
-        document.settle(document.state.version, question, found, "id")
-        if found.is_solved:
-            document.show_film(found, found.timeline())
+        answer(document, replace(plan, status=status))
         until(lambda: (stage.lying, stage.plans) == drawn)
     finally:
         player.close()

@@ -11,9 +11,9 @@ from app.ui.lighting import ink
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.plan.cloth_surface import LAYER_GAP_M
-from planner.plan.plan import PlannedPrimitive
-from planner.primitives.fold_step import FoldStep
+from planner.plan.timeline import Timeline
 from planner.robot.pr2 import load_robot
+from planner.task.plan import PlanStep
 
 CARD = load_robot("pr2").card
 ABOVE_M = 0.003
@@ -34,9 +34,9 @@ def stage(letter: Plan) -> Iterator[Stage]:
     made.close()
 
 
-def performed(plan: Plan, index: int) -> PlannedPrimitive:
-    """The primitive that performs a fold."""
-    return next(p for p in plan.primitives if isinstance(p.step, FoldStep) and p.step.way.trial.fold == index)
+def performed(plan: Plan, index: int) -> PlanStep:
+    """The step that performs a fold."""
+    return next(step for step in plan.steps if step.fold == index)
 
 
 def line(stage: Stage, index: int) -> NDArray[np.float64]:
@@ -51,7 +51,7 @@ def length_m(segments: NDArray[np.float64]) -> float:
 
 
 def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(stage: Stage, letter: Plan):
-    stage.show(letter.timeline().at(0.0))
+    stage.show(Timeline.of(letter).at(0.0))
     assert length_m(line(stage, BLUE)) == pytest.approx(0.4)
     # Dash 0.045, gap 0.012, dot 0.006, gap 0.012: of 0.075 m 0.051 are drawn. 0.4 m are five times that and a
     # last dash of 0.025 m.
@@ -70,21 +70,20 @@ def test_the_two_kinds_have_the_two_colours_of_the_theme(stage: Stage):
 def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(stage: Stage, letter: Plan):
     # 0.39 m from the near edge. One layer lies there before the blue fold, two after it.
     blue = performed(letter, BLUE)
-    folded_s = blue.start_s + blue.duration_s - 1e-6
-    moments = ((0.0, letter.problem.start.offset, 1), (folded_s, blue.step.after.offset, 2))
-    for t_s, offset, layers in moments:
-        stage.show(letter.timeline().at(t_s))
+    folded_s = blue.end_s - 1e-6
+    moments = ((0.0, letter.task.start.placement, 1), (folded_s, blue.after.placement, 2))
+    for t_s, placement, layers in moments:
+        stage.show(Timeline.of(letter).at(t_s))
         drawn = line(stage, RED)
-        near = letter.work.placed(offset).x_m
-        assert drawn[..., 0] == pytest.approx(np.full(drawn.shape[:2], near + 0.39), abs=1e-6)
+        assert drawn[..., 0] == pytest.approx(np.full(drawn.shape[:2], placement.x_m + 0.39), abs=1e-6)
         assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_GAP_M + ABOVE_M), abs=1e-6)
 
 
 def test_once_folded_a_line_is_gone(stage: Stage, letter: Plan):
     red = performed(letter, RED)
-    stage.show(letter.timeline().at(red.start_s + red.duration_s / 2))
+    stage.show(Timeline.of(letter).at(red.start_s + red.duration_s / 2))
     assert len(line(stage, BLUE)) == 0 and len(line(stage, RED)) > 0
-    stage.show(letter.timeline().at(letter.timeline().duration_s))
+    stage.show(Timeline.of(letter).at(Timeline.of(letter).duration_s))
     assert len(line(stage, RED)) == 0
 
 
@@ -93,7 +92,7 @@ def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(stage: Sta
     shown = []
     # At first the wrists may turn in their grips: then nothing has been folded yet.
     for share in np.linspace(0.2, 0.98, 15):
-        stage.show(letter.timeline().at(red.start_s + float(share) * red.duration_s))
+        stage.show(Timeline.of(letter).at(red.start_s + float(share) * red.duration_s))
         handle = stage._server.scene.get_handle_by_name("/cloth/front")
         assert handle is not None
         corners = np.asarray(handle.vertices, dtype=float)

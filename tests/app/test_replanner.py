@@ -142,7 +142,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr("app.replanner.make_plan", fail)
+    monkeypatch.setattr("app.live_search.find_plan", fail)
     desk.document.edit(Edit("Move", moved(1)))
     desk.until(lambda: desk.document.state.failure is not None)
     assert status_text(desk.document.state) == "No plan: the planner failed"
@@ -155,7 +155,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
 def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.replanner.make_plan", endless)
+    monkeypatch.setattr("app.live_search.find_plan", endless)
     desk.document.edit(Edit("Move", moved(1)))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Move", moved(2)))
@@ -169,8 +169,8 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk.rest()
     endless = Endless(is_once=False)
     with monkeypatch.context() as patch:
-        patch.setattr("app.replanner.make_plan", endless)
-        patch.setattr("app.replanner.quick_plan", nothing)
+        patch.setattr("app.live_search.find_plan", endless)
+        patch.setattr("app.live_search.quick_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
         assert endless.begun.wait(PATIENCE_S)
         desk.document.stop_planning()
@@ -191,7 +191,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.replanner.make_plan", endless)
+    monkeypatch.setattr("app.live_search.find_plan", endless)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
@@ -206,18 +206,18 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
     """The search for the first preview gives way to the second; before it ends, the first is what is drawn again."""
     desk.rest()
     given_up, go = threading.Event(), threading.Event()
-    planned = Replanner._planned
+    plan = Replanner._plan
 
-    def gives_up(self: Replanner, state: DocumentState, first: list[Plan], is_unwanted: Callable[[], bool]) -> object:
+    def gives_up(self: Replanner, state: DocumentState, first: list[Plan], is_unwanted: Callable[[], bool]) -> None:
         if given_up.is_set():
-            return planned(self, state, first, is_unwanted)
+            plan(self, state, first, is_unwanted)
+            return
         while not is_unwanted():
             time.sleep(0.001)
         given_up.set()
         assert go.wait(PATIENCE_S)
-        return None
 
-    monkeypatch.setattr(Replanner, "_planned", gives_up)
+    monkeypatch.setattr(Replanner, "_plan", gives_up)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
     assert given_up.wait(PATIENCE_S)

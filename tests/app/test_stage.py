@@ -17,13 +17,13 @@ from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink, paint
 from app.ui.lying_cloth import lying_cloth
 from app.ui.private_viser import LOOPBACK, SECRET_HEADER
-from app.ui.progress import stints
 from app.ui.robot_model import load_robot_model
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.plan.cloth_surface import LAYER_GAP_M
+from planner.plan.timeline import Timeline
 from planner.robot.pr2 import load_robot
 from tests.app.pose_matrix import matrix
 
@@ -58,7 +58,7 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(stage: Stage, plan:
     garment, scene = load_garment("t-shirt"), Scene()
     base = dict(scene.stations)["front"]
     stage.show_plan(plan)
-    stage.show(plan.timeline().at(plan.timeline().duration_s))
+    stage.show(Timeline.of(plan).at(Timeline.of(plan).duration_s))
     stage.show_bare(base)
     handle = stage._server.scene.get_handle_by_name
     assert [handle(f"/cloth/{part}").visible for part in ("front", "back", "edges")] == [False] * 3
@@ -73,8 +73,8 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(stage: Stage, plan:
 def test_every_link_stands_where_forward_kinematics_says(stage: Stage, plan: Plan) -> None:
     urdf = yourdfpy.URDF.load(str(CARD.urdf_path), load_meshes=False, build_collision_scene_graph=False)
     stage.show_plan(plan)
-    for t_s in np.linspace(0.0, plan.timeline().duration_s, 5):
-        frame = plan.timeline().at(float(t_s))
+    for t_s in np.linspace(0.0, Timeline.of(plan).duration_s, 5):
+        frame = Timeline.of(plan).at(float(t_s))
         stage.show(frame)
         urdf.update_cfg(frame.joints)
         root = shown_pose(stage, "/robot")
@@ -86,7 +86,7 @@ def test_every_link_stands_where_forward_kinematics_says(stage: Stage, plan: Pla
 
 def test_all_parts_of_the_scene_have_their_nodes(stage: Stage, plan: Plan) -> None:
     stage.show_plan(plan)
-    stage.show(plan.timeline().at(0.0))
+    stage.show(Timeline.of(plan).at(0.0))
     for node in ("/floor", "/table/top", "/stations/front", "/cloth/front", "/cloth/back", "/folds/4", "/robot"):
         assert stage._server.scene.get_handle_by_name(node) is not None, node
 
@@ -94,9 +94,9 @@ def test_all_parts_of_the_scene_have_their_nodes(stage: Stage, plan: Plan) -> No
 def test_fold_lines_go_as_folds_are_done(stage: Stage, plan: Plan) -> None:
     stage.show_plan(plan)
     lines = [stage._server.scene.get_handle_by_name(f"/folds/{i}") for i in range(len(plan.garment.folds))]
-    stage.show(plan.timeline().at(0.0))
+    stage.show(Timeline.of(plan).at(0.0))
     assert all(line is not None and line.visible for line in lines)
-    stage.show(plan.timeline().at(plan.timeline().duration_s))
+    stage.show(Timeline.of(plan).at(Timeline.of(plan).duration_s))
     assert not any(line is None or line.visible for line in lines)
 
 
@@ -107,7 +107,7 @@ def line_points(stage: Stage, index: int) -> NDArray[np.float64]:
 
 
 def test_fold_lines_are_where_they_are_however_one_came_there(stage: Stage, plan: Plan) -> None:
-    timeline = plan.timeline()
+    timeline = Timeline.of(plan)
     folds = range(len(plan.garment.folds))
     for t_s in np.linspace(0.0, timeline.duration_s, 12):
         stage.show_plan(plan)
@@ -121,7 +121,7 @@ def test_fold_lines_are_where_they_are_however_one_came_there(stage: Stage, plan
 
 
 def test_fold_lines_lie_on_the_cloth_all_through(stage: Stage, plan: Plan) -> None:
-    timeline = plan.timeline()
+    timeline = Timeline.of(plan)
     stage.show_plan(plan)
     for t_s in np.linspace(0.0, timeline.duration_s, 40):
         frame = timeline.at(float(t_s))
@@ -137,9 +137,9 @@ def test_fold_lines_lie_on_the_cloth_all_through(stage: Stage, plan: Plan) -> No
 def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(stage: Stage, name: str) -> None:
     plan = make_plan(load_garment(name))
     stage.show_plan(plan)
-    stage.show(plan.timeline().at(plan.timeline().duration_s / 2))
+    stage.show(Timeline.of(plan).at(Timeline.of(plan).duration_s / 2))
     assert stage._server.scene.get_handle_by_name("/primitive/left/path") is not None
-    stage.show(plan.timeline().at(plan.timeline().duration_s))
+    stage.show(Timeline.of(plan).at(Timeline.of(plan).duration_s))
     assert not any(len(line_points(stage, i)) for i in range(len(plan.garment.folds)))
     marks = [f"/primitive/{arm.name}/{part}" for arm in CARD.arms for part in ("pick", "place", "path")]
     for mark in (*marks, *(f"{node}/name" for node in stage._robot.hands.values()), "/primitive/route"):
@@ -179,12 +179,11 @@ def test_a_theme_colours_the_whole_stage(stage: Stage, plan: Plan) -> None:
 
 
 def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
-    last = stints(plan.garment.placement, [p.to_dict() for p in plan.primitives])[-1]
-    end = plan.final_placement
+    timeline, end = Timeline.of(plan), plan.final_placement
     assert end is not None
-    assert last.done_after == frozenset(range(len(plan.garment.folds)))
-    after = last.placement_after
-    np.testing.assert_allclose([after.x_m, after.y_m], [end.x_m, end.y_m], atol=1e-9)
+    assert plan.end.done == (1 << len(plan.garment.folds)) - 1
+    last = timeline.at(timeline.duration_s).placement
+    np.testing.assert_allclose([last.x_m, last.y_m], [end.x_m, end.y_m], atol=1e-9)
 
 
 def test_another_scene_has_another_table_other_stations_and_another_floor(stage: Stage, plan: Plan) -> None:

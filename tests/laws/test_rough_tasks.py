@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from planner.errors import FoldingError
 from planner.plan.make_plan import compile_kernels
+from planner.plan.timeline import Timeline
 from tests.laws.law import LONG, law
 from tests.laws.tasks import rough_task
 
@@ -40,6 +41,6 @@ def test_whatever_is_asked_the_answer_is_a_plan_or_a_reason_or_an_error_of_ours(
         assert process_time() - began_s <= limit_s + OVERRUN_S
     plan.to_dict()
     if plan.is_solved:
-        timeline = plan.timeline()
+        timeline = Timeline.of(plan)
         for number in range(MOMENTS):
             timeline.at(plan.cost_s * number / (MOMENTS - 1))

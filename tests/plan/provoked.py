@@ -2,17 +2,20 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Unpack
 
 from planner import Scene, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.plan.plan import Plan
+from planner.plan.found_plan import FoundPlan
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
+from planner.task.plan import Plan
 from planner.task.reason import Code, Reason
+from planner.task.task import TaskOptions
 from tests.builders import fold, garment, rectangle_points
+from tests.plan.found import found_plan
 
 BACK = -math.pi / 2
 """The yaw that lays a drawing's y along the table's x, away from `front`, and its x to the right."""
@@ -53,10 +56,15 @@ def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -
     return garment(rectangle_points(0.1, length_m), far_end, placement=Pose2(far_x_m - length_m, y_m + 0.05, BACK))
 
 
-def refused(cloth: Garment, scene: Scene | None = None, **options: object) -> Plan:
+def refused(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Plan:
     """The answer where there is no plan."""
-    answer = make_plan(cloth, scene, time_limit_s=60.0, **options)
-    assert answer.status == "infeasible"
+    return met(cloth, scene, **options).plan
+
+
+def met(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> FoundPlan:
+    """The answer where there is no plan, and all that was met before that was known."""
+    answer = found_plan(cloth, scene, time_limit_s=60.0, **options)
+    assert answer.plan.status == "infeasible"
     return answer
 
 
@@ -81,10 +89,10 @@ def is_gone(reason: Reason, answer: Plan) -> bool:
     return all((r.fold, r.code, r.cause, r.arm, r.station) != kind for r in answer.reasons)
 
 
-def is_in_reach(answer: Plan, number: int) -> bool:
+def is_in_reach(answer: FoundPlan, number: int) -> bool:
     """Whether a fold could be done at the start by arms that nothing is in the way of."""
     state = State(0, (0.0, 0.0), 0, 0)
-    return any(step.after.done >> number & 1 for step in GFold(answer.work).successors(state))
+    return any(step.after.done >> number & 1 for step in GFold(answer.problem.work).successors(state))
 
 
 def hammer() -> Garment:

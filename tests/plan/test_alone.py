@@ -5,11 +5,12 @@ from itertools import count
 
 import pytest
 
-from planner import Scene, load_garment, make_plan, shipped_garment_names
+from planner import Scene, Task, load_garment, make_plan, shipped_garment_names
 from planner.plan import plan_search as planning
 from planner.plan.alone import Alone, drag_offsets
 from planner.plan.problem import Problem
 from planner.task.reason import Code
+from tests.plan.found import found_plan
 
 HALVED = ("scarf-halved", "tie-halved")
 SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
@@ -50,7 +51,7 @@ def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
 def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
     def looked_at(stop_after: float) -> tuple[bool, int]:
         """Whether the first fold is impossible, and how often it was asked whether to stop."""
-        problem, asked = Problem.of(load_garment(name), Scene(), None, "front", "pr2", 0.03), count(1)
+        problem, asked = Problem.of(Task.of(load_garment(name))), count(1)
         alone = Alone(problem.work, problem.start.station, lambda: next(asked) > stop_after)
         return alone.is_impossible(0), next(asked) - 1
 
@@ -62,10 +63,10 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
 
 
 def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
-    plan = make_plan(load_garment("hand-towel"))
-    offsets = drag_offsets(plan.work)
+    found = found_plan(load_garment("hand-towel"))
+    offsets = drag_offsets(found.problem.work)
     half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2
-    placement = plan.garment.placement
+    placement = found.plan.garment.placement
     assert (offsets[0] == 0.0).all()
     assert (offsets[:, 0] <= 1e-9).all(), "front drags towards itself, the sides drag sideways, nobody drags away"
     assert (abs(placement.y_m - 0.343 + offsets[:, 1]) < half_width + 0.343).all()

@@ -5,11 +5,11 @@ import time
 
 import pytest
 
-from planner import Plan, load_garment, make_plan
+from planner import Plan, Task, find_plan, load_garment, make_plan
 from planner.plan import plan_search
 from planner.plan.budget import Budget
+from planner.plan.found_plan import FoundPlan
 from planner.plan.problem import Problem
-from planner.task.scene import Scene
 
 PAUSE_S = 0.002
 SEARCH_S = 0.08
@@ -39,13 +39,13 @@ def test_on_a_slow_machine_the_same_request_has_the_same_answer(work_s: float):
 def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.5 * SEARCH_S)
     answers = []
+    task = Task.of(load_garment("t-shirt"), work_limit_s=4.0 * SEARCH_S, time_limit_s=60.0)
     for should_stop in (None, busy):
-        found: list[Plan] = []
-        options = {"work_limit_s": 4.0 * SEARCH_S, "time_limit_s": 60.0, "should_stop": should_stop}
-        answers.append((make_plan(load_garment("t-shirt"), on_found=found.append, **options), found))
+        found: list[FoundPlan] = []
+        answers.append((find_plan(task, on_found=found.append, should_stop=should_stop).plan, found))
     (quick, quickly_found), (slow, slowly_found) = answers
     assert what_matters(slow) == what_matters(quick)
-    assert [plan.cost_s for plan in slowly_found] == [plan.cost_s for plan in quickly_found] != []
+    assert [found.plan.cost_s for found in slowly_found] == [found.plan.cost_s for found in quickly_found] != []
 
 
 def test_the_clock_ends_a_search_that_has_work_left():
@@ -61,7 +61,7 @@ def test_more_work_is_looked_at_more_ways():
 
 
 def test_what_is_asked_of_every_problem_watched_is_counted():
-    problem = Problem.of(load_garment("vest"), Scene(), None, "front", "pr2", 0.03)
+    problem = Problem.of(Task.of(load_garment("vest")))
     budget = Budget.of(math.inf, 60.0, lambda: False)
     assert budget.spent_s == 0.0
     budget.watch(problem)

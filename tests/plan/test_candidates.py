@@ -17,11 +17,11 @@ from tests.replay.planned import planned
 
 @pytest.mark.parametrize("name", ["t-shirt", "tie", "letter-towel", "big-towel"])
 def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
-    plan = planned(name).answer
-    for act in (act for act in plan.acts if act.run is not None):
-        whole = plan.problem.maker.candidate(act.steps).moments
+    found = planned(name).found
+    for act in (act for act in found.acts if act.run is not None):
+        whole = found.problem.maker.candidate(act.steps).moments
         phases = [phase for step in act.steps for phase in step.extremes()]
-        ends = moments_of(phases, plan.scene.table.height_m)
+        ends = moments_of(phases, found.plan.scene.table.height_m)
         for moment in (0, -1):
             np.testing.assert_allclose(ends.bases[moment], whole.bases[moment], atol=1e-9)
             np.testing.assert_allclose(ends.positions[:, moment], whole.positions[:, moment], atol=1e-9)
@@ -29,9 +29,9 @@ def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
 
 
 def test_what_was_made_real_is_a_candidate():
-    plan = planned("t-shirt").answer
-    runs = [act.steps for act in plan.acts if act.run is not None]
-    assert [candidate.steps for candidate in plan.problem.maker.candidates(runs)] == runs
+    found = planned("t-shirt").found
+    runs = [act.steps for act in found.acts if act.run is not None]
+    assert [candidate.steps for candidate in found.problem.maker.candidates(runs)] == runs
 
 
 class UnderCeiling(Pr2):
@@ -55,9 +55,9 @@ class UnderCeiling(Pr2):
 
 def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
     # The vest's last fold lifts its hem 0.3 m and more; it begins and ends on the table.
-    plan = planned("vest").answer
-    steps = plan.acts[-1].steps
-    maker = RunMaker(plan.work, UnderCeiling(0.25))
+    found = planned("vest").found
+    steps = found.acts[-1].steps
+    maker = RunMaker(found.problem.work, UnderCeiling(0.25))
     assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
     assert maker.real(steps, replace(QUICK, ways=1)) is None
     assert list(maker.candidates([steps])) == []

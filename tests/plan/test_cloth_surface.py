@@ -6,6 +6,7 @@ import pytest
 from planner import Plan, make_plan
 from planner.geometry.pose import Pose2
 from planner.plan.frame import ClothSurface
+from planner.plan.timeline import Timeline
 from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
 
@@ -20,7 +21,7 @@ def area_m2(surface: ClothSurface) -> float:
 
 def require_unstretched(plan: Plan) -> None:
     """The summed area of all layers is that of the pattern, at every moment."""
-    timeline = plan.timeline()
+    timeline = Timeline.of(plan)
     whole = area_m2(timeline.at(0.0).cloth)
     for t in np.linspace(0.0, timeline.duration_s, LOOKS):
         assert area_m2(timeline.at(float(t)).cloth) == pytest.approx(whole, rel=1e-3), f"at {t:.2f} s"
@@ -39,5 +40,5 @@ def test_a_narrow_flap_stands_as_high_as_it_is_deep():
     assert [grip.apex[2] for grip in primitive.grips] == pytest.approx([0.07, 0.07])
     require_unstretched(plan)
     start, end = primitive.start_s, primitive.start_s + primitive.duration_s
-    heights = [plan.timeline().at(t).cloth.vertices[:, 2].max() for t in np.arange(start, end, 0.02)]
+    heights = [Timeline.of(plan).at(t).cloth.vertices[:, 2].max() for t in np.arange(start, end, 0.02)]
     assert max(heights) == pytest.approx(0.05, abs=0.002)

@@ -47,7 +47,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(cloth: Garment):
 
     def successors(state: State, _cost_s: float):
         for step in (step for kind in kinds for step in kind.successors(state)):
-            assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.summary
+            assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
             yield Edge(step, step.duration_s, step.after)
 
     found = a_star(START, successors, lambda s: s.done == goal, bound, 100_000, lambda: False)

@@ -20,9 +20,9 @@ def edges_of(work: Work, *, are_spares_wanted: bool = False) -> Edges:
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
 def test_what_is_left_out_makes_no_plan_dearer(name: str):
-    case = planned(name).answer
-    start, goal, bound = case.problem.start, case.problem.is_goal, arm_time(case.work)
-    edges, whole, left_out = edges_of(case.work), edges_of(case.work, are_spares_wanted=True), []
+    case = planned(name).found
+    start, goal, bound = case.problem.start, case.problem.is_goal, arm_time(case.problem.work)
+    edges, whole, left_out = edges_of(case.problem.work), edges_of(case.problem.work, are_spares_wanted=True), []
 
     def everything(state: State, _cost_s: float):
         whole.begin()
@@ -41,8 +41,8 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str):
 
 
 def test_from_a_back_off_passed_on_the_way_only_the_base_moves_on():
-    case = planned("tie").answer
-    work = case.work
+    case = planned("tie").found
+    work = case.problem.work
     edges = edges_of(work)
     near, far = State(0, (0.0, 0.0), 0, 0), State(0, (0.0, 0.0), 0, 4)
     first = kinds_of(edges.leaving(near, 10.0))

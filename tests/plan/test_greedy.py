@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner import Scene, load_garment, quick_plan
+from planner import Scene, Task, load_garment, quick_plan
 from planner.plan import greedy
 from tests.replay.checker import check
 from tests.replay.planned import SOLVABLE, planned
@@ -13,26 +13,27 @@ _FOUND_SOON = sorted({*SOLVABLE} - {"tie", "shirt"})
 @pytest.mark.parametrize("name", _FOUND_SOON)
 def test_what_is_found_at_one_go_can_be_done_and_none_is_quicker_than_the_quickest(name: str):
     cloth = load_garment(name)
-    found = quick_plan(cloth, like=[])
+    found = quick_plan(Task.of(cloth), like=[])
     assert found is not None
-    assert found.cost_s >= planned(name).answer.cost_s - 1e-6
-    assert found.statistics.bound_s <= found.cost_s
+    plan = found.plan
+    assert plan.cost_s >= planned(name).answer.cost_s - 1e-6
+    assert plan.statistics.bound_s <= plan.cost_s
 
 
 @pytest.mark.parametrize("name", ["hand-towel", "jeans", "letter-towel"])
 def test_what_is_found_at_one_go_replays(name: str):
     cloth = load_garment(name)
-    check(cloth.to_dict(), Scene().to_dict(), quick_plan(cloth, like=[]).to_dict())
+    check(cloth.to_dict(), Scene().to_dict(), quick_plan(Task.of(cloth), like=[]).plan.to_dict())
 
 
 def test_it_gives_up_where_the_arms_fail_too_often(monkeypatch: pytest.MonkeyPatch):
-    assert quick_plan(load_garment("scarf"), like=[]) is not None, "after a run that was not real"
+    assert quick_plan(Task.of(load_garment("scarf")), like=[]) is not None, "after a run that was not real"
     monkeypatch.setattr(greedy, "_FAILURES_MAX", 1)
-    assert quick_plan(load_garment("scarf"), like=[]) is None
+    assert quick_plan(Task.of(load_garment("scarf")), like=[]) is None
 
 
 def test_it_gives_up_where_too_many_states_would_have_to_be_looked_at(monkeypatch: pytest.MonkeyPatch):
-    assert quick_plan(load_garment("vest"), like=[]) is not None
+    assert quick_plan(Task.of(load_garment("vest")), like=[]) is not None
     monkeypatch.setattr(greedy, "_EXPANDED_MAX", 1)
     monkeypatch.setattr(greedy, "_EXPANDED_PER_FOLD", 0)
-    assert quick_plan(load_garment("vest"), like=[]) is None
+    assert quick_plan(Task.of(load_garment("vest")), like=[]) is None

@@ -12,16 +12,17 @@ import pytest
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table import Table
 from planner.plan import edges
 from planner.plan import plan_search as planning
-from planner.plan.plan import PlannedPrimitive
+from planner.plan.timeline import Timeline
 from planner.primitives.base_move import BaseMove
 from planner.primitives.drag_step import DragStep
-from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
 from planner.primitives.work import Work
+from planner.task.plan import PlanStep
 from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points, work
 from tests.replay.planned import planned
@@ -45,14 +46,26 @@ class LyingDrag(GDrag):
 
 
 def hanging_m(work: Work, state: State) -> float:
-    """How deep the deepest point of the cloth hangs, let go (m)."""
-    half = np.array([work.scene.table.depth_m, work.scene.table.width_m]) / 2
-    return max(0.0, float((np.abs(outline(work, state)) - half).max()))
+    """How deep the deepest point of the cloth hangs in a state of the search, let go (m)."""
+    corners = work.sequence.cloth(state.done).silhouette.coordinates
+    return deepest_m(work.scene.table, work.placed(state.offset).to_outer(corners))
 
 
-def outline(work: Work, state: State) -> FloatArray:
-    """The silhouette's corners in the table frame's unrolled plane, shape (n, 2), m."""
-    return work.placed(state.offset).to_outer(work.sequence.cloth(state.done).silhouette.coordinates)
+def hanging_after_m(plan: Plan, step: PlanStep) -> float:
+    """How deep the deepest point of the cloth hangs after a step of a plan, let go (m)."""
+    corners = plan.sequence.cloth(step.after.done).silhouette.coordinates
+    return deepest_m(plan.scene.table, step.after.placement.to_outer(corners))
+
+
+def deepest_m(table: Table, corners: FloatArray) -> float:
+    """How far the furthest of some points of the table frame's unrolled plane, shape (n, 2), is beyond an edge (m)."""
+    half = np.array([table.depth_m, table.width_m]) / 2
+    return max(0.0, float((np.abs(corners) - half).max()))
+
+
+def dragged_x_m(plan: Plan, step: PlanStep) -> float:
+    """How far the cloth lies from where it lay at the start, after a step (m along the table's x)."""
+    return step.after.placement.x_m - plan.task.start.placement.x_m
 
 
 @pytest.fixture
@@ -67,32 +80,30 @@ def without_hanging(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
 
 
-def drag_and_fold(plan: Plan, index: int) -> tuple[PlannedPrimitive, PlannedPrimitive]:
-    """The primitive that performs a fold, and the one before it."""
-    folds = [p.step.way.trial.fold if isinstance(p.step, FoldStep) else None for p in plan.primitives]
-    at = folds.index(index)
-    return plan.primitives[at - 1], plan.primitives[at]
+def drag_and_fold(plan: Plan, index: int) -> tuple[PlanStep, PlanStep]:
+    """The step that performs a fold, and the one before it."""
+    at = [step.fold for step in plan.steps].index(index)
+    return plan.steps[at - 1], plan.steps[at]
 
 
 @pytest.mark.parametrize("index", [0, 1])
 def test_a_drag_takes_a_part_beyond_the_edge_and_the_fold_brings_it_back(towel: Plan, index: int):
     dragged, folded = drag_and_fold(towel, index)
-    drag, over = dragged.step, folded.step
-    assert isinstance(drag, DragStep) and drag.after.held
+    assert dragged.kind == "drag" and dragged.after.held
     # After the first fold the near edge is its line: over the first line, then over the second.
     start = 0.0 if index == 0 else LINES_M[0]
-    near = NEAR_X_M + drag.after.offset[0] + start
+    near = NEAR_X_M + dragged_x_m(towel, dragged) + start
     assert near < EDGE_X_M - 0.1
-    assert hanging_m(towel.work, drag.after) == pytest.approx(EDGE_X_M - near)
+    assert hanging_after_m(towel, dragged) == pytest.approx(EDGE_X_M - near)
     assert near + LINES_M[index] - start > EDGE_X_M
-    assert hanging_m(towel.work, over.after) == 0.0
+    assert hanging_after_m(towel, folded) == 0.0
 
 
 @pytest.mark.parametrize("index", [0, 1])
 def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: int):
     dragged, folded = drag_and_fold(towel, index)
     start = 0.0 if index == 0 else LINES_M[0]
-    near = NEAR_X_M + dragged.step.after.offset[0] + start
+    near = NEAR_X_M + dragged_x_m(towel, dragged) + start
     depth = LINES_M[index] - start
     for grip, y in zip(folded.grips, (0.343, -0.343), strict=True):
         assert grip.pick == pytest.approx((near, y, 0.02), abs=1e-4)
@@ -102,11 +113,11 @@ def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: i
 
 def test_on_the_stage_it_is_held_out_level_and_lies_on_the_table_afterwards(towel: Plan):
     dragged, folded = drag_and_fold(towel, 0)
-    near = NEAR_X_M + dragged.step.after.offset[0]
-    out = towel.timeline().at(folded.start_s - 1e-6).cloth.vertices
+    near = NEAR_X_M + dragged_x_m(towel, dragged)
+    out = Timeline.of(towel).at(folded.start_s - 1e-6).cloth.vertices
     assert out[:, 0].min() == pytest.approx(near, abs=1e-3)
     assert out[:, 2].min() >= 0.0
-    back = towel.timeline().at(folded.start_s + folded.duration_s).cloth.vertices
+    back = Timeline.of(towel).at(folded.start_s + folded.duration_s).cloth.vertices
     assert back[:, 0].min() > EDGE_X_M and back[:, 2].min() >= 0.0
 
 

@@ -6,6 +6,7 @@ import pytest
 
 from planner import Garment, Plan, Scene, make_plan
 from planner.geometry.pose import Pose2
+from planner.plan.timeline import Timeline
 from tests.builders import fold, garment, rectangle_points
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
@@ -32,8 +33,8 @@ def required(cloth: Garment, scene: Scene | None = None) -> Plan:
     plan = make_plan(cloth, scene, time_limit_s=60.0)
     assert plan.is_solved, plan.reasons
     check(cloth.to_dict(), plan.scene.to_dict(), plan.to_dict())
-    require_speeds(plan.timeline())
-    require_clear(plan.timeline(), plan.scene.table, every_s=0.37)
+    require_speeds(Timeline.of(plan))
+    require_clear(Timeline.of(plan), plan.scene.table, every_s=0.37)
     return plan
 
 
@@ -54,8 +55,8 @@ def test_it_does_so_as_deep_as_the_arms_reach():
     # Arms that reach so far down turn so much on their way that they take longer than an arm motion.
     plan = make_plan(towel(0.4, 0.48, 1.2), time_limit_s=60.0)
     assert plan.is_solved, plan.reasons
-    require_speeds(plan.timeline())
-    require_clear(plan.timeline(), plan.scene.table, every_s=0.37)
+    require_speeds(Timeline.of(plan))
+    require_clear(Timeline.of(plan), plan.scene.table, every_s=0.37)
 
 
 @pytest.mark.parametrize("x_m", [0.6, -0.1])

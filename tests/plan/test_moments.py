@@ -14,8 +14,7 @@ from planner.geometry.table_top import TableTop
 from planner.plan.moments import Moments, moments_of
 from planner.plan.phase_shares import STEP_M, STEP_RAD
 from planner.plan.real_run import is_carrying
-from planner.primitives.phase import Hand, Phase
-from planner.task.cloth_motion import ClothMotion
+from planner.task.phase import ClothMotion, Hand, Phase
 from tests.replay.planned import planned
 
 HEIGHT_M = 0.79
@@ -176,7 +175,7 @@ def test_a_hand_that_let_go_takes_its_next_grip_without_a_turn():
 
 @pytest.mark.parametrize("name", ["letter-towel", "t-shirt"])
 def test_in_a_plan_nothing_goes_further_from_moment_to_moment_than_is_said(name):
-    for act in planned(name).answer.acts:
+    for act in planned(name).found.acts:
         if act.run is None:
             continue
         phases = [p for step in act.steps for p in step.phases() if p.duration_s > 0.0 and is_carrying(p)]

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from planner import Plan
 from planner.plan.act import duration_s, in_turn
+from planner.plan.found_plan import FoundPlan
 from planner.plan.real_run import ReachTime
 from tests.replay.planned import planned
 
@@ -26,8 +26,8 @@ def test_with_fixed_shares_reaches_never_take_less(leaving_s: float, coming_s: f
     assert together_s <= one.late_at_most_s[1] + other.late_at_most_s[0] + 1e-9
 
 
-def plan_of(name: str) -> Plan:
-    return planned(name).answer
+def plan_of(name: str) -> FoundPlan:
+    return planned(name).found
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "scarf"])
@@ -35,7 +35,7 @@ def test_each_run_of_a_plan_follows_the_one_before_it(name: str):
     plan = plan_of(name)
     runs = [act.run for act in plan.acts if act.run is not None]
     assert [run.reach.before_s for run in runs] == [0.0, *(run.reach.leaving_s for run in runs[:-1])]
-    assert duration_s(in_turn(plan.acts)) == pytest.approx(plan.cost_s)
+    assert duration_s(in_turn(plan.acts)) == pytest.approx(plan.plan.cost_s)
 
 
 def test_after_the_last_fold_no_hand_needs_to_go_home():

@@ -21,10 +21,12 @@ from planner.plan.run_maker import RunMaker
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
+from planner.primitives.work import Work
 from planner.robot.collision.contact import Contact
 from planner.robot.pr2 import Pr2, load_robot
 from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
+from tests.plan.found import found_plan
 
 BACK = -math.pi / 2
 STATIONS = (("front", Pose2(-0.95, 0.0, 0.0)), ("side", Pose2(-0.45, 0.64, BACK)))
@@ -58,10 +60,10 @@ def planned(cloth: Garment, where: Scene) -> Plan:
 class Eager:
     """The plain way: Dijkstra's search over states with free hands, every run between them made real at once."""
 
-    def __init__(self, plan: Plan) -> None:
-        self._kinds = [kind(plan.work) for kind in PRIMITIVES]
-        self._maker = RunMaker(plan.work, load_robot("pr2"))
-        self._goal = (1 << len(plan.work.sequence.folds)) - 1
+    def __init__(self, work: Work) -> None:
+        self._kinds = [kind(work) for kind in PRIMITIVES]
+        self._maker = RunMaker(work, load_robot("pr2"))
+        self._goal = (1 << len(work.sequence.folds)) - 1
 
     def cost_s(self, start: State) -> float:
         numbers, closed = count(), set()
@@ -102,10 +104,10 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     # Both try the same ways for each run: tighter tasks, in which others come first that may be quicker, are left out.
     for name in ("with_more_comfort", "with_narrower_cones"):
         monkeypatch.setattr(plan_search, name, lambda problem: ())
-    plan = planned(napkin(*folds), scene(arm_motion_s, back_off_max_m))
-    seeming_s = sum(p.step.duration_s for p in plan.primitives)
+    found = found_plan(napkin(*folds), scene(arm_motion_s, back_off_max_m), time_limit_s=60.0)
+    plan, seeming_s = found.plan, sum(step.duration_s for act in found.acts for step in act.steps)
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
-    assert plan.cost_s == pytest.approx(Eager(plan).cost_s(plan.problem.start), abs=1e-6)
+    assert plan.cost_s == pytest.approx(Eager(found.problem.work).cost_s(found.problem.start), abs=1e-6)
 
 
 IsBarred = Callable[[int, Pose2], bool]

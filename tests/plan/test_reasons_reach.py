@@ -11,6 +11,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
+from tests.plan.found import found_plan
 from tests.plan.provoked import (
     BACK,
     COMFORT_M,
@@ -21,6 +22,7 @@ from tests.plan.provoked import (
     fixed,
     is_gone,
     is_in_reach,
+    met,
     refused,
     strip,
 )
@@ -49,21 +51,21 @@ def test_moved_by_what_it_is_short_and_no_less_it_is_in_reach(by_m):
     cloth = strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1)
     (reason,) = refused(cloth, fixed()).reasons
     for moved, scene in (_moved_cloth(cloth, reason, by_m), _moved_station(cloth, reason, by_m)):
-        assert is_in_reach(make_plan(moved, scene, time_limit_s=60.0), 0) == (by_m > 0.0)
+        assert is_in_reach(found_plan(moved, scene, time_limit_s=60.0), 0) == (by_m > 0.0)
 
 
 def test_a_grip_that_lacks_only_comfort_says_how_much_it_has():
     # 14 mm further than comfort allows: 16 mm of the circle's 30 mm are left.
     cloth = strip(FURTHEST_X - 0.016, 0.3, 0.1)
-    answer = refused(cloth, fixed())
-    (reason,) = answer.reasons
+    answer = met(cloth, fixed())
+    (reason,) = answer.plan.reasons
     assert (reason.code, reason.cause) == (Code.OUT_OF_REACH, "comfort_only")
     assert reason.comfort_m == pytest.approx(0.016, abs=0.0011)
     assert reason.short_by_m == pytest.approx(0.014, abs=0.0015)
     assert "with 0.015 m of comfort only, not 0.03 m" in reason.message
     assert not is_in_reach(answer, 0)
-    assert is_in_reach(make_plan(cloth, fixed(), comfort_radius_m=reason.comfort_m, time_limit_s=60.0), 0)
-    assert not is_in_reach(make_plan(cloth, fixed(), comfort_radius_m=reason.comfort_m + 0.002, time_limit_s=60.0), 0)
+    assert is_in_reach(found_plan(cloth, fixed(), comfort_radius_m=reason.comfort_m, time_limit_s=60.0), 0)
+    assert not is_in_reach(found_plan(cloth, fixed(), comfort_radius_m=reason.comfort_m + 0.002, time_limit_s=60.0), 0)
 
 
 def test_a_path_rises_as_high_as_the_part_that_moves_is_deep():
@@ -108,7 +110,7 @@ def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
     assert reason.short_by_m > nearest - furthest
     assert reason.towards[0] == pytest.approx(1.0)
     moved, mended = _moved_station(cloth, reason, 0.001)
-    assert is_in_reach(make_plan(moved, mended, time_limit_s=60.0), 0)
+    assert is_in_reach(found_plan(moved, mended, time_limit_s=60.0), 0)
 
 
 def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
@@ -161,7 +163,7 @@ def test_shifted_as_the_reason_says_all_that_both_hands_do_is_in_reach(height_m,
         x, y, z = (reason.shift_m + by_m) * np.array(reason.shift_towards)
         stations = tuple((name, pose.moved(-float(x), -float(y))) for name, pose in FRONT)
         mended = replace(fixed(height_m + float(z)), stations=stations)
-        assert is_in_reach(make_plan(towel, mended, time_limit_s=60.0), 0) == is_enough
+        assert is_in_reach(found_plan(towel, mended, time_limit_s=60.0), 0) == is_enough
 
 
 def _moved_cloth(cloth, reason: Reason, by_m: float):

@@ -93,7 +93,7 @@ def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_drag
     assert reason.needed_grip_radius_m == pytest.approx(0.1968, abs=1e-4)
     assert planned_with(reason.change, apron(0.127, 0.127)).is_solved
     less_m = reason.needed_grip_radius_m - 0.001
-    assert not make_plan(apron(less_m, less_m), time_limit_s=60.0, with_reasons=False).is_solved
+    assert not make_plan(apron(less_m, less_m), time_limit_s=60.0).is_solved
 
 
 def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there():

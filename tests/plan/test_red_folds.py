@@ -207,7 +207,7 @@ def test_a_chain_takes_its_own_flap_also_after_a_later_fold_that_was_done_first(
 @pytest.mark.parametrize("heuristic", ["arm_time", "zero"])
 def test_a_search_through_all_orders_of_a_chain_and_a_fold_apart_finds_a_plan(heuristic: str):
     answer = make_plan(TWO_SIDES, heuristic=heuristic, time_limit_s=60.0)
-    folds = [p.step.way.trial.fold for p in answer.primitives if isinstance(p.step, FoldStep)]
+    folds = [step.fold for step in answer.steps if step.kind == "fold"]
     assert sorted(folds) == [0, 1, 2] and folds.index(1) == folds.index(0) + 1
     # All of it lies before the robot: 9 + 6 + 9 s at least, and no driving.
     assert answer.cost_s == pytest.approx(24.0, abs=0.5)

@@ -2,7 +2,7 @@
 
 import math
 
-from planner import Scene
+from planner import Task
 from planner.geometry.pose import Pose2
 from planner.plan.problem import Problem
 from planner.plan.run_maker import RunMaker, ways_of
@@ -16,7 +16,7 @@ def some_fold() -> tuple[RunMaker, tuple[Step, ...], tuple[Step, ...]]:
     """A maker, and a fold of a napkin as it is found by two searches, the one as good as the other."""
     placement = Pose2(-0.6, 0.15, -math.pi / 2)
     cloth = garment(rectangle_points(0.3, 0.3), fold((0.3, 0.15), (0.0, 0.15), name="half"), placement=placement)
-    problem = Problem.of(cloth, Scene(), None, "front", "pr2", 0.03)
+    problem = Problem.of(Task.of(cloth))
     first, again = (
         next(
             step for kind in PRIMITIVES for step in kind(problem.work).successors(problem.start) if step.kind == "fold"

@@ -8,8 +8,7 @@ from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.plan.moments import moments_of
 from planner.plan.run_timing import RunTiming
-from planner.primitives.phase import Hand, Phase
-from planner.task.cloth_motion import ClothMotion
+from planner.task.phase import ClothMotion, Hand, Phase
 
 HERE, BASE = Pose2(0.0, 0.0, 0.0), Pose2(-0.95, 0.0, 0.0)
 STILL = ClothMotion(0, HERE, HERE, TableTop.of(Table()))

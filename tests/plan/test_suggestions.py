@@ -6,13 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from planner import FoldSequence, Garment, Scene, load_garment, make_plan
+from planner import FoldSequence, Garment, Scene, Task, find_plan, load_garment, make_plan
 from planner.errors import FoldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
-from planner.plan.budget import Budget
 from planner.plan.suggestion import Suggestion
 from planner.plan.suggestion_assumption import frictions, grip_radii
 from planner.plan.suggestion_fold_line import chord, fold_lines, redrawn
@@ -20,7 +19,7 @@ from planner.plan.suggestion_grid import Room, turned_in_place
 from planner.plan.suggestion_map import placement_map
 from planner.plan.suggestion_order import orders
 from planner.plan.suggestion_station import stations
-from planner.plan.suggestion_trial import Asked, Search, Trial
+from planner.plan.suggestion_trial import Search, Trial
 from planner.plan.suggestion_words import direction_words, moved_words
 from planner.plan.suggestions import Suggestions, suggestions
 from tests.builders import fold, garment, rectangle_points
@@ -36,14 +35,14 @@ def towel(placement: Pose2 | None = None) -> Garment:
     return garment(rectangle_points(0.3, 0.4), half, placement=placement or Pose2(-0.7, 0.15, -math.pi / 2))
 
 
-def asked(cloth: Garment, scene: Scene | None = None) -> Asked:
-    return Asked(cloth, scene or Scene(), cloth.placement, "front", "pr2", 0.03, "arm_time", 1000)
+def asked(cloth: Garment, scene: Scene | None = None) -> Task:
+    return Task.of(cloth, scene, max_expanded=1000)
 
 
 @pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
 def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str):
     cloth = load_garment(name)
-    found = next(s for s in suggestions(cloth, time_limit_s=60.0) if not s.is_assumption)
+    found = next(s for s in suggestions(Task.of(cloth, time_limit_s=60.0)) if not s.is_assumption)
     assert found.kind == "fold_line"
     assert f"{found.cost_s:.1f} s" in found.message
     assert "towards the robot" in found.message
@@ -55,7 +54,7 @@ def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded():
     cloth = towel(FAR)
     assert not make_plan(cloth, FRONT_ONLY).is_solved
     found = next(
-        s for s in suggestions(cloth, FRONT_ONLY, work_limit_s=5.0, time_limit_s=60.0) if s.kind == "placement"
+        s for s in suggestions(Task.of(cloth, FRONT_ONLY, work_limit_s=5.0, time_limit_s=60.0)) if s.kind == "placement"
     )
     assert "towards the robot" in found.message
     assert planned_with(found.change, cloth, FRONT_ONLY).cost_s == pytest.approx(found.cost_s, abs=1e-9)
@@ -63,7 +62,7 @@ def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded():
 
 def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_at_most():
     cloth = towel(FAR)
-    found = list(suggestions(cloth, FRONT_ONLY, work_limit_s=4.0, time_limit_s=60.0))
+    found = list(suggestions(Task.of(cloth, FRONT_ONLY, work_limit_s=4.0, time_limit_s=60.0)))
     assert len({s.kind for s in found}) > 1
     for kind in {s.kind for s in found}:
         assert len([s for s in found if s.kind == kind]) <= 3
@@ -75,7 +74,7 @@ def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
     cloth = towel(FAR)
     known = make_plan(cloth)
     assert known.cost_s is not None
-    found = list(suggestions(cloth, work_limit_s=5.0, time_limit_s=60.0))
+    found = list(suggestions(Task.of(cloth, work_limit_s=5.0, time_limit_s=60.0)))
     assert [s.kind for s in found] == ["placement"]
     assert found[0].cost_s < known.cost_s - 1.0
 
@@ -97,7 +96,8 @@ def least_of(search: Search) -> Suggestion:
     """What a search tells in the end, with all the time in the world."""
     wish = next(search)
     while isinstance(wish, Trial):
-        wish = search.send(wish.asked.plan(Budget.of(None, 60.0)))
+        task = replace(wish.task, limits=replace(wish.task.limits, time_limit_s=60.0))
+        wish = search.send(find_plan(task, with_reasons=False).plan)
     return wish
 
 
@@ -124,13 +124,13 @@ def test_the_grip_radius_that_is_suggested_is_the_least_in_whole_millimetres():
 def test_what_is_planned_already_is_not_planned_again():
     cloth = towel(FAR)
     known = make_plan(cloth, FRONT_ONLY)
-    assert list(suggestions(cloth, FRONT_ONLY, plan=known, should_stop=lambda: True)) == []
+    assert list(suggestions(Task.of(cloth, FRONT_ONLY), plan=known, should_stop=lambda: True)) == []
 
 
 def test_a_search_that_is_told_to_stop_does_so_within_a_second():
     cloth = towel(FAR)
     is_unwanted = False
-    found = suggestions(cloth, FRONT_ONLY, time_limit_s=60.0, should_stop=lambda: is_unwanted)
+    found = suggestions(Task.of(cloth, FRONT_ONLY, time_limit_s=60.0), should_stop=lambda: is_unwanted)
     next(found)
     is_unwanted = True
     started = time.perf_counter()
@@ -141,13 +141,13 @@ def test_a_search_that_is_told_to_stop_does_so_within_a_second():
 @pytest.mark.parametrize("options", [{"time_limit_s": 0.0}, {"start_station": "roof"}, {"heuristic": "magic"}])
 def test_a_wrong_option_is_refused_before_the_first_suggestion(options: dict[str, Any]):
     with pytest.raises(RequestError) as caught:
-        suggestions(towel(), **options)
+        suggestions(Task.of(towel(), **options))
     assert caught.value.field == next(iter(options))
 
 
 def test_an_illegal_fold_is_refused_before_the_first_suggestion():
     with pytest.raises(FoldError):
-        suggestions(garment(rectangle_points(0.3, 0.4), fold((1.0, 0.2), (2.0, 0.2))))
+        suggestions(Task.of(garment(rectangle_points(0.3, 0.4), fold((1.0, 0.2), (2.0, 0.2)))))
 
 
 def test_a_shifted_line_runs_from_edge_to_edge_and_later_lines_follow_the_cloth():
@@ -181,16 +181,16 @@ def test_another_order_ends_in_the_same_outline(name: str):
     trials = all_trials(asked(shipped))
     assert trials
     for trial in trials:
-        changed = trial.asked.garment
+        changed = trial.task.garment
         assert changed.folds != shipped.folds
         assert sorted(f.name for f in changed.folds) == sorted(f.name for f in shipped.folds)
         found = FoldSequence.of(changed).final.silhouette
         assert found.difference(wanted).area + wanted.difference(found).area < 1e-5
 
 
-def all_trials(request: Asked) -> list[Trial]:
+def all_trials(task: Task) -> list[Trial]:
     """What the search for orders would try if nothing worked."""
-    trials, search = [], orders(request)
+    trials, search = [], orders(task)
     unsolved = make_plan(towel(FAR), FRONT_ONLY)
     wish = next(search, None)
     try:
@@ -206,7 +206,7 @@ def test_no_station_is_proposed_that_is_there_already():
     scene = replace(Scene(), stations=(*Scene().stations, ("far", Pose2(0.95, 0.0, math.pi))))
     first = next(stations(asked(towel(), scene)))
     assert isinstance(first, Trial)
-    assert [name for name, _ in first.asked.scene.stations][-1] == "middle_left"
+    assert [name for name, _ in first.task.scene.stations][-1] == "middle_left"
 
 
 def test_turned_in_place_the_middle_stays():
@@ -240,7 +240,7 @@ def test_directions_are_the_robots():
 
 
 def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():
-    found = placement_map(towel(), FRONT_ONLY, step_m=0.3, time_limit_s=60.0)
+    found = placement_map(Task.of(towel(), FRONT_ONLY, time_limit_s=60.0), step_m=0.3)
     assert found.is_complete
     assert len(found.cells) == 4 * 3  # the room above, in steps of 0.3 m
     costs = [cell.cost_s for cell in found.cells if cell.cost_s is not None]
@@ -253,7 +253,7 @@ def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():
 
 def test_a_map_cut_short_says_so():
     for limits in ({"work_limit_s": 0.2}, {"time_limit_s": 0.2}):
-        found = placement_map(towel(), step_m=0.02, **limits)
+        found = placement_map(Task.of(towel(), **limits), step_m=0.02)
         assert not found.is_complete
         assert found.to_dict()["complete"] is False
 
@@ -272,10 +272,10 @@ def test_a_search_says_whether_it_has_tried_everything():
     cloth = towel(Pose2(-0.2, 0.15, -math.pi / 2))
     small = Scene(table=Table(0.5, 0.5), stations=(("front", Pose2(-0.4, 0.0, 0.0)),))
     assert make_plan(cloth, small).is_solved
-    assert is_complete(suggestions(cloth, small, time_limit_s=60.0))
-    assert not is_complete(suggestions(cloth, small, time_limit_s=60.0, should_stop=lambda: True))
+    assert is_complete(suggestions(Task.of(cloth, small, time_limit_s=60.0)))
+    assert not is_complete(suggestions(Task.of(cloth, small, time_limit_s=60.0), should_stop=lambda: True))
     for limits in ({"work_limit_s": 0.01}, {"time_limit_s": 0.01}):
-        assert not is_complete(suggestions(towel(FAR), FRONT_ONLY, **limits))
+        assert not is_complete(suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits)))
 
 
 def slow() -> bool:
@@ -288,7 +288,7 @@ def slow() -> bool:
 def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float):
     limits = {"work_limit_s": work_s, "time_limit_s": 60.0}
     quick, slowly = (
-        [one.to_dict() for one in suggestions(towel(FAR), FRONT_ONLY, should_stop=should_stop, **limits)]
+        [one.to_dict() for one in suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits), should_stop=should_stop)]
         for should_stop in (None, slow)
     )
     assert slowly == quick != []
@@ -297,7 +297,7 @@ def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float):
 def test_on_a_slow_machine_the_map_has_the_same_cells():
     limits = {"work_limit_s": 0.4, "time_limit_s": 60.0}
     quick, slowly = (
-        placement_map(towel(), FRONT_ONLY, should_stop=should_stop, **limits) for should_stop in (None, slow)
+        placement_map(Task.of(towel(), FRONT_ONLY, **limits), should_stop=should_stop) for should_stop in (None, slow)
     )
     assert slowly == quick
     assert quick.cells and not quick.is_complete

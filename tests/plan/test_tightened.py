@@ -5,14 +5,14 @@ from dataclasses import replace
 
 import pytest
 
-from planner import Scene, load_garment
+from planner import Scene, Task, load_garment
 from planner.plan.problem import Problem
 from planner.plan.tightened import with_more_comfort, with_narrower_cones
 
 
 def problem_of(comfort_m: float, cone_rad: float) -> Problem:
     scene = Scene(approach_cone_rad=cone_rad, friction=0.4)
-    return Problem.of(load_garment("vest"), scene, None, "left", "pr2", comfort_m)
+    return Problem.of(Task.of(load_garment("vest"), scene, start_station="left", comfort_radius_m=comfort_m))
 
 
 @pytest.mark.parametrize(("comfort_m", "more"), [(0.0, [0.01, 0.02, 0.03]), (0.02, [0.03]), (0.03, []), (0.1, [])])

@@ -16,6 +16,7 @@ from planner import Plan
 from planner.geometry.table import Table
 from planner.geometry.table_parts import table_parts
 from planner.plan.frame import Frame
+from planner.plan.timeline import Timeline
 from tests.replay.hands import CLOSED_M, seen
 from tests.replay.hulls import Body, bodies, robot
 
@@ -31,7 +32,7 @@ SIDES = {"left": "l_", "right": "r_"}
 
 @dataclass(frozen=True)
 class Look:
-    """One sample of a film.
+    """One sample of a trajectory.
 
     Attributes:
         frame: robot and cloth.
@@ -44,9 +45,9 @@ class Look:
 
 
 def looks(plan: Plan, rate_hz: float) -> list[Look]:
-    """Samples of a plan's film."""
+    """Samples of a plan's trajectory."""
     height_m = plan.scene.table.height_m
-    frames = list(plan.timeline().samples(rate_hz))
+    frames = list(Timeline.of(plan).samples(rate_hz))
     moments = [seen(frame.to_dict(), height_m) for frame in frames]
     ways: dict[str, list[float]] = {}
     for arm in SIDES:

@@ -1,4 +1,4 @@
-"""Where the robot's tools really are in a film of a plan, by pinocchio from the URDF and the joints' names alone."""
+"""Where the robot's tools really are in a plan's trajectory, by pinocchio from the URDF and the joints' names alone."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The joints of a film, 50 times a second, and what they are held to."""
+"""The joints of a trajectory, 50 times a second, and what they are held to."""
 
 import numpy as np
 

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, load_garment
+from planner.plan.found_plan import FoundPlan
+from tests.plan.found import found_plan
 
 SOLVABLE = (
     "t-shirt",
@@ -23,17 +25,22 @@ IMPOSSIBLE = ("tie-halved", "scarf-halved")
 
 @dataclass(frozen=True)
 class Planned:
-    """What the checker is given."""
+    """What the checker is given, and what the plan was found with."""
 
     garment: dict[str, Any]
     scene: dict[str, Any]
     plan: dict[str, Any]
-    answer: Plan
+    found: FoundPlan
+
+    @property
+    def answer(self) -> Plan:
+        """The plan."""
+        return self.found.plan
 
 
 @cache
 def planned(name: str) -> Planned:
     """The plan of a shipped garment in the default scene, with time enough for a cold machine."""
     garment = load_garment(name)
-    answer = make_plan(garment, Scene(), time_limit_s=60.0)
-    return Planned(garment.to_dict(), answer.scene.to_dict(), answer.to_dict(), answer)
+    found = found_plan(garment, time_limit_s=60.0)
+    return Planned(garment.to_dict(), found.plan.scene.to_dict(), found.plan.to_dict(), found)

@@ -9,12 +9,15 @@ from hypothesis import settings
 
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
-from planner import Garment, Plan, Scene, load_garment, make_plan, quick_plan
+from planner import Garment, Scene, Task, find_plan, load_garment, make_plan, quick_plan
 from planner.folds.fold import Fold
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.plan.found_plan import FoundPlan
+from planner.plan.timeline import Timeline
 from tests.builders import fold, garment, rectangle_points
 from tests.laws.law import LONG
+from tests.plan.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 from tests.replay.planned import IMPOSSIBLE, SOLVABLE, planned
@@ -41,13 +44,19 @@ def free_vertices(cloth: Garment) -> list[int]:
     return [i for i, corner in enumerate(cloth.outline) if all(math.dist(corner, end) > 1e-6 for end in ends)]
 
 
-def unhurried(plan: Plan) -> dict[str, Any]:
+def soon(cloth: Garment, known: FoundPlan) -> FoundPlan | None:
+    """What is found soon for a garment, from a plan that is known."""
+    return quick_plan(Task.of(cloth), like=[known])
+
+
+def unhurried(found: FoundPlan) -> dict[str, Any]:
     """A plan as if the joints kept up everywhere: the checker tells from the time how far the base has driven."""
-    said, now = plan.to_dict(), 0.0
-    for primitive, planned_one in zip(said["primitives"], plan.primitives, strict=True):
-        assert primitive["duration_s"] >= planned_one.step.duration_s - 1e-9
-        primitive.update(start_s=now, duration_s=planned_one.step.duration_s)
-        now += planned_one.step.duration_s
+    said, now = found.plan.to_dict(), 0.0
+    steps = [step for act in found.acts for step in act.steps]
+    for primitive, step in zip(said["primitives"], steps, strict=True):
+        assert primitive["duration_s"] >= step.duration_s - 1e-9
+        primitive.update(start_s=now, duration_s=step.duration_s)
+        now += step.duration_s
     return {**said, "cost_s": now}
 
 
@@ -59,29 +68,30 @@ def napkin(*folds: Fold) -> Garment:
     return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(-0.75, 0.15, -math.pi / 2))
 
 
-def way(plan: Plan) -> list[tuple[object, ...]]:
+def way(found: FoundPlan) -> list[tuple[object, ...]]:
     """What is done from where, one after the other."""
-    return [(p.kind, p.step.details.get("fold"), p.base.station) for p in plan.primitives]
+    return [(step.kind, step.fold, step.base.station) for step in found.plan.steps]
 
 
 @each_solvable
 def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
-    before = planned(name).answer
-    after = quick_plan(before.garment, like=[before])
-    assert after is not None and after.cost_s == pytest.approx(before.cost_s, abs=1e-9)
-    assert after.to_dict()["primitives"] == before.to_dict()["primitives"]
+    before = planned(name)
+    after = soon(load_garment(name), before.found)
+    assert after is not None and after.plan.cost_s == pytest.approx(before.answer.cost_s, abs=1e-9)
+    assert after.plan.to_dict()["primitives"] == before.answer.to_dict()["primitives"]
+    assert after.plan.steps == before.answer.steps
 
 
 @each_solvable
 def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str):
-    before, adapted = planned(name).answer, []
-    for vertex in free_vertices(before.garment)[::2]:
+    before, adapted = planned(name).found, []
+    for vertex in free_vertices(before.plan.garment)[::2]:
         # None of these leaves a sliver narrower than a millimetre, which the checker would not follow.
         cloth = moved(name, vertex, CENTIMETRE[(vertex // 2 + 1) % 4])
-        after = quick_plan(cloth, like=[before])
+        after = soon(cloth, before)
         if after is not None:
             check(cloth.to_dict(), Scene().to_dict(), unhurried(after))
-            assert after.statistics.bound_s <= after.cost_s
+            assert after.plan.statistics.bound_s <= after.plan.cost_s
             adapted.append(after)
     assert adapted, "each garment has a vertex that may be pulled without another plan"
 
@@ -89,68 +99,75 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
 @pytest.mark.parametrize("name", SOLVABLE if settings.get_current_profile_name() == LONG else ("jeans", "scarf"))
 def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
     # A centimetre, millimetre by millimetre: each plan's joints are near to those of the plan before.
-    plan = planned(name).answer
-    vertex = free_vertices(plan.garment)[-1]
+    found = planned(name).found
+    vertex = free_vertices(found.plan.garment)[-1]
     for number in range(1, 11):
-        plan = quick_plan(moved(name, vertex, (0.0, 0.001 * number)), like=[plan]) or plan
-    assert plan.garment.outline != planned(name).answer.garment.outline
-    require_speeds(plan.timeline())
-    require_clear(plan.timeline(), Table(), every_s=1.7)
+        found = soon(moved(name, vertex, (0.0, 0.001 * number)), found) or found
+    assert found.plan.garment.outline != planned(name).answer.garment.outline
+    timeline = Timeline.of(found.plan)
+    require_speeds(timeline)
+    require_clear(timeline, Table(), every_s=1.7)
 
 
 def test_most_centimetres_ask_for_no_other_plan():
-    before = planned("t-shirt").answer
-    moves = [(vertex, CENTIMETRE[vertex % 4]) for vertex in range(len(before.garment.outline))]
-    after = [quick_plan(moved("t-shirt", *move), like=[before]) for move in moves]
-    assert sum(plan is not None and way(plan) == way(before) for plan in after) >= 0.8 * len(moves)
+    before = planned("t-shirt").found
+    moves = [(vertex, CENTIMETRE[vertex % 4]) for vertex in range(len(before.plan.garment.outline))]
+    after = [soon(moved("t-shirt", *move), before) for move in moves]
+    assert sum(found is not None and way(found) == way(before) for found in after) >= 0.8 * len(moves)
 
 
 def test_what_more_is_to_be_folded_is_folded_after_what_is_known():
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
-    known = make_plan(once)
-    found = quick_plan(twice, like=[known])
+    known = found_plan(once)
+    found = soon(twice, known)
     check(twice.to_dict(), Scene().to_dict(), unhurried(found))
     assert way(found)[: len(way(known))] == way(known)
-    assert found.cost_s >= make_plan(twice).cost_s - 1e-9
+    assert found.plan.cost_s >= make_plan(twice).cost_s - 1e-9
 
 
 def test_what_is_not_to_be_folded_any_more_is_left_out():
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
-    found = quick_plan(once, like=[make_plan(twice)])
-    assert way(found) == way(make_plan(once))
+    found = soon(once, found_plan(twice))
+    assert way(found) == way(found_plan(once))
 
 
 def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold_on():
     over, back = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
     red, blue = napkin(over, back), napkin(over, replace(back, kind="blue"))
     for cloth, other in ((red, blue), (blue, red)):
-        found = quick_plan(cloth, like=[make_plan(other)])
+        found = soon(cloth, found_plan(other))
         check(cloth.to_dict(), Scene().to_dict(), unhurried(found))
-        assert [p.step.details["holds"] for p in found.primitives if p.kind == "fold"] == [cloth is red, False]
+        folds = [step for step in found.plan.steps if step.kind == "fold"]
+        assert [step.details["holds"] for step in folds] == [cloth is red, False]
+        assert [bool(step.after.held) for step in folds] == [cloth is red, False]
 
 
 @pytest.mark.parametrize("name", IMPOSSIBLE)
 def test_where_there_is_no_plan_none_is_found_soon(name: str):
-    assert quick_plan(load_garment(name), like=[planned(name.removesuffix("-halved")).answer]) is None
+    assert soon(load_garment(name), planned(name.removesuffix("-halved")).found) is None
 
 
 def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker():
-    before = planned("jeans").answer
-    known = quick_plan(moved("jeans", 2, (0.0, 0.01)), like=[before])
-    after = make_plan(known.garment, known=known)
-    plainly = make_plan(known.garment)
-    assert after.is_solved and after.cost_s == pytest.approx(min(known.cost_s, plainly.cost_s), abs=1e-9)
+    known = soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found)
+    after = find_plan(known.plan.task, known=known).plan
+    plainly = make_plan(known.plan.task)
+    assert after.is_solved and after.cost_s == pytest.approx(min(known.plan.cost_s, plainly.cost_s), abs=1e-9)
     assert after.statistics.bound_s == pytest.approx(after.cost_s, abs=1e-9), "that is proved now"
 
 
 def test_a_plan_that_is_known_is_the_answer_when_time_runs_out():
-    before = planned("jeans").answer
-    known = quick_plan(before.garment, like=[before])
-    after = make_plan(before.garment, known=known, max_expanded=1)
-    assert after.is_solved and after.cost_s == known.cost_s
+    jeans = load_garment("jeans")
+    known = soon(jeans, planned("jeans").found)
+    task = Task.of(jeans, max_expanded=1)
+    after = find_plan(task, known=known).plan
+    assert after.is_solved and after.cost_s == known.plan.cost_s
+    assert after.task == task, "it answers what was asked now"
     assert after.statistics.bound_s < after.cost_s, "whether it is the quickest is not known"
 
 
 def test_a_slower_plan_that_is_known_gives_way_to_the_quickest():
-    quick, slow = planned("hand-towel").answer, make_plan(load_garment("hand-towel"), start_station="left")
-    assert make_plan(quick.garment, known=slow).cost_s == pytest.approx(quick.cost_s, abs=1e-9)
+    towel = load_garment("hand-towel")
+    slow = found_plan(towel, start_station="left")
+    assert find_plan(Task.of(towel), known=slow).plan.cost_s == pytest.approx(
+        planned("hand-towel").answer.cost_s, abs=1e-9
+    )

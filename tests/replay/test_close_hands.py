@@ -9,6 +9,7 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from planner import Garment, Scene, load_garment, make_plan
 from planner.geometry.table import Table
+from planner.plan.timeline import Timeline
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 
@@ -41,5 +42,5 @@ def test_two_hands_fold_a_narrow_end(corner: int, by_m: float, towards_rad: floa
     assert plan.is_solved
     assert any(len(one.grips) == 2 for one in plan.primitives if one.kind == "fold")
     check(cloth.to_dict(), Scene().to_dict(), plan.to_dict())
-    require_speeds(plan.timeline())
-    require_clear(plan.timeline(), Table(), every_s=1.3)
+    require_speeds(Timeline.of(plan))
+    require_clear(Timeline.of(plan), Table(), every_s=1.3)

@@ -1,4 +1,4 @@
-"""Hands that hold nothing, in every film: never in the table, never low over cloth, fingers in good time."""
+"""Hands that hold nothing, in every trajectory: never in the table, never low over cloth, fingers in good time."""
 
 from functools import cache
 
@@ -7,6 +7,7 @@ import pytest
 from hypothesis import settings
 
 from planner.geometry.table import Table
+from planner.plan.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.free_hands import Look, in_table, looks, too_low
 from tests.replay.hands import CLOSED_M
@@ -46,7 +47,7 @@ def test_no_part_of_a_free_arm_is_low_over_cloth_but_near_its_grip(name: str):
 @each_solvable
 def test_no_finger_opens_before_the_cloth_lies(name: str):
     plan = planned(name).answer
-    timeline, opened = plan.timeline(), 0
+    timeline, opened = Timeline.of(plan), 0
     for primitive in plan.primitives:
         end = primitive.start_s + primitive.duration_s
         lies = timeline.at(end - 1e-6).cloth.vertices
@@ -62,7 +63,7 @@ def test_no_finger_opens_before_the_cloth_lies(name: str):
 
 @each_solvable
 def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
-    frames = list(planned(name).answer.timeline().samples(50.0))
+    frames = list(Timeline.of(planned(name).answer).samples(50.0))
     times = np.array([frame.t_s for frame in frames])
     for joint, limit in zip(FINGERS.values(), speed_limits([*FINGERS.values()]), strict=True):
         angles = np.array([frame.joints[joint] for frame in frames])
@@ -74,7 +75,7 @@ def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
 @each_solvable
 def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float):
     plan = planned(name).answer
-    times = np.array([frame.t_s for frame in plan.timeline().samples(rate_hz)])
+    times = np.array([frame.t_s for frame in Timeline.of(plan).samples(rate_hz)])
     assert times[-1] == plan.cost_s
     steps = np.diff(times)
     assert steps[:-1] == pytest.approx(np.full(len(steps) - 1, 1.0 / rate_hz), abs=1e-9)

@@ -1,4 +1,4 @@
-"""The film of every plan against the URDF: the tools are where the replay says that the grips must be."""
+"""The trajectory of every plan against the URDF: the tools are where the replay says that the grips must be."""
 
 import math
 from functools import cache
@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from planner.plan.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.checker import check
 from tests.replay.hands import Moment, distance_to_way, require_joint_limits, seen
@@ -27,7 +28,7 @@ def ways(name: str) -> list[dict[str, Way]]:
 
 @cache
 def samples(name: str) -> list[dict[str, Any]]:
-    return [frame.to_dict() for frame in planned(name).answer.timeline().samples(RATE_HZ)]
+    return [frame.to_dict() for frame in Timeline.of(planned(name).answer).samples(RATE_HZ)]
 
 
 @cache
@@ -38,7 +39,7 @@ def moments(name: str) -> list[Moment]:
 
 def moment(name: str, t_s: float) -> Moment:
     case = planned(name)
-    return seen(case.answer.timeline().at(t_s).to_dict(), case.scene["table"]["height_m"])
+    return seen(Timeline.of(case.answer).at(t_s).to_dict(), case.scene["table"]["height_m"])
 
 
 def holding(name: str, number: int, arm: str) -> list[Moment]:
@@ -49,18 +50,18 @@ def holding(name: str, number: int, arm: str) -> list[Moment]:
 
 
 @each_solvable
-def test_the_film_lasts_as_long_as_the_plan_costs_and_knows_which_primitive_is_under_way(name: str):
-    plan, film = planned(name).plan, samples(name)
-    assert film[0]["t_s"] == 0.0
-    assert film[-1]["t_s"] == pytest.approx(plan["cost_s"], abs=1e-9)
-    for sample in film[:-1]:
+def test_the_trajectory_lasts_as_long_as_the_plan_costs_and_knows_which_primitive_is_under_way(name: str):
+    plan, sampled = planned(name).plan, samples(name)
+    assert sampled[0]["t_s"] == 0.0
+    assert sampled[-1]["t_s"] == pytest.approx(plan["cost_s"], abs=1e-9)
+    for sample in sampled[:-1]:
         primitive = plan["primitives"][sample["primitive"]]
         end = primitive["start_s"] + primitive["duration_s"]
         assert primitive["start_s"] - 1e-9 <= sample["t_s"] <= end + 1e-9
 
 
 @each_solvable
-def test_every_joint_of_the_film_is_known_to_the_urdf_and_within_its_limits(name: str):
+def test_every_joint_of_the_trajectory_is_known_to_the_urdf_and_within_its_limits(name: str):
     for sample in samples(name):
         require_joint_limits(sample)
 
@@ -78,10 +79,10 @@ def test_the_base_is_where_each_primitive_leaves_it_when_it_ends(name: str):
 def test_a_tool_passes_its_pick_its_apex_and_its_place_in_that_order(name: str):
     for number, (primitive, arms) in enumerate(zip(planned(name).plan["primitives"], ways(name), strict=True)):
         for grip in primitive["grips"]:
-            arm, film = grip["arm"], holding(name, number, grip["arm"])
+            arm, looks = grip["arm"], holding(name, number, grip["arm"])
             end = primitive["start_s"] + primitive["duration_s"]
-            start = film[0].t_s if arms[arm].is_new_grip else primitive["start_s"]
-            path = [moment(name, start).tools[arm], *(m.tools[arm] for m in film), moment(name, end).tools[arm]]
+            start = looks[0].t_s if arms[arm].is_new_grip else primitive["start_s"]
+            path = [moment(name, start).tools[arm], *(m.tools[arm] for m in looks), moment(name, end).tools[arm]]
             what = f"primitive {number}, {arm} arm"
             assert math.dist(path[0], grip["pick"]) < NEAR_M, f"{what}: the cloth is taken elsewhere"
             assert math.dist(path[-1], grip["place"]) < NEAR_M, f"{what}: the cloth is put down elsewhere"

@@ -1,4 +1,4 @@
-"""The joints of every film: within their speeds, without a jump, and clear of everything that a hull can hit."""
+"""The joints of every trajectory: within their speeds, without a jump, and clear of everything that a hull can hit."""
 
 from itertools import pairwise
 
@@ -8,6 +8,7 @@ import pytest
 from hypothesis import settings
 
 from planner.geometry.table import Table
+from planner.plan.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.hands import robot
 from tests.replay.joints import RATE_HZ, arm_joints, require_clear, require_speeds, speed_limits
@@ -23,12 +24,12 @@ each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 @each_solvable
 def test_no_joint_of_an_arm_is_faster_than_the_urdf_allows(name: str):
-    require_speeds(planned(name).answer.timeline())
+    require_speeds(Timeline.of(planned(name).answer))
 
 
 @each_solvable
 def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str):
-    joints, values, _ = arm_joints(planned(name).answer.timeline())
+    joints, values, _ = arm_joints(Timeline.of(planned(name).answer))
     rolls = [i for i, joint in enumerate(joints) if any(turn in joint for turn in TURNS)]
     assert max(np.abs(b - a).max() for a, b in pairwise(values[:, rolls])) < np.pi / 8
 
@@ -36,7 +37,7 @@ def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str):
 @each_solvable
 def test_nothing_touches_anything_but_the_cloth(name: str):
     case = planned(name)
-    require_clear(case.answer.timeline(), Table(**case.scene["table"]), CHECKED_S)
+    require_clear(Timeline.of(case.answer), Table(**case.scene["table"]), CHECKED_S)
 
 
 def test_the_speed_limits_are_read_from_the_urdf():

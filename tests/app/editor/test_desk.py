@@ -241,10 +241,9 @@ def driven() -> Iterator[tuple[Document, Stage]]:
     """A document with a plan that drives to the table's left, and its stage."""
     plan = planned("jeans").answer
     document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
-    question = document.state.question
-    assert question is not None
-    document.settle(document.state.version, question, plan, "id")
-    document.show_film(plan, plan.timeline())
+    task = document.state.task
+    assert task is not None
+    document.settle(document.state.version, task, plan, "id")
     player = Player(document, stage, Desk(document, stage.server, CARD, stage.opening))
     yield document, stage
     player.close()

@@ -24,10 +24,9 @@ def plan() -> Plan:
 def playing(plan: Plan) -> Document:
     """A document in the middle of its film."""
     document = Document(draft_of(towel_drawing()))
-    question = document.state.question
-    assert question is not None
-    document.settle(document.state.version, question, plan, "id")
-    document.show_film(plan, plan.timeline())
+    task = document.state.task
+    assert task is not None
+    document.settle(document.state.version, task, plan, "id")
     document.seek(2.0)
     document.play()
     return document

@@ -8,7 +8,7 @@ import pytest
 
 from app.files.plan_table import plan_table
 from planner import Scene, load_garment, make_plan
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 from planner.task.scene import DEFAULT_STATIONS
 
 HEIGHT_M = 0.79

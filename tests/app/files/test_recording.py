@@ -9,7 +9,7 @@ import zstandard
 
 from app.files.recording import HOLD_S, recording
 from planner import load_garment, make_plan
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 
 DATA = re.compile(r'__VISER_EMBED_DATA__="([A-Za-z0-9+/=]+)"')
 

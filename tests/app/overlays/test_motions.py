@@ -12,7 +12,7 @@ from app.overlays.motions import base_overlay, paths_overlay
 from app.overlays.overlays import OVERLAYS, overlays
 from planner import load_garment, make_plan
 from planner.errors import RequestError
-from planner.plan.plan import Plan
+from planner.task.plan import Plan
 
 
 def planned(name: str) -> tuple[Document, Plan]:
@@ -20,8 +20,7 @@ def planned(name: str) -> tuple[Document, Plan]:
     document = Document(draft_of(drawing_of(load_garment(name))))
     state = document.state
     plan = make_plan(load_garment(name))
-    document.settle(state.version, state.question, plan, "p")
-    document.show_film(plan, plan.timeline())
+    document.settle(state.version, state.task, plan, "p")
     return document, plan
 
 

@@ -95,11 +95,12 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
 
 def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]):
     plan = make_plan(load_garment("t-shirt"))
-    arms = {arm.name: number for number, arm in enumerate(plan.robot.card.arms)}
+    arms = {arm.name: number for number, arm in enumerate(load_robot(plan.task.robot).card.arms)}
     picked = 0
-    for primitive in plan.primitives:
-        held = [phase for phase in primitive.step.phases() if any(h and h.is_closed for h in phase.hands)]
-        for grip in primitive.grips:
+    for number, step in enumerate(plan.steps):
+        phases = (segment.phase for segment in plan.trajectory.of_step(number))
+        held = [phase for phase in phases if any(hand and hand.is_closed for hand in phase.hands)]
+        for grip in step.grips:
             x, y, _ = held[0].base[0].to_inner(np.array(grip.pick))
             region = comfortable[arms[grip.arm]]
             assert region.contains((x, y)) or region.boundary_distance((x, y)) < 0.005

@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 
 from app.store.plan_store import LIVE_MAX, PlanStore, UnknownPlanError
-from app.store.recorded_plan import RecordedPlan
 from planner import Plan, load_garment, make_plan
+from planner.plan.timeline import Timeline
 
 
 @pytest.fixture(scope="module")
@@ -35,9 +35,9 @@ def test_a_plan_put_away_is_told_and_played_as_it_was(plan: Plan, copies: Iterat
     for _ in range(2 * LIVE_MAX):
         store.add(next(copies))
     kept = store.plan(first)
-    assert isinstance(kept, RecordedPlan)
-    assert kept.to_dict() == plan.to_dict()
-    frames, expected = kept.timeline().samples(10.0), plan.timeline().samples(10.0)
+    assert kept is not plan, "else it was not put away"
+    assert kept == plan and kept.to_dict() == plan.to_dict()
+    frames, expected = Timeline.of(kept).samples(10.0), Timeline.of(plan).samples(10.0)
     assert [frame.to_dict() for frame in frames] == [frame.to_dict() for frame in expected]
     assert store.plan(no_plan).status == "infeasible"
 
@@ -75,19 +75,19 @@ def test_a_plan_that_was_dropped_is_gone_wherever_it_was(copies: Iterator[Plan])
 
 def test_a_full_disk_loses_no_plan(copies: Iterator[Plan]) -> None:
     store = PlanStore()
-    store._records._database.execute("PRAGMA max_page_count = 40")
+    store._stored._database.execute("PRAGMA max_page_count = 40")
     made = [store.add(next(copies)) for _ in range(3 * LIVE_MAX)]
     assert [number_of(store, plan_id) for plan_id in made] == list(range(3 * LIVE_MAX))
 
 
-def test_a_plan_that_cannot_be_filmed_is_kept_and_others_are_put_away(
+def test_a_plan_that_cannot_be_put_away_is_kept_and_others_are_put_away(
     plan: Plan, copies: Iterator[Plan], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(self: Plan) -> None:
-        raise RuntimeError("no film")
+        raise RuntimeError("it cannot be pickled")
 
     store = PlanStore()
-    monkeypatch.setattr(Plan, "timeline", fail)
+    monkeypatch.setattr(Plan, "__getstate__", fail)
     bad = store.add(plan)
     for _ in range(LIVE_MAX):
         store.add(next(copies))

@@ -1,4 +1,4 @@
-"""Plans with red folds: each replays; what their films show of hands and cloth, see `tests.plan.red_towels`."""
+"""Plans with red folds: each replays; what their trajectories show of hands and cloth, see `tests.plan.red_towels`."""
 
 from collections.abc import Callable
 from functools import cache
@@ -11,8 +11,8 @@ from planner.geometry.pose import FloatArray
 from planner.plan.cloth_surface import LAYER_GAP_M
 from planner.plan.frame import ClothSurface
 from planner.plan.joint_track import CLOSED_M, OPEN_M
-from planner.plan.plan import PlannedPrimitive
-from planner.primitives.fold_step import FoldStep
+from planner.plan.timeline import Timeline
+from planner.task.plan import PlanStep
 from tests.plan.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
 
@@ -42,18 +42,18 @@ def test_plans_with_chains_replay(planned: Callable[[], Plan]):
 
 
 def openings(plan: Plan, t_s: float) -> dict[str, float]:
-    return plan.timeline().at(t_s).grippers_m
+    return Timeline.of(plan).at(t_s).grippers_m
 
 
-def performed(plan: Plan, index: int) -> PlannedPrimitive:
-    """The primitive that performs a fold."""
-    return next(p for p in plan.primitives if isinstance(p.step, FoldStep) and p.step.way.trial.fold == index)
+def performed(plan: Plan, index: int) -> PlanStep:
+    """The step that performs a fold."""
+    return next(step for step in plan.steps if step.fold == index)
 
 
 def span(plan: Plan, index: int) -> tuple[float, float]:
     """When a fold begins and ends (s)."""
-    primitive = performed(plan, index)
-    return (primitive.start_s, primitive.start_s + primitive.duration_s)
+    step = performed(plan, index)
+    return step.start_s, step.end_s
 
 
 def test_the_hands_stay_closed_from_the_blue_folds_grasp_to_the_end_of_the_chain():
@@ -92,23 +92,23 @@ def test_while_a_red_fold_is_made_only_the_last_flap_moves(number: int, staying:
     # its line as high as it is deep, and no higher.
     plan = planned_chain()
     start, end = span(plan, number)
-    at_rest = corners(plan.timeline().at(end - 1e-6).cloth, staying)
+    at_rest = corners(Timeline.of(plan).at(end - 1e-6).cloth, staying)
     # A fold may begin with the wrists turning in their grips: then nothing of it moves yet.
     for t_s in np.linspace(start + 0.2 * (end - start), end - 1e-6, 40):
-        surface = plan.timeline().at(float(t_s)).cloth
+        surface = Timeline.of(plan).at(float(t_s)).cloth
         np.testing.assert_allclose(corners(surface, staying), at_rest, atol=2e-6)
         assert surface.vertices[:, 2].max() <= depth_m + 1e-6
-    heights = [plan.timeline().at(float(t)).cloth.vertices[:, 2].max() for t in np.linspace(start, end, 300)]
+    heights = [Timeline.of(plan).at(float(t)).cloth.vertices[:, 2].max() for t in np.linspace(start, end, 300)]
     assert max(heights) == pytest.approx(depth_m, abs=2e-3)
 
 
 def test_below_a_red_fold_the_cloth_lies_as_it_lay_before():
     plan = planned_chain()
-    lay = plan.timeline().at(span(plan, 0)[1] - 1e-6).cloth
-    lies = plan.timeline().at(span(plan, 1)[1] - 1e-6).cloth
+    lay = Timeline.of(plan).at(span(plan, 0)[1] - 1e-6).cloth
+    lies = Timeline.of(plan).at(span(plan, 1)[1] - 1e-6).cloth
     np.testing.assert_allclose(corners(lies, 1), corners(lay, 1), atol=2e-6)
     # The flap lay from its crease, y = 0.25, to y = 0.5; what is left of it ends at the new crease, y = 0.4.
-    origin = plan.work.placed(performed(plan, 0).step.after.offset).x_m
+    origin = performed(plan, 0).after.placement.x_m
     for surface, far in ((lay, 0.5), (lies, 0.4)):
         flap = surface.vertices[surface.triangles[surface.layers == 1]].reshape(-1, 3)
         assert (flap[:, 0].min(), flap[:, 0].max()) == pytest.approx((origin + 0.25, origin + far), abs=1e-5)
@@ -116,7 +116,7 @@ def test_below_a_red_fold_the_cloth_lies_as_it_lay_before():
 
 def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds():
     plan = planned_chain()
-    end = plan.timeline().at(plan.cost_s).cloth
+    end = Timeline.of(plan).at(plan.cost_s).cloth
     for layer in range(4):
         heights = end.vertices[end.triangles[end.layers == layer]][..., 2]
         assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_GAP_M), abs=1e-6)

@@ -1,0 +1,59 @@
+"""``pleat export``."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from app.cli.program import blaming, cli, failure, load_source, output, refusing
+from app.files.exports import EXPORTS, Export, find_export
+from app.files.recording import DEFAULT_RATE_HZ
+from app.files.state_of_plan import state_of_garment, state_of_plan
+from planner import Garment, make_plan
+
+
+@cli.command()
+def export(
+    source: Annotated[
+        str | None, typer.Argument(metavar="FILE", help="A plan file, a garment file or a garment.")
+    ] = None,
+    to: Annotated[str | None, typer.Option(metavar="KIND", help="The kind of file; see --list.")] = None,
+    out: Annotated[Path | None, typer.Option(metavar="PATH", help="Where to; by default a name here.")] = None,
+    rate_hz: Annotated[float, typer.Option(help="Frames a second of a recording (1..30).")] = DEFAULT_RATE_HZ,
+    is_listing: Annotated[bool, typer.Option("--list", help="Print the kinds of files.")] = False,
+) -> None:
+    """Make a file of a plan, or of a garment, which is planned first where the kind needs that."""
+    if is_listing:
+        output.print(_kinds())
+        return
+    if source is None or to is None:
+        raise failure("export: needs a FILE and --to KIND; --list prints the kinds")
+    kind = find_export(to)
+    if kind is None:
+        raise failure(f"--to: {to!r} is none of {', '.join(one.what for one in EXPORTS)}")
+    data, name = _made(kind, source, rate_hz)
+    path = out or Path(name)
+    with refusing(path):
+        path.write_bytes(data)
+    output.print(f"{path}: {len(data)} bytes")
+
+
+def _made(kind: Export, source: str, rate_hz: float) -> tuple[bytes, str]:
+    """Return a file and its usual name."""
+    found = load_source(source)
+    with blaming(source):
+        if isinstance(found, Garment):
+            state = state_of_plan(make_plan(found)) if kind.needs_plan else state_of_garment(found)
+        else:
+            state = state_of_plan(found)
+        return kind.file(state, rate_hz, lambda: False), kind.filename(state)
+
+
+def _kinds() -> Table:
+    table = Table(header_style="bold")
+    for name in ("kind", "what", "file"):
+        table.add_column(name)
+    for one in EXPORTS:
+        table.add_row(one.what, one.text, f"NAME{one.ending}")
+    return table

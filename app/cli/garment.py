@@ -1,0 +1,45 @@
+"""``pleat dag`` and ``pleat check``: what there is to know of a garment without a robot."""
+
+import typer
+
+from app.cli.program import (
+    NO_PLAN,
+    STANDARD_OUTPUT,
+    JsonOption,
+    SourceArgument,
+    blaming,
+    cli,
+    errors,
+    garment_of,
+    output,
+    write_json,
+)
+from app.tables import check_table, dag_table
+from planner import check_garment, fold_dag
+
+
+@cli.command()
+def dag(garment: SourceArgument, json_to: JsonOption = None) -> None:
+    """Print which fold waits for which."""
+    chosen = garment_of(garment)
+    with blaming(garment):
+        answer = fold_dag(chosen).to_dict()
+    write_json(answer, json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(dag_table(chosen, answer["edges"]))
+
+
+@cli.command()
+def check(garment: SourceArgument, json_to: JsonOption = None) -> None:
+    """Check that a garment file is good, its folds are legal, and each can be held by two grippers."""
+    chosen = garment_of(garment)
+    with blaming(garment):
+        report = check_garment(chosen)
+    write_json(report.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(check_table(chosen, report))
+    for index, fold in enumerate(report.folds):
+        if fold.problem is not None:
+            errors.print(f"{garment}: folds[{index}]: two grippers cannot hold it: {fold.problem}")
+    if not report.is_holdable:
+        raise typer.Exit(NO_PLAN)

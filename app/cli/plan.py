@@ -1,0 +1,170 @@
+"""``pleat plan``, ``pleat show`` and ``pleat timeline``."""
+
+from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.cli.program import (
+    NO_PLAN,
+    OUT_OF_BUDGET,
+    STANDARD_OUTPUT,
+    JsonOption,
+    SourceArgument,
+    blaming,
+    cli,
+    errors,
+    failure,
+    load_source,
+    output,
+    refusing,
+    write_json,
+)
+from app.tables import plan_table, suggestion_table
+from planner import Plan, Scene, Task, Timeline, make_plan, suggestions
+from planner.cloth.garment import Garment
+from planner.cloth.garment_files import read_json
+from planner.errors import SceneError
+from planner.task.plan_files import read_plan, write_plan
+from planner.task.task import TaskOptions
+
+PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan file, as `pleat plan --out` writes it.")]
+
+
+class HeuristicName(StrEnum):
+    """What the search may know about the way that is left."""
+
+    ARM_TIME = "arm_time"
+    ZERO = "zero"
+
+
+@cli.command()
+def plan(
+    garment: SourceArgument,
+    comfort_radius_m: Annotated[
+        float | None, typer.Option(help="How much slack every reach has (m).", show_default="0.03")
+    ] = None,
+    scene: Annotated[Path | None, typer.Option(help="A scene file.")] = None,
+    start: Annotated[str | None, typer.Option(help="The station where the robot starts.", show_default="front")] = None,
+    heuristic: Annotated[
+        HeuristicName | None, typer.Option(help="What the search knows of what is left.", show_default="arm_time")
+    ] = None,
+    time_limit_s: Annotated[float | None, typer.Option(help="How long to search (s).", show_default="10")] = None,
+    from_plan: Annotated[
+        Path | None, typer.Option("--from", metavar="PLAN", help="A plan file: start where it is after a step.")
+    ] = None,
+    after_step: Annotated[
+        int | None, typer.Option(help="With --from: the step, counted from 0, that has been done.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write a plan file, which show, timeline and export read.")
+    ] = None,
+    json_to: JsonOption = None,
+    suggest: Annotated[bool, typer.Option("--suggest", help="Look for changes that give a (quicker) plan.")] = False,
+) -> None:
+    """Plan a garment's folds, and print the plan."""
+    options = TaskOptions()
+    if start is not None:
+        options["start_station"] = start
+    if comfort_radius_m is not None:
+        options["comfort_radius_m"] = comfort_radius_m
+    if heuristic is not None:
+        options["heuristic"] = heuristic.value
+    if time_limit_s is not None:
+        options["time_limit_s"] = time_limit_s
+    where = None if scene is None else _read_scene(scene)
+    task = _task(load_source(garment), where, options, garment)
+    if from_plan is not None:
+        task = _going_on(task, from_plan, after_step, has_scene=scene is not None)
+    elif after_step is not None:
+        raise failure("--after-step: needs --from")
+    with blaming(garment):
+        answer = make_plan(task)
+    write_json(answer.answer(), json_to)
+    if out is not None:
+        with refusing(out):
+            write_plan(answer, out)
+    is_quiet = json_to == STANDARD_OUTPUT
+    if answer.is_solved and not is_quiet:
+        output.print(plan_table(answer))
+    status = _status(answer)
+    if suggest and not is_quiet:
+        _print_suggestions(answer)
+    raise typer.Exit(status)
+
+
+@cli.command()
+def show(file: PlanFileArgument) -> None:
+    """Print the plan in a plan file, or why there is none."""
+    with blaming(file):
+        answer = read_plan(file)
+    if answer.is_solved:
+        output.print(plan_table(answer))
+    raise typer.Exit(_status(answer))
+
+
+@cli.command()
+def timeline(
+    file: PlanFileArgument,
+    rate_hz: Annotated[float, typer.Option(help="Samples a second (1..200).")] = 30.0,
+    json_to: Annotated[str, typer.Option("--json", metavar="FILE|-", help="Write it there; - prints it.")] = "-",
+) -> None:
+    """Sample a plan from its start to its end: base, joints, velocities, grippers."""
+    with blaming(file):
+        played = Timeline.of(read_plan(file))
+        samples = [frame.to_dict() for frame in played.samples(rate_hz)]
+    write_json({"rate_hz": rate_hz, "samples": samples}, json_to)
+
+
+def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, name: str) -> Task:
+    """Return the task of a garment, or that of a plan with what the options say in place of its own."""
+    with blaming(name):
+        if isinstance(source, Garment):
+            return Task.of(source, scene, **options)
+        task = source.task if scene is None else source.task.in_scene(scene)
+        fresh = Task.of(task.garment, task.scene, **options)
+        limits = {field: getattr(fresh.limits, field) for field in options if field != "start_station"}
+        moved = replace(task.start, base=fresh.start.base) if "start_station" in options else task.start
+        return replace(task, start=moved, limits=replace(task.limits, **limits))
+
+
+def _going_on(task: Task, path: Path, after_step: int | None, *, has_scene: bool) -> Task:
+    """Return a task that starts where a plan is after a step; with the plan's scene, unless there is another."""
+    with blaming(path):
+        before = read_plan(path)
+        start = before.state_after(len(before.steps) - 1 if after_step is None else after_step)
+        return replace(task if has_scene else task.in_scene(before.scene), start=start)
+
+
+def _read_scene(path: Path) -> Scene:
+    with blaming(path):
+        data = read_json(path)
+        if not isinstance(data, dict):
+            raise SceneError("", "a scene file holds one JSON object")
+        return Scene.from_dict(data)
+
+
+def _print_suggestions(answer: Plan) -> None:
+    found = list(suggestions(answer.task, plan=answer))
+    if found:
+        output.print(suggestion_table(answer.garment, found))
+    else:
+        output.print(f"No change was found within {answer.task.limits.time_limit_s:g} s.")
+
+
+def _status(answer: Plan) -> int:
+    """The exit status for a plan; says why there is none."""
+    if answer.status == "budget_exceeded":
+        bound = answer.statistics.bound_s
+        errors.print("The budget ran out" + (f"; no plan is quicker than {bound:.2f} s" if bound else ""))
+        return OUT_OF_BUDGET
+    if answer.is_solved and not answer.is_proven:
+        bound = answer.statistics.bound_s or 0.0
+        why = "The budget ran out. " if answer.statistics.is_cut_short else ""
+        errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
+    for reason in answer.reasons:
+        met = "" if reason.is_tried else "; met on the way, not tried whether it is the cause"
+        errors.print(f"{reason.code.value}: {reason.message}{met}")
+    return 0 if answer.is_solved else NO_PLAN

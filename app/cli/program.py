@@ -1,0 +1,102 @@
+"""The program: its options, its output, and how it ends.
+
+Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the budget ran out.
+"""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from planner.cloth.garment import Garment
+from planner.errors import FieldError, FoldingError, RequestError
+from planner.task.plan import Plan
+from planner.task.plan_files import load
+
+BAD_INPUT, NO_PLAN, OUT_OF_BUDGET = 2, 3, 4
+STANDARD_OUTPUT = "-"
+
+_OPTION_OF = {"start_station": "start"}
+
+cli = typer.Typer(
+    help="Plan how a robot can really fold a garment, and show it.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+errors = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
+output = Console(highlight=False, markup=False)
+
+SourceArgument = Annotated[
+    str, typer.Argument(metavar="GARMENT", help="The name of a garment, a garment file or a plan file.")
+]
+JsonOption = Annotated[
+    str | None, typer.Option("--json", metavar="FILE|-", help="Write JSON there; - prints it alone.")
+]
+
+
+def garment_of(source: str) -> Garment:
+    """Return the garment that is named, in a garment file or in a plan file; ends the program if there is none."""
+    found = load_source(source)
+    return found.garment if isinstance(found, Plan) else found
+
+
+def load_source(source: str) -> Garment | Plan:
+    """Return the garment or the plan that is named; ends the program if there is none."""
+    with blaming(source):
+        return load(source)
+
+
+def write_json(answer: Any, target: str | None) -> None:  # noqa: ANN401
+    """Write JSON to a file or to standard output; to None, nothing."""
+    if target is not None:
+        write_text(json.dumps(answer, indent=1) + "\n", target)
+
+
+def write_text(text: str, target: str) -> None:
+    """Write text to a file or to standard output; ends the program where the file cannot be written."""
+    if target == STANDARD_OUTPUT:
+        typer.echo(text, nl=False)
+        return
+    with refusing(target):
+        Path(target).write_text(text, encoding="utf-8")
+
+
+@contextmanager
+def refusing(target: object) -> Iterator[None]:
+    """End the program with the name of a file that the system refuses."""
+    try:
+        yield
+    except OSError as error:
+        raise failure(f"{target}: {error.strerror}") from None
+
+
+@contextmanager
+def blaming(source: object) -> Iterator[None]:
+    """Have bad input end the program with the file, the field and what is wrong with it."""
+    try:
+        yield
+    except RequestError as error:
+        if error.field.partition(".")[0].partition("[")[0] not in _OPTIONS:
+            raise failure(f"{source}: {error}") from None
+        option = _OPTION_OF.get(error.field, error.field).replace("_", "-")
+        raise failure(f"--{option}: {error.message}") from None
+    except FieldError as error:
+        raise failure(f"{source}: {error}") from None
+    except FoldingError as error:
+        raise failure(str(error)) from None
+
+
+_OPTIONS = frozenset(
+    {"start_station", "comfort_radius_m", "heuristic", "time_limit_s", "rate_hz", "after_step", "robot"}
+)
+
+
+def failure(message: str) -> typer.Exit:
+    """Print why the program ends, and return the exception that ends it."""
+    errors.print(message)
+    return typer.Exit(BAD_INPUT)

@@ -1,0 +1,26 @@
+"""A document as it would be of a plan that nobody has drawn: what exports are made of."""
+
+from dataclasses import replace
+
+from app.document_state import Answer, DocumentState
+from app.drawing.draft import draft_of
+from app.drawing.garment_drawing import drawing_of
+from planner.cloth.garment import Garment
+from planner.task.plan import Plan
+from planner.task.task import Task
+
+
+def state_of_garment(garment: Garment) -> DocumentState:
+    """Return a document in which a garment is drawn and nothing is planned."""
+    return DocumentState(1, draft_of(drawing_of(garment)))
+
+
+def state_of_plan(plan: Plan) -> DocumentState:
+    """Return a document in which a plan's garment is drawn and the plan is the answer."""
+    task: Task = plan.task
+    drawing = replace(
+        drawing_of(task.garment, task.scene),
+        placement=task.start.placement,
+        comfort_radius_m=task.limits.comfort_radius_m,
+    )
+    return DocumentState(1, draft_of(drawing), Answer(1, task, plan, ""))

@@ -1,0 +1,17 @@
+"""The words for a step of a plan, made from its data."""
+
+from planner.cloth.garment import Garment
+from planner.task.plan import PlanStep
+
+
+def step_words(step: PlanStep, garment: Garment) -> str:
+    """Return what a step does in a few words; empty for a kind without words."""
+    details = step.details
+    match step.kind:
+        case "fold":
+            return garment.folds[int(details["fold"])].name
+        case "drag":
+            return f"{details['distance_m']:.2f} m towards the robot" + (", holds on" if details["holds"] else "")
+        case "move":
+            return f"{details['from'] or 'elsewhere'} to {details['to'] or 'elsewhere'}"
+    return ""

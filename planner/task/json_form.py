@@ -1,0 +1,73 @@
+"""The JSON form of a value, read and written by its type alone.
+
+Every value is a frozen dataclass; pydantic derives from its annotations how it is written, and how strictly it is read:
+unknown fields are refused by name, numbers are finite JSON numbers. So the form is defined where the value is.
+"""
+
+from collections.abc import Hashable
+from dataclasses import fields
+from functools import cache
+from typing import Annotated, Any, Generic, TypeVar, cast, get_args, get_origin, get_type_hints
+
+from annotated_types import Interval
+from pydantic import ConfigDict, TypeAdapter, ValidationError
+from pydantic_core import to_json
+
+from planner.errors import FieldError, RequestError
+from planner.strict_model import first_error
+
+STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+"""How values are read; the outermost one names it as its `__pydantic_config__`."""
+
+T = TypeVar("T")
+
+
+class JsonForm(Generic[T]):
+    """Reads and writes the values of one type."""
+
+    def __init__(self, kind: type[T], error: type[FieldError] = RequestError) -> None:
+        """Derive the form of a type.
+
+        Args:
+            kind: the type; a dataclass names `STRICT` as its `__pydantic_config__`.
+            error: raised for JSON that is no such value.
+        """
+        self._adapter: TypeAdapter[T] = TypeAdapter(kind)
+        self._error = error
+
+    def write(self, value: T) -> Any:  # noqa: ANN401
+        """Return a value as JSON."""
+        return self._adapter.dump_python(value, mode="json")
+
+    def read(self, data: object) -> T:
+        """Return the value that JSON holds; raises the form's error, which names the field."""
+        try:
+            return self._adapter.validate_json(to_json(data))
+        except ValidationError as error:
+            raise first_error(error, self._error) from None
+
+
+def require_intervals(value: Any, error: type[FieldError]) -> None:  # noqa: ANN401
+    """Raise an error that names the first field of a dataclass whose number is outside of its annotated `Interval`."""
+    for name, interval in _intervals(cast("Hashable", type(value))):
+        found = getattr(value, name)
+        if found is not None and not _is_within(found, interval):
+            raise error(name, f"{found} is not between {interval.ge:g} and {interval.le:g}")
+
+
+@cache
+def _intervals(kind: Any) -> tuple[tuple[str, Interval], ...]:  # noqa: ANN401
+    """Return the fields of a dataclass that have an interval."""
+    hints = get_type_hints(kind, include_extras=True)
+    found = ((field.name, _interval(hints[field.name])) for field in fields(kind))
+    return tuple((name, interval) for name, interval in found if interval is not None)
+
+
+def _interval(hint: Any) -> Interval | None:  # noqa: ANN401
+    if get_origin(hint) is Annotated:
+        return next((one for one in get_args(hint)[1:] if isinstance(one, Interval)), None)
+    return next((found for part in get_args(hint) if (found := _interval(part)) is not None), None)
+
+
+def _is_within(value: Any, interval: Interval) -> bool:  # noqa: ANN401
+    return bool(interval.ge <= value <= interval.le)

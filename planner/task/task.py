@@ -1,0 +1,181 @@
+"""A task: all that a plan depends on."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, Literal, TypedDict, Unpack
+
+from annotated_types import Interval
+
+from planner.cloth.garment import Garment
+from planner.errors import FieldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.task.grip import BaseStop
+from planner.task.json_form import STRICT, JsonForm, require_intervals
+from planner.task.scene import Scene
+from planner.task.version import require_version
+from planner.task.world_state import WORLD_STATES, WorldState
+
+VERSION = 1
+
+TIME_LIMIT_S = (0.01, 60.0)
+COMFORT_MAX_M = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How exact a plan is to be, and how much may be spent on finding it.
+
+    Attributes:
+        comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m).
+        heuristic: the lower bound on the time that is left: "arm_time" or "zero".
+        time_limit_s: the time for the search (s).
+        work_limit_s: the work for it, in seconds of a machine of our day; None for as much as the time limit. Where
+            work ends the search, and not time, the same task has the same answer on every machine.
+        max_expanded: the states that it may expand.
+    """
+
+    __pydantic_config__ = STRICT
+
+    comfort_radius_m: Annotated[float, Interval(ge=0.0, le=COMFORT_MAX_M)] = 0.03
+    heuristic: Literal["arm_time", "zero"] = "arm_time"
+    time_limit_s: Annotated[float, Interval(ge=TIME_LIMIT_S[0], le=TIME_LIMIT_S[1])] = 10.0
+    work_limit_s: float | None = None
+    max_expanded: Annotated[int, Interval(ge=1, le=1_000_000)] = 100_000
+
+    def __post_init__(self) -> None:
+        """Refuse a number that is out of range; raises `RequestError`."""
+        require_intervals(self, RequestError)
+        if self.heuristic not in ("arm_time", "zero"):
+            raise RequestError("heuristic", f"{self.heuristic!r} is none of arm_time, zero")
+
+
+class TaskOptions(TypedDict, total=False):
+    """What may be said of a task besides garment and scene; see `Task.of`."""
+
+    placement: Pose2 | None
+    start_station: str
+    start: WorldState | None
+    robot: str
+    comfort_radius_m: float
+    heuristic: str
+    time_limit_s: float
+    work_limit_s: float | None
+    max_expanded: int
+
+
+_LIMITS = frozenset(Limits.__slots__)
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What is to be planned; equal tasks have equal plans.
+
+    Attributes:
+        garment: the garment, its folds in the user's order.
+        scene: table, stations and costs.
+        robot: the robot's name.
+        start: the state of the world before the first step.
+        limits: how exact the plan is to be, and what may be spent on it.
+    """
+
+    garment: Garment
+    scene: Scene
+    robot: str
+    start: WorldState
+    limits: Limits = field(default_factory=Limits)
+
+    def __post_init__(self) -> None:
+        """Refuse a start that names folds that the garment has not; raises `RequestError`."""
+        folds, done = range(len(self.garment.folds)), self.start.folds_done
+        for index, fold in enumerate(done):
+            if fold not in folds:
+                raise RequestError(f"start.folds_done[{index}]", f"there is no fold {fold}, only {len(folds)}")
+            if fold in done[:index]:
+                raise RequestError(f"start.folds_done[{index}]", f"fold {fold} is named twice")
+
+    @staticmethod
+    def of(garment: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> "Task":
+        """Return the task of folding a garment, what is left out being as usual.
+
+        Args:
+            garment: the garment.
+            scene: the scene; None for the default one.
+            options: `placement`, where the article lies at the start, by default the garment's own; `start_station`,
+                where the robot stands then, by default "front"; or `start`, the whole state of the world then; `robot`,
+                by default "pr2"; and the fields of `Limits`.
+
+        Raises:
+            RequestError: there is no such station, or a limit is out of range.
+        """
+        where, given = scene or Scene(), dict(options)
+        limits = Limits(**{name: given.pop(name) for name in list(given) if name in _LIMITS})  # type: ignore[arg-type]
+        start = options.get("start") or at_station(
+            where, options.get("placement") or garment.placement, options.get("start_station", "front")
+        )
+        return Task(garment, where, options.get("robot", "pr2"), start, limits)
+
+    def at(self, placement: Pose2) -> "Task":
+        """Return the same task with the article elsewhere at the start."""
+        return replace(self, start=replace(self.start, placement=placement))
+
+    def within(self, comfort_radius_m: float) -> "Task":
+        """Return the same task with another comfort radius (m)."""
+        return replace(self, limits=replace(self.limits, comfort_radius_m=comfort_radius_m))
+
+    def in_scene(self, scene: Scene) -> "Task":
+        """Return the same task in another scene; a base at a station stands at the one of its name there."""
+        base, stations = self.start.base, dict(scene.stations)
+        if base.station in stations:
+            base = BaseStop.at(base.station, stations[base.station], base.back_off_m)
+        return replace(self, scene=scene, start=replace(self.start, base=base))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the task as JSON."""
+        return {
+            "version": VERSION,
+            "garment": self.garment.to_dict(),
+            "scene": self.scene.to_dict(),
+            "robot": self.robot,
+            "start": self.start.to_dict(),
+            "limits": _LIMITS_FORM.write(self.limits),
+        }
+
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> "Task":
+        """Return the task that JSON holds.
+
+        Raises:
+            FieldError: names the field, and says what is wrong with which number.
+        """
+        require_version(data, "version", VERSION, {"garment", "scene", "robot", "start", "limits"})
+        if not isinstance(data["robot"], str):
+            raise RequestError("robot", "is not a name")
+        return Task(
+            _within("garment", Garment.from_dict, data["garment"]),
+            _within("scene", Scene.from_dict, data["scene"]),
+            data["robot"],
+            _within("start", WORLD_STATES.read, data["start"]),
+            _within("limits", _LIMITS_FORM.read, data["limits"]),
+        )
+
+
+def at_station(scene: Scene, placement: Pose2, station: str, back_off_m: float = 0.0) -> WorldState:
+    """Return the state before all folds: the article laid down, hands free, the base at a station.
+
+    Raises:
+        RequestError: there is no such station.
+    """
+    stations = dict(scene.stations)
+    if station not in stations:
+        raise RequestError("start_station", f"{station!r} is none of {', '.join(stations)}")
+    return WorldState((), placement, BaseStop.at(station, stations[station], back_off_m))
+
+
+def _within(field_name: str, read: Any, data: object) -> Any:  # noqa: ANN401
+    try:
+        return read(data)
+    except FieldError as error:
+        raise error.within(field_name) from None
+
+
+_LIMITS_FORM = JsonForm(Limits)

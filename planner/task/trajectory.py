@@ -1,0 +1,182 @@
+"""The trajectory of a plan: keyframes of every joint, the base and the cloth, between which everything moves evenly.
+
+It is all there is to know about the motion: whoever shows, exports, simulates or checks a plan reads it here.
+"""
+
+from bisect import bisect_right
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Pose2
+from planner.task.json_form import STRICT
+from planner.task.phase import Phase
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A phase as it is timed.
+
+    Attributes:
+        step: the index of the plan's step to which it belongs.
+        start_s: when it begins (s).
+        phase: what base, hands and cloth do.
+        times_s: the time since its start, rising from 0 to its duration (s).
+        fractions: how much of the phase is done at each of these times, 0 to 1.
+    """
+
+    step: int
+    start_s: float
+    phase: Phase
+    times_s: tuple[float, ...]
+    fractions: tuple[float, ...]
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes (s)."""
+        return self.times_s[-1]
+
+    def fraction_at(self, t_s: float) -> float:
+        """Return how much of the phase is done at a time of the plan (s)."""
+        return float(np.interp(t_s - self.start_s, self.times_s, self.fractions))
+
+    def base_at(self, t_s: float) -> Pose2:
+        """Return the base's pose at a time of the plan (s), table frame."""
+        return self.phase.base[0].between(self.phase.base[1], self.fraction_at(t_s))
+
+    def placement_at(self, t_s: float) -> Pose2:
+        """Return the article's placement at a time of the plan (s)."""
+        cloth = self.phase.cloth
+        return cloth.start.between(cloth.end, self.fraction_at(t_s))
+
+
+@dataclass(frozen=True)
+class ArmTrack:
+    """Keyframes of all arms' joints.
+
+    Attributes:
+        names: the joints' URDF names, arm by arm.
+        times_s: when the keyframes are, rising (s).
+        positions: the joints at each (rad; m for prismatic ones), one row for each keyframe.
+    """
+
+    names: tuple[str, ...]
+    times_s: tuple[float, ...]
+    positions: tuple[tuple[float, ...], ...]
+
+    def at(self, t_s: float) -> FloatArray:
+        """Return the joints at a time (s), shape (joints,)."""
+        after = bisect_right(self.times_s, t_s)
+        if after == 0 or after == len(self.times_s):
+            return np.asarray(self.rows[max(after - 1, 0)])
+        start, end = self.times_s[after - 1], self.times_s[after]
+        share = (t_s - start) / (end - start)
+        return np.asarray((1.0 - share) * self.rows[after - 1] + share * self.rows[after])
+
+    def velocities_at(self, t_s: float) -> FloatArray:
+        """Return the joints' velocities just after a time, at the end just before it, shape (joints,), rad/s."""
+        if len(self.times_s) < 2 or not self.times_s[0] <= t_s <= self.times_s[-1]:
+            return np.zeros(len(self.names))
+        return np.asarray(self.velocities[min(bisect_right(self.times_s, t_s), len(self.times_s) - 1) - 1])
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the fields alone, without the arrays made of them."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @cached_property
+    def rows(self) -> FloatArray:
+        """The positions as an array, shape (keyframes, joints)."""
+        return np.array(self.positions)
+
+    @cached_property
+    def velocities(self) -> FloatArray:
+        """The velocities between the keyframes, shape (keyframes - 1, joints), rad/s."""
+        return np.asarray(np.diff(self.rows, axis=0) / np.diff(self.times_s)[:, None])
+
+
+@dataclass(frozen=True, slots=True)
+class GripperTrack:
+    """Keyframes of one gripper.
+
+    Attributes:
+        arm: the arm's name.
+        joint: the URDF name of the joint that drives the fingers.
+        times_s: when the keyframes are, rising (s).
+        openings_m: how far apart the fingers are at each (m).
+        positions: the joint at each (rad).
+    """
+
+    arm: str
+    joint: str
+    times_s: tuple[float, ...]
+    openings_m: tuple[float, ...]
+    positions: tuple[float, ...]
+
+    def opening_at(self, t_s: float) -> float:
+        """Return the opening at a time (m)."""
+        return float(np.interp(t_s, self.times_s, self.openings_m))
+
+    def position_at(self, t_s: float) -> float:
+        """Return the joint at a time (rad)."""
+        return float(np.interp(t_s, self.times_s, self.positions))
+
+    def velocity_at(self, t_s: float) -> float:
+        """Return the joint's velocity just after a time, at the end just before it (rad/s)."""
+        if len(self.times_s) < 2 or not self.times_s[0] <= t_s <= self.times_s[-1]:
+            return 0.0
+        after = min(bisect_right(self.times_s, t_s), len(self.times_s) - 1)
+        turned = self.positions[after] - self.positions[after - 1]
+        return turned / (self.times_s[after] - self.times_s[after - 1])
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """What robot and cloth do from 0 to the plan's end.
+
+    Attributes:
+        duration_s: the end (s).
+        segments: what base and cloth do, one after the other.
+        arms: what the arms do.
+        grippers: what the grippers do, arm by arm.
+        torso_m: how far the lift is raised throughout (m).
+        resting: all other actuated joints by name (rad, m for prismatic ones), which do not move.
+    """
+
+    __pydantic_config__ = STRICT
+
+    duration_s: float
+    segments: tuple[Segment, ...]
+    arms: ArmTrack
+    grippers: tuple[GripperTrack, ...]
+    torso_m: float
+    resting: dict[str, float]
+
+    def joints_at(self, t_s: float) -> dict[str, float]:
+        """Return every actuated joint by its URDF name at a time (s)."""
+        moving = zip(self.arms.names, self.arms.at(t_s).tolist(), strict=True)
+        fingers = {track.joint: track.position_at(t_s) for track in self.grippers}
+        return {**self.resting, **dict(moving), **fingers}
+
+    def velocities_at(self, t_s: float) -> dict[str, float]:
+        """Return the velocity of every actuated joint by its URDF name at a time (rad/s, m/s)."""
+        moving = zip(self.arms.names, self.arms.velocities_at(t_s).tolist(), strict=True)
+        fingers = {track.joint: track.velocity_at(t_s) for track in self.grippers}
+        return {**dict.fromkeys(self.resting, 0.0), **dict(moving), **fingers}
+
+    def index_at(self, t_s: float) -> int:
+        """Return the index of the segment that is under way at a time (s)."""
+        return max(0, bisect_right(self._starts_s, t_s) - 1)
+
+    def segment_at(self, t_s: float) -> Segment:
+        """Return the segment that is under way at a time (s)."""
+        return self.segments[self.index_at(t_s)]
+
+    def of_step(self, step: int) -> tuple[Segment, ...]:
+        """Return the segments of one step of the plan."""
+        return tuple(segment for segment in self.segments if segment.step == step)
+
+    @cached_property
+    def _starts_s(self) -> tuple[float, ...]:
+        return tuple(segment.start_s for segment in self.segments)

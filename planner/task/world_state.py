@@ -1,0 +1,61 @@
+"""The state of the world between two primitives: the cloth, the base, and what is held.
+
+Any g-state (paper, section 4) may be the start of a task. Between the steps of a plan it says how far the plan has
+come, so that planning can go on from there.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from planner.geometry.pose import Point2, Pose2
+from planner.task.grip import BaseStop
+from planner.task.json_form import STRICT, JsonForm
+
+
+@dataclass(frozen=True, slots=True)
+class HeldPoint:
+    """A point of the cloth that one arm holds.
+
+    Attributes:
+        arm: the arm's name.
+        point: the point, article frame (m).
+    """
+
+    arm: str
+    point: Point2
+
+
+@dataclass(frozen=True, slots=True)
+class WorldState:
+    """Cloth, base and hands at one time.
+
+    Attributes:
+        folds_done: the indices of the folds done, in the order in which they were.
+        placement: the article frame in the table frame.
+        base: where the base stands.
+        held: what is held, arm by arm; empty when all hands are free.
+        dragged_m: the length of the drag from which it is held (m); 0 where nothing is, or where it is held from a
+            fold for the red fold that follows.
+    """
+
+    __pydantic_config__ = STRICT
+
+    folds_done: tuple[int, ...]
+    placement: Pose2
+    base: BaseStop
+    held: tuple[HeldPoint, ...] = ()
+    dragged_m: float = 0.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the state as JSON."""
+        written: dict[str, Any] = WORLD_STATES.write(self)
+        return written
+
+    @property
+    def done(self) -> int:
+        """The folds done, as a bit mask."""
+        return sum(1 << fold for fold in set(self.folds_done))
+
+
+WORLD_STATES = JsonForm(WorldState)
+"""Reads and writes states of the world."""

@@ -1,0 +1,109 @@
+"""Plan files on the command line: written, shown, sampled, gone on from, exported."""
+
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from planner import Plan
+from planner.task.plan_files import read_plan
+from tests.app.test_cli import pleat
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("plans") / "towel.plan.json"
+    assert pleat("plan", "hand-towel", "--out", str(path)).exit_code == 0
+    return path
+
+
+def test_a_plan_file_is_shown_as_it_was_planned(file: Path) -> None:
+    shown = pleat("show", str(file))
+    assert shown.exit_code == 0
+    assert shown.stdout == pleat("plan", "hand-towel").stdout
+
+
+def test_a_plan_file_without_a_plan_says_why(tmp_path: Path) -> None:
+    path = tmp_path / "no.plan.json"
+    assert pleat("plan", "scarf-halved", "--out", str(path)).exit_code == 3
+    shown = pleat("show", str(path))
+    assert shown.exit_code == 3 and shown.stderr
+    timeline = pleat("timeline", str(path))
+    assert timeline.exit_code == 2 and "infeasible" in timeline.stderr
+
+
+def test_the_timeline_is_that_of_rest(file: Path) -> None:
+    told = json.loads(pleat("timeline", str(file), "--rate-hz", "50", "--json", "-").stdout)
+    assert told["rate_hz"] == 50
+    times = [sample["t_s"] for sample in told["samples"]]
+    assert times == sorted(set(times)) and times[-1] == read_plan(file).cost_s
+    assert set(told["samples"][0]["velocities"]) == set(told["samples"][0]["joints"])
+
+
+def test_velocities_are_how_joints_change(file: Path) -> None:
+    samples = json.loads(pleat("timeline", str(file), "--rate-hz", "200").stdout)["samples"]
+    off = []
+    for before, after in pairwise(samples):
+        step_s = after["t_s"] - before["t_s"]
+        for name, speed in before["velocities"].items():
+            off.append(abs((after["joints"][name] - before["joints"][name]) / step_s - speed))
+    assert sorted(off)[int(0.95 * len(off))] < 0.05, "but for the moments at which a joint changes its speed"
+
+
+def test_planning_goes_on_from_a_plan(file: Path, tmp_path: Path) -> None:
+    rest = tmp_path / "rest.plan.json"
+    assert pleat("plan", "hand-towel", "--from", str(file), "--after-step", "0", "--out", str(rest)).exit_code == 0
+    whole, tail = read_plan(file), read_plan(rest)
+    assert tail.cost_s == pytest.approx(whole.cost_s - whole.steps[0].end_s)
+    assert tail.task.start == whole.steps[0].after
+
+
+def test_a_plan_file_is_taken_where_a_garment_is(file: Path) -> None:
+    assert pleat("check", str(file)).exit_code == 0
+    assert pleat("dag", str(file)).exit_code == 0
+    again = json.loads(pleat("plan", str(file), "--json", "-").stdout)
+    assert again["cost_s"] == read_plan(file).cost_s
+
+
+@pytest.mark.parametrize("kind", ["garment.json", "garment.svg", "garment.fold", "plan.json", "plan.csv"])
+def test_a_plan_file_is_exported(file: Path, tmp_path: Path, kind: str) -> None:
+    target = tmp_path / "out"
+    assert pleat("export", str(file), "--to", kind, "--out", str(target)).exit_code == 0
+    data = target.read_bytes()
+    assert data
+    if kind == "plan.json":
+        assert Plan.from_dict(json.loads(data)) == read_plan(file)
+
+
+def test_kinds_of_exports_are_listed() -> None:
+    listed = pleat("export", "--list")
+    assert listed.exit_code == 0
+    assert "recording.html" in listed.stdout and "plan.csv" in listed.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("show", "nowhere.plan.json"), "nowhere.plan.json"),
+        (("plan", "vest", "--after-step", "0"), "--after-step"),
+        (("plan", "hand-towel", "--from", "FILE", "--after-step", "9"), "--after-step: 9"),
+        (("plan", "vest", "--out", "/nowhere/vest.plan.json"), "/nowhere/vest.plan.json"),
+        (("timeline", "FILE", "--rate-hz", "0"), "--rate-hz"),
+        (("export", "FILE", "--to", "gcode"), "--to"),
+        (("export", "FILE"), "--to"),
+    ],
+)
+def test_bad_usage_is_told_with_status_2(file: Path, arguments: tuple[str, ...], told: str) -> None:
+    result = pleat(*(str(file) if word == "FILE" else word for word in arguments))
+    assert result.exit_code == 2
+    assert told in result.stderr
+
+
+def test_a_file_that_is_no_plan_is_told_by_field(file: Path, tmp_path: Path) -> None:
+    spoilt = json.loads(file.read_text())
+    spoilt["steps"][1]["start_s"] = "soon"
+    path = tmp_path / "spoilt.plan.json"
+    path.write_text(json.dumps(spoilt))
+    result = pleat("show", str(path))
+    assert result.exit_code == 2 and "[1].start_s" in result.stderr and path.name in result.stderr

@@ -1,0 +1,185 @@
+"""Tasks as JSON: read back the same, and refused where they are none."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from planner import Limits, Scene, Task, WorldState, load_garment
+from planner.errors import FieldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.task.grip import BaseStop
+from planner.task.scene import DEFAULT_STATIONS
+from planner.task.task import VERSION, at_station
+from planner.task.world_state import HeldPoint
+
+FRONT = BaseStop.at("front", DEFAULT_STATIONS["front"])
+NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")
+
+# Reads a task and prints it again; then whether anything was imported that compiles.
+PROGRAM = """
+import json, sys
+from planner import Task
+
+print(json.dumps(Task.from_dict(json.load(sys.stdin)).to_dict()))
+print(json.dumps([name for name in ("numba", "pinocchio") if name in sys.modules]))
+"""
+
+
+def tasks() -> dict[str, Task]:
+    """Tasks whose every field is another than usual in one of them."""
+    towel = load_garment("hand-towel")
+    held = (HeldPoint("left", (0.1, 0.2)), HeldPoint("right", (0.3, 0.2)))
+    elsewhere = BaseStop(None, 0.0, -1.2, 0.3, 0.1)
+    limits = {"comfort_radius_m": 0.0, "heuristic": "zero", "time_limit_s": 3.0, "work_limit_s": 2.5}
+    return {
+        **{name: Task.of(load_garment(name)) for name in NAMES},
+        "limited": Task.of(towel, max_expanded=7, **limits),
+        "elsewhere": Task.of(towel, Scene(friction=0.5), start_station="left", placement=Pose2(-0.5, 0.1, 0.3)),
+        "held": Task.of(towel, start=WorldState((), towel.placement, FRONT, held, 0.3)),
+        "folded": Task.of(towel, start=WorldState((0,), towel.placement, elsewhere)),
+    }
+
+
+each_task = pytest.mark.parametrize("task", [pytest.param(task, id=name) for name, task in tasks().items()])
+
+
+def data() -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(json.dumps(tasks()["held"].to_dict()))
+    return found
+
+
+def refusal(given: Any) -> FieldError:
+    with pytest.raises(FieldError) as caught:
+        Task.from_dict(given)
+    return caught.value
+
+
+@each_task
+def test_a_task_is_read_back_from_its_json_as_it_was(task: Task):
+    read = Task.from_dict(json.loads(json.dumps(task.to_dict(), allow_nan=False)))
+    assert read == task and hash(read) == hash(task)
+    assert read.to_dict() == task.to_dict()
+
+
+def test_a_task_is_read_in_a_process_without_the_planner():
+    text = json.dumps(tasks()["folded"].to_dict())
+    done = subprocess.run([sys.executable, "-c", PROGRAM], input=text, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    again, imported = [json.loads(line) for line in done.stdout.splitlines()]
+    assert again == json.loads(text)
+    assert imported == []
+
+
+def test_what_is_left_out_is_as_usual():
+    towel = load_garment("hand-towel")
+    task = Task.of(towel)
+    assert (task.scene, task.robot, task.limits) == (Scene(), "pr2", Limits())
+    assert task.start == WorldState((), towel.placement, FRONT)
+
+
+def test_a_task_is_moved_limited_and_put_into_another_scene():
+    task = Task.of(load_garment("hand-towel"), start_station="left")
+    there = Pose2(-0.4, 0.2, 1.0)
+    assert task.at(there).start == replace(task.start, placement=there)
+    assert task.within(0.01) == replace(task, limits=replace(task.limits, comfort_radius_m=0.01))
+    moved = Scene(stations=(("left", Pose2(0.0, 0.9, -1.5)),))
+    assert task.in_scene(moved).start.base == BaseStop("left", 0.0, 0.0, 0.9, -1.5)
+    assert task.in_scene(Scene(stations=(("far", there),))).start.base == task.start.base
+
+
+def test_a_base_that_has_backed_off_stands_behind_its_station():
+    # Front looks along the table's x, from x = -0.95.
+    base = at_station(Scene(), Pose2(0.0, 0.0, 0.0), "front", 0.25).base
+    assert (base.station, base.back_off_m, base.x_m, base.y_m, base.yaw_rad) == ("front", 0.25, -1.2, 0.0, 0.0)
+
+
+def test_a_newer_version_is_refused_by_its_number():
+    error = refusal({**data(), "version": VERSION + 1})
+    assert error.field == "version"
+    assert str(VERSION + 1) in error.message and f"newer than {VERSION}" in error.message
+
+
+@pytest.mark.parametrize("version", [None, 0, True, "1", 1.5])
+def test_what_is_no_version_is_refused(version: object):
+    assert refusal({**data(), "version": version}).field == "version"
+
+
+@pytest.mark.parametrize(
+    ("path", "field"),
+    [
+        ((), ""),
+        (("garment",), "garment."),
+        (("garment", "folds", 0), "garment.folds[0]."),
+        (("scene",), "scene."),
+        (("scene", "table"), "scene.table."),
+        (("start",), "start."),
+        (("start", "placement"), "start.placement."),
+        (("start", "base"), "start.base."),
+        (("start", "held", 1), "start.held[1]."),
+        (("limits",), "limits."),
+    ],
+)
+def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int, ...], field: str):
+    given = data()
+    here: Any = given
+    for part in path:
+        here = here[part]
+    here["colour"] = 1
+    error = refusal(given)
+    assert (error.field, error.message) == (f"{field}colour", "is not a known field")
+
+
+@pytest.mark.parametrize("name", sorted(data()))
+def test_a_missing_field_is_refused_by_its_name(name: str):
+    given = data()
+    del given[name]
+    error = refusal(given)
+    assert (error.field, error.message) == (name, "is missing")
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"robot": 3}, "robot"),
+        ({"garment": None}, "garment"),
+        ({"scene": []}, "scene"),
+        ({"start": {}}, "start.folds_done"),
+        ({"limits": {"max_expanded": 0}}, "limits.max_expanded"),
+        ({"limits": {"max_expanded": 1.5}}, "limits.max_expanded"),
+        ({"limits": {"comfort_radius_m": 0.2}}, "limits.comfort_radius_m"),
+        ({"limits": {"comfort_radius_m": True}}, "limits.comfort_radius_m"),
+        ({"limits": {"heuristic": "magic"}}, "limits.heuristic"),
+    ],
+)
+def test_a_field_of_another_kind_is_refused_by_its_path(changes: dict[str, Any], field: str):
+    assert refusal({**data(), **changes}).field == field
+
+
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        ({"start_station": "roof"}, "start_station"),
+        ({"time_limit_s": 0.0}, "time_limit_s"),
+        ({"time_limit_s": 61.0}, "time_limit_s"),
+        ({"comfort_radius_m": -0.01}, "comfort_radius_m"),
+        ({"heuristic": "magic"}, "heuristic"),
+        ({"max_expanded": 0}, "max_expanded"),
+    ],
+)
+def test_an_option_out_of_range_is_refused_by_its_name(options: dict[str, Any], field: str):
+    with pytest.raises(RequestError) as caught:
+        Task.of(load_garment("hand-towel"), **options)
+    assert caught.value.field == field
+
+
+def test_folds_done_that_are_none_or_named_twice_are_refused():
+    towel = load_garment("hand-towel")
+    count = len(towel.folds)
+    for done, number in (((count,), 0), ((0, -1), 1), ((0, 0), 1)):
+        with pytest.raises(RequestError) as caught:
+            Task.of(towel, start=WorldState(done, towel.placement, FRONT))
+        assert caught.value.field == f"start.folds_done[{number}]"
