@@ -36,8 +36,8 @@ def _remade(kind: type[FoldingError], arguments: tuple[object, ...], fields: dic
     return error
 
 
-class FieldError(FoldingError):
-    """Bad input, with the path of the field it stands in.
+class FieldError(FoldingError, ValueError):
+    """Bad input, with the path of the field it stands in; pydantic takes it for one of its own.
 
     Attributes:
         field: where, as in ``outline[3]`` or ``folds[0].start``; relative to the value

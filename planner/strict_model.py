@@ -1,6 +1,7 @@
 """JSON read strictly: unknown fields are refused by name, numbers are finite JSON numbers."""
 
-from typing import Annotated, Any, TypeVar
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -11,9 +12,6 @@ LARGEST_M = 10.0
 
 Bounded = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
 Positive = Annotated[float, Field(gt=0.0, le=LARGEST_M)]
-PlanePoint = Annotated[list[Bounded], Field(min_length=2, max_length=2)]
-
-Error = TypeVar("Error", bound=FieldError)
 
 
 class StrictModel(BaseModel):
@@ -30,10 +28,21 @@ def field_path(location: tuple[int | str, ...]) -> str:
     return path
 
 
-def first_error(error: ValidationError, kind: type[Error]) -> Error:
-    """The first of pydantic's complaints as one of our errors."""
-    detail = error.errors(include_url=False, include_context=False)[0]
-    return kind(field_path(detail["loc"]), plain_message(dict(detail)))
+def first_error(error: ValidationError, kind: type[FieldError]) -> FieldError:
+    """Return the first of pydantic's complaints as one of our errors.
+
+    What is not of the type that it should be comes before what a value has refused itself, which keeps its own error.
+    """
+    details = [one for one in error.errors(include_url=False) if one["type"] != "default_factory_not_called"]
+    detail = next((one for one in details if _told(one) is None), details[0])
+    path, told = field_path(detail["loc"]), _told(detail)
+    return kind(path, plain_message(dict(detail))) if told is None else told.within(path)
+
+
+def _told(detail: Mapping[str, Any]) -> FieldError | None:
+    """Return what a value has refused itself."""
+    found = detail.get("ctx", {}).get("error")
+    return found if isinstance(found, FieldError) else None
 
 
 def plain_message(detail: dict[str, Any]) -> str:
@@ -43,4 +52,5 @@ def plain_message(detail: dict[str, Any]) -> str:
     if detail["type"] == "missing":
         return "is missing"
     shown = repr(detail["input"])
-    return f"{detail['msg']}, not {shown if len(shown) <= 80 else shown[:77] + '...'}"
+    text = detail["msg"].replace("valid array", "valid list").replace("valid tuple", "valid list")
+    return f"{text}, not {shown if len(shown) <= 80 else shown[:77] + '...'}"

@@ -10,13 +10,14 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 # Modules of planner that stand outside the rooms and that every room but search may use.
-GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model"})
+GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.message": frozenset(),
     "planner.errors": frozenset({"planner.message"}),
     "planner.strict_model": frozenset({"planner.errors"}),
+    "planner.json_form": frozenset({"planner.errors", "planner.strict_model"}),
     "planner.search": frozenset(),
     "planner.geometry": GROUND,
     "planner.robot": GROUND | {"planner.geometry"},

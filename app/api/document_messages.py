@@ -8,7 +8,8 @@ from pydantic_core import PydanticCustomError
 from app.api.described import whole_schema
 from app.api.messages import GarmentField
 from app.drawing.drawing_json import DrawingModel
-from planner.strict_model import PlanePoint, StrictModel
+from planner.geometry.given import PlanePoint
+from planner.strict_model import StrictModel
 
 Label = Annotated[str, Field(max_length=200)]
 Key = Annotated[str, Field(max_length=64)]

@@ -7,6 +7,7 @@ from pydantic import BaseModel, RootModel
 from app.api.answers import PlanAnswer, Point
 from app.api.document_answers import DocumentAnswer, PlaybackAnswer
 from app.api.messages import Command
+from planner.task.world_state import WorldState
 
 
 class PlanOnShow(PlanAnswer):
@@ -54,6 +55,7 @@ class PlanMessage(BaseModel):
     text: str
     plan: PlanOnShow | None
     may_look_longer: bool
+    start: WorldState | None
     before: PlanBefore | None
     checks: ChecksAnswer | None
 

@@ -9,7 +9,8 @@ from app.api.answers import GarmentFile, SceneFile
 from app.api.described import whole_schema
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX
-from planner.strict_model import LARGEST_M, Bounded, PlanePoint, StrictModel
+from planner.geometry.given import PlanePoint
+from planner.strict_model import LARGEST_M, Bounded, StrictModel
 
 
 def _name_or_object(value: Any) -> Any:  # noqa: ANN401

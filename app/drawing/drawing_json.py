@@ -24,8 +24,8 @@ from app.drawing.drawing import (
 from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
-from planner.geometry.pose import Pose2
-from planner.strict_model import Bounded, PlanePoint, Positive, StrictModel, first_error
+from planner.geometry.given import GivenPose, PlanePoint
+from planner.strict_model import Positive, StrictModel, first_error
 from planner.task.scene import Scene
 from planner.task.task import COMFORT_MAX_M
 
@@ -92,7 +92,7 @@ class EndModel(StrictModel):
 
     def value(self) -> End:
         """The end."""
-        return End((self.point[0], self.point[1]), None if self.on is None else self.on.value())
+        return End(self.point, None if self.on is None else self.on.value())
 
 
 class CornerModel(StrictModel):
@@ -114,14 +114,6 @@ class CreaseModel(StrictModel):
     twin: Id | None = None
 
 
-class PlacementModel(StrictModel):
-    """A pose in the table frame (m, rad)."""
-
-    x_m: Bounded
-    y_m: Bounded
-    yaw_rad: Bounded
-
-
 class DrawingModel(StrictModel):
     """A drawing."""
 
@@ -131,7 +123,7 @@ class DrawingModel(StrictModel):
     areal_density_kg_m2: Positive
     grip_radius_m: Positive
     folds: Annotated[list[CreaseModel], Field(max_length=FOLDS_MAX)]
-    placement: PlacementModel
+    placement: GivenPose
     scene: dict[str, Any]
     start_station: Annotated[str, Field(max_length=TITLE_MAX)]
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
@@ -143,14 +135,11 @@ class DrawingModel(StrictModel):
         return Drawing(
             self.name,
             self.title,
-            tuple(
-                Corner(name, (corner.point[0], corner.point[1]))
-                for name, corner in zip(corners, self.outline, strict=True)
-            ),
+            tuple(Corner(name, corner.point) for name, corner in zip(corners, self.outline, strict=True)),
             self.areal_density_kg_m2,
             self.grip_radius_m,
             tuple(_crease(name, fold, names) for name, fold in zip(names, self.folds, strict=True)),
-            Pose2(self.placement.x_m, self.placement.y_m, self.placement.yaw_rad),
+            self.placement,
             _scene(self.scene),
             self.start_station,
             self.comfort_radius_m,

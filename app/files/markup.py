@@ -76,7 +76,9 @@ class _Builder:
         except expat.ExpatError as error:
             what = expat.errors.messages[error.code]
             raise broken(f"line {error.lineno}, column {error.offset + 1}: {what}") from None
-        except (UnicodeError, LookupError, ValueError):
+        except ImportedFileError:
+            raise
+        except (LookupError, ValueError):
             raise broken("its encoding is not known") from None
         if self._root is None:
             raise broken("there is no element in it")

@@ -26,7 +26,7 @@ from app.store.document_keeper import DocumentKeeper
 from app.store.document_list import DocumentEntry
 from app.store.journal import Journal, read_journal
 from app.store.tape import Tape, history_of, tape_of
-from planner.errors import FieldError, FoldingError, RequestError
+from planner.errors import FoldingError, RequestError
 from planner.strict_model import first_error
 
 
@@ -71,7 +71,7 @@ def read_document(files: DocumentFiles) -> KeptDocument:
         raise _missing(files)
     try:
         return _resumed(files, _kept(files, path))
-    except (ValueError, FieldError) as error:
+    except ValueError as error:
         raise BrokenDocumentError(files.id, _in_short(error), _put_aside(files, path)) from None
 
 
@@ -93,10 +93,10 @@ def read_entry(files: DocumentFiles) -> DocumentEntry:
         if path is None:
             raise _missing(files)
         content = _content(files, path)
-    except (ValueError, OSError) as error:
-        return DocumentEntry(files.id, problem=_in_short(error))
     except FoldingError as error:
         return DocumentEntry(files.id, problem=str(error))
+    except (ValueError, OSError) as error:
+        return DocumentEntry(files.id, problem=_in_short(error))
     if isinstance(content, DocumentModel):
         return DocumentEntry(files.id, content.title, content.name, content.changed_at)
     title, name = (str(content.raw_drawing.get(field, "")) for field in ("title", "name"))
@@ -138,7 +138,7 @@ def _resumed(files: DocumentFiles, kept: KeptDocument) -> KeptDocument:
     try:
         preview = Preview.model_validate_json(files.path(PREVIEW).read_bytes())
         solution = solve(preview.drawing.value())
-    except (OSError, ValueError, FieldError):
+    except (OSError, ValueError):
         return kept
     if preview.version <= version or solution.drawing == draft.drawing:
         return KeptDocument(max(version, preview.version), draft, keeper)
@@ -162,7 +162,7 @@ def _missing(files: DocumentFiles) -> UnknownDocumentError | BrokenDocumentError
         return UnknownDocumentError(files.id)
     try:
         _tape(_content(files, broken))
-    except (ValueError, FieldError, OSError, NewerDocumentError) as error:
+    except (ValueError, OSError, NewerDocumentError) as error:
         return BrokenDocumentError(files.id, _in_short(error), broken.name)
     return BrokenDocumentError(files.id, "it can be read by now: rename it", broken.name)
 

@@ -3,17 +3,20 @@
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from annotated_types import Interval
+from pydantic import Field
 
-from planner.cloth.outline import EDGE_MIN_M, require_simple_outline
+from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX, require_simple_outline
 from planner.errors import GarmentError
+from planner.geometry.given import GivenPose, PlanePoint
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
+from planner.json_form import NULL_IS_DEFAULT, STRICT, JsonForm, require_intervals
 from planner.message import Message
-from planner.strict_model import LARGEST_M, Bounded, PlanePoint, Positive, StrictModel, first_error
+from planner.strict_model import LARGEST_M
 
 NAME_PATTERN = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
 TITLE_MAX = 200
@@ -21,6 +24,9 @@ FOLDS_MAX = 64
 DEFAULT_DENSITY_KG_M2 = 0.2
 DEFAULT_GRIP_RADIUS_M = 0.127
 DEFAULT_YAW_RAD = -math.pi / 2
+
+Positive = Annotated[float, Interval(gt=0.0, le=LARGEST_M)]
+Title = Annotated[str, Field(json_schema_extra={"maxLength": TITLE_MAX})]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +41,13 @@ class DrawnFold:
         grip_radius_m: how far round itself one grip holds the cloth (m).
     """
 
-    name: str
-    kind: str
-    start: Point2
-    end: Point2
-    grip_radius_m: float = DEFAULT_GRIP_RADIUS_M
+    __pydantic_config__ = STRICT
+
+    name: Title
+    kind: Annotated[str, Field(json_schema_extra={"enum": ["blue", "red"]})]
+    start: PlanePoint
+    end: PlanePoint
+    grip_radius_m: Annotated[Positive, NULL_IS_DEFAULT] = DEFAULT_GRIP_RADIUS_M
 
     def __post_init__(self) -> None:
         """Refuse what is no fold; raises `GarmentError`."""
@@ -52,22 +60,12 @@ class DrawnFold:
             text = f"the line is {length * 1000:.3f} mm long, less than {EDGE_MIN_M * 1000:g} mm"
             values = {"length_m": length, "least_m": EDGE_MIN_M}
             raise GarmentError("end", Message("line_too_short", text, values))
-        _require_positive("grip_radius_m", self.grip_radius_m)
+        require_intervals(self, GarmentError)
 
     @property
     def is_red(self) -> bool:
         """Whether it folds only the layers that the fold before it moved."""
         return self.kind == "red"
-
-    def to_dict(self) -> dict[str, Any]:
-        """The fold as it stands in a garment file."""
-        return {
-            "name": self.name,
-            "kind": self.kind,
-            "start": list(self.start),
-            "end": list(self.end),
-            "grip_radius_m": self.grip_radius_m,
-        }
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +82,17 @@ class Garment:
         placement: the article frame in the table frame.
     """
 
-    name: str
-    title: str
-    outline: tuple[Point2, ...]
-    areal_density_kg_m2: float
-    folds: tuple[DrawnFold, ...]
-    grip_radius_m: float
-    placement: Pose2
+    __pydantic_config__ = STRICT
+
+    name: Annotated[str, Field(json_schema_extra={"pattern": f"^{NAME_PATTERN.pattern}$"})]
+    title: Annotated[Title, NULL_IS_DEFAULT, Field(default_factory=lambda given: given["name"])]
+    outline: Annotated[tuple[PlanePoint, ...], Field(json_schema_extra={"minItems": 3, "maxItems": POINTS_MAX})]
+    areal_density_kg_m2: Annotated[Positive, Field(default=DEFAULT_DENSITY_KG_M2)]
+    folds: Annotated[tuple[DrawnFold, ...], Field(default=(), json_schema_extra={"maxItems": FOLDS_MAX})]
+    grip_radius_m: Annotated[Positive, Field(default=DEFAULT_GRIP_RADIUS_M)]
+    placement: Annotated[
+        GivenPose, NULL_IS_DEFAULT, Field(default_factory=lambda given: centred_placement(given["outline"]))
+    ]
 
     def __post_init__(self) -> None:
         """Refuse what is no garment; raises `GarmentError` naming the field and the number."""
@@ -99,8 +101,7 @@ class Garment:
         if len(self.title) > TITLE_MAX:
             raise GarmentError("title", f"has {len(self.title)} characters, more than {TITLE_MAX}")
         require_simple_outline(self.outline)
-        _require_positive("areal_density_kg_m2", self.areal_density_kg_m2)
-        _require_positive("grip_radius_m", self.grip_radius_m)
+        require_intervals(self, GarmentError)
         if len(self.folds) > FOLDS_MAX:
             raise GarmentError("folds", f"there are {len(self.folds)} folds, more than {FOLDS_MAX}")
         if self.folds and self.folds[0].is_red:
@@ -108,28 +109,23 @@ class Garment:
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Garment":
-        """A garment from the contents of a garment file, defaults filled in.
+        """Return the garment in the contents of a garment file, what is left out filled in.
 
         Raises:
             GarmentError: names the field, and says what is wrong with which number.
         """
-        try:
-            drawing = _GarmentModel.model_validate(data)
-        except ValidationError as error:
-            raise first_error(error, GarmentError) from None
-        return drawing.to_garment()
+        garment = _GARMENTS.read(data)
+        radius_m, given = garment.grip_radius_m, data.get("folds", ())
+        folds = (
+            replace(fold, grip_radius_m=radius_m) if told.get("grip_radius_m") is None else fold
+            for fold, told in zip(garment.folds, given, strict=True)
+        )
+        return replace(garment, folds=tuple(folds))
 
     def to_dict(self) -> dict[str, Any]:
-        """The contents of a garment file, every field filled in."""
-        return {
-            "name": self.name,
-            "title": self.title,
-            "outline": [list(p) for p in self.outline],
-            "areal_density_kg_m2": self.areal_density_kg_m2,
-            "folds": [f.to_dict() for f in self.folds],
-            "grip_radius_m": self.grip_radius_m,
-            "placement": self.placement.to_dict(),
-        }
+        """Return the contents of a garment file, every field filled in."""
+        written: dict[str, Any] = _GARMENTS.write(self)
+        return written
 
     @property
     def pattern(self) -> Region:
@@ -144,52 +140,4 @@ def centred_placement(outline: tuple[Point2, ...]) -> Pose2:
     return Pose2(-middle_y, middle_x, DEFAULT_YAW_RAD)
 
 
-def _require_positive(field: str, value: float) -> None:
-    if not 0.0 < value <= LARGEST_M:
-        raise GarmentError(field, f"{value} is not greater than 0 and at most {LARGEST_M:g}")
-
-
-class _FoldModel(StrictModel):
-    name: str
-    kind: str
-    start: PlanePoint
-    end: PlanePoint
-    grip_radius_m: Positive | None = None
-
-
-class _PlacementModel(StrictModel):
-    x_m: Bounded
-    y_m: Bounded
-    yaw_rad: Bounded
-
-
-class _GarmentModel(StrictModel):
-    name: str
-    title: str | None = None
-    outline: list[PlanePoint]
-    areal_density_kg_m2: Positive = DEFAULT_DENSITY_KG_M2
-    folds: list[_FoldModel] = Field(default_factory=list)
-    grip_radius_m: Positive = DEFAULT_GRIP_RADIUS_M
-    placement: _PlacementModel | None = None
-
-    def to_garment(self) -> Garment:
-        outline = tuple((x, y) for x, y in self.outline)
-        require_simple_outline(outline)
-        placed = self.placement
-        return Garment(
-            self.name,
-            self.name if self.title is None else self.title,
-            outline,
-            self.areal_density_kg_m2,
-            tuple(self._drawn_fold(i) for i in range(len(self.folds))),
-            self.grip_radius_m,
-            Pose2(placed.x_m, placed.y_m, placed.yaw_rad) if placed else centred_placement(outline),
-        )
-
-    def _drawn_fold(self, index: int) -> DrawnFold:
-        fold = self.folds[index]
-        radius = self.grip_radius_m if fold.grip_radius_m is None else fold.grip_radius_m
-        try:
-            return DrawnFold(fold.name, fold.kind, (fold.start[0], fold.start[1]), (fold.end[0], fold.end[1]), radius)
-        except GarmentError as error:
-            raise error.within(f"folds[{index}]") from None
+_GARMENTS = JsonForm(Garment, GarmentError)

@@ -1,8 +1,15 @@
 """The table: a rectangle whose middle is the origin of the table frame."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
+from annotated_types import Interval
+
+from planner.errors import SceneError
 from planner.geometry.pose import Point2
+from planner.json_form import NULL_IS_DEFAULT, require_intervals
+
+_Side = Annotated[float, Interval(ge=0.1, le=10.0), NULL_IS_DEFAULT]
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,9 +22,13 @@ class Table:
         height_m: of the top above the floor (m).
     """
 
-    depth_m: float = 1.60
-    width_m: float = 0.98
-    height_m: float = 0.79
+    depth_m: _Side = 1.60
+    width_m: _Side = 0.98
+    height_m: _Side = 0.79
+
+    def __post_init__(self) -> None:
+        """Refuse what is no table; raises `SceneError`."""
+        require_intervals(self, SceneError)
 
     @property
     def corners(self) -> tuple[Point2, Point2, Point2, Point2]:

@@ -12,8 +12,8 @@ from planner.folds.fold_dag import FoldDag
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import TIME_S
+from planner.json_form import STRICT, JsonForm
 from planner.task.grip import BaseStop, Grip, Holding
-from planner.task.json_form import STRICT, JsonForm
 from planner.task.reason import Reason
 from planner.task.scene import Scene
 from planner.task.task import Task

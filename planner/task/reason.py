@@ -6,8 +6,8 @@ from enum import StrEnum
 from typing import Any
 
 from planner.geometry.pose import Approach, Point2, Point3
+from planner.json_form import STRICT, JsonForm
 from planner.message import Message
-from planner.task.json_form import STRICT, JsonForm
 
 
 class Code(StrEnum):

@@ -6,16 +6,19 @@ The default scene is one in which a PR2 can fold all nine articles of the paper'
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import ValidationError
+from annotated_types import Interval
+from pydantic import GetPydanticSchema, PlainSerializer
+from pydantic_core.core_schema import no_info_after_validator_function
 
 from planner.errors import SceneError
+from planner.geometry.given import GivenPose
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.strict_model import Bounded, StrictModel, first_error
+from planner.json_form import NULL_IS_DEFAULT, STRICT, JsonForm, require_intervals
 
 _QUARTER = math.pi / 2
 
@@ -35,6 +38,19 @@ STATIONS_MAX = 64
 
 SUPPORT_ANGLE_MAX_RAD = math.radians(85.0)
 """Beyond this even the top of a hanging piece would count as supported by what is beside it (rad)."""
+
+
+def _pairs(named: Mapping[str, Pose2]) -> tuple[tuple[str, Pose2], ...]:
+    return tuple(named.items())
+
+
+NamedPoses = Annotated[
+    tuple[tuple[str, Pose2], ...],
+    GetPydanticSchema(lambda _, schema: no_info_after_validator_function(_pairs, schema(dict[str, GivenPose]))),
+    PlainSerializer(dict, return_type=dict[str, Pose2]),
+    NULL_IS_DEFAULT,
+]
+"""Poses by name, in order; in JSON one object."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,92 +75,40 @@ class Scene:
         base_turn_rad_s: the base's turning speed (rad/s).
     """
 
-    table: Table = field(default_factory=Table)
-    stations: tuple[tuple[str, Pose2], ...] = tuple(DEFAULT_STATIONS.items())
-    torso_m: float = 0.29
-    friction: float = 1.0
-    support_angle_rad: float = math.radians(5.0)
-    approach_cone_rad: float = math.radians(75.0)
-    back_off_max_m: float = 0.8
-    edge_clear_m: float = 0.03
-    arm_motion_s: float = 3.0
-    grip_dwell_s: float = 0.5
-    base_speed_m_s: float = 0.25
-    base_turn_rad_s: float = 0.5
+    __pydantic_config__ = STRICT
+
+    table: Annotated[Table, NULL_IS_DEFAULT] = field(default_factory=Table)
+    stations: NamedPoses = tuple(DEFAULT_STATIONS.items())
+    torso_m: Annotated[float, Interval(ge=0.0, le=1.0), NULL_IS_DEFAULT] = 0.29
+    friction: Annotated[float, Interval(ge=0.0, le=10.0), NULL_IS_DEFAULT] = 1.0
+    support_angle_rad: Annotated[float, Interval(ge=0.0, le=SUPPORT_ANGLE_MAX_RAD), NULL_IS_DEFAULT] = math.radians(5.0)
+    approach_cone_rad: Annotated[float, Interval(ge=0.0, le=math.pi), NULL_IS_DEFAULT] = math.radians(75.0)
+    back_off_max_m: Annotated[float, Interval(ge=0.0, le=1.5), NULL_IS_DEFAULT] = 0.8
+    edge_clear_m: Annotated[float, Interval(ge=0.0, le=0.1), NULL_IS_DEFAULT] = 0.03
+    arm_motion_s: Annotated[float, Interval(ge=1e-3, le=1e3), NULL_IS_DEFAULT] = 3.0
+    grip_dwell_s: Annotated[float, Interval(ge=0.0, le=60.0), NULL_IS_DEFAULT] = 0.5
+    base_speed_m_s: Annotated[float, Interval(ge=1e-3, le=1e3), NULL_IS_DEFAULT] = 0.25
+    base_turn_rad_s: Annotated[float, Interval(ge=1e-3, le=1e3), NULL_IS_DEFAULT] = 0.5
 
     def __post_init__(self) -> None:
         """Refuse what is no scene; raises `SceneError` naming the field and the number."""
-        for name in ("depth_m", "width_m", "height_m"):
-            _require_between(f"table.{name}", getattr(self.table, name), 0.1, 10.0)
         if not 1 <= len(self.stations) <= STATIONS_MAX:
             raise SceneError("stations", f"there are {len(self.stations)}, a scene has 1 to {STATIONS_MAX}")
-        _require_between("torso_m", self.torso_m, 0.0, 1.0)
-        _require_between("friction", self.friction, 0.0, 10.0)
-        _require_between("support_angle_rad", self.support_angle_rad, 0.0, SUPPORT_ANGLE_MAX_RAD)
-        _require_between("approach_cone_rad", self.approach_cone_rad, 0.0, math.pi)
-        _require_between("back_off_max_m", self.back_off_max_m, 0.0, 1.5)
-        _require_between("edge_clear_m", self.edge_clear_m, 0.0, 0.1)
-        _require_between("grip_dwell_s", self.grip_dwell_s, 0.0, 60.0)
-        for name in ("arm_motion_s", "base_speed_m_s", "base_turn_rad_s"):
-            _require_between(name, getattr(self, name), 1e-3, 1e3)
+        require_intervals(self, SceneError)
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Scene":
-        """A scene from JSON; fields left out have their defaults, given stations replace the five.
+        """Return the scene that JSON holds; what is left out or null is usual, given stations replace the five.
 
         Raises:
             SceneError: names the field, and says what is wrong with which number.
         """
-        try:
-            given = _SceneModel.model_validate(data)
-        except ValidationError as error:
-            raise first_error(error, SceneError) from None
-        return given.to_scene()
+        return _SCENES.read(data)
 
     def to_dict(self) -> dict[str, Any]:
-        """The scene as JSON, every field filled in."""
-        plain = {f.name: getattr(self, f.name) for f in fields(self)[2:]}
-        table = {f.name: getattr(self.table, f.name) for f in fields(self.table)}
-        stations = {name: pose.to_dict() for name, pose in self.stations}
-        return {"table": table, "stations": stations, **plain}
+        """Return the scene as JSON, every field filled in."""
+        written: dict[str, Any] = _SCENES.write(self)
+        return written
 
 
-def _require_between(name: str, value: float, low: float, high: float) -> None:
-    if not low <= value <= high:
-        raise SceneError(name, f"{value} is not between {low} and {high}")
-
-
-class _TableModel(StrictModel):
-    depth_m: float | None = None
-    width_m: float | None = None
-    height_m: float | None = None
-
-
-class _StationModel(StrictModel):
-    x_m: Bounded
-    y_m: Bounded
-    yaw_rad: Bounded
-
-
-class _SceneModel(StrictModel):
-    table: _TableModel | None = None
-    stations: dict[str, _StationModel] | None = None
-    torso_m: float | None = None
-    friction: float | None = None
-    support_angle_rad: float | None = None
-    approach_cone_rad: float | None = None
-    back_off_max_m: float | None = None
-    edge_clear_m: float | None = None
-    arm_motion_s: float | None = None
-    grip_dwell_s: float | None = None
-    base_speed_m_s: float | None = None
-    base_turn_rad_s: float | None = None
-
-    def to_scene(self) -> Scene:
-        """The scene with defaults where nothing, or null, was given."""
-        given = self.model_dump(exclude_none=True)
-        if self.table is not None:
-            given["table"] = Table(**self.table.model_dump(exclude_none=True))
-        if self.stations is not None:
-            given["stations"] = tuple((name, Pose2(p.x_m, p.y_m, p.yaw_rad)) for name, p in self.stations.items())
-        return Scene(**given)
+_SCENES = JsonForm(Scene, SceneError)

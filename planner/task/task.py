@@ -9,8 +9,8 @@ from annotated_types import Interval
 from planner.cloth.garment import Garment
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
+from planner.json_form import STRICT, JsonForm, require_intervals
 from planner.task.grip import BaseStop
-from planner.task.json_form import STRICT, JsonForm, require_intervals
 from planner.task.scene import Scene
 from planner.task.version import require_version
 from planner.task.world_state import WORLD_STATES, WorldState

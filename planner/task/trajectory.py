@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
-from planner.task.json_form import STRICT
+from planner.json_form import STRICT
 from planner.task.phase import Phase
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner.geometry.pose import Point2, Pose2
+from planner.json_form import STRICT, JsonForm
 from planner.task.grip import BaseStop
-from planner.task.json_form import STRICT, JsonForm
 
 
 @dataclass(frozen=True, slots=True)

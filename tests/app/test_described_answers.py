@@ -104,7 +104,7 @@ async def test_every_message_of_the_websocket_is_as_described(client: httpx.Asyn
 @pytest.mark.parametrize("name", ["letter-towel", "tie-halved", "big-towel"])
 def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> None:
     plan = make_plan(load_garment(name), time_limit_s=60.0)
-    assert_described({"id": "p", **plan.to_dict()}, PlanAnswer)
+    assert_described({"id": "p", **plan.answer()}, PlanAnswer)
 
 
 async def test_suggestions_are_as_described(client: httpx.AsyncClient) -> None:

@@ -60,3 +60,9 @@ def test_bytes_that_are_no_text_are_no_json(tmp_path: Path):
 def test_json_that_is_no_object_is_no_garment(tmp_path: Path, text: str):
     with pytest.raises(GarmentError, match="one JSON object"):
         load_garment(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("value", ["[" * 300 + "]" * 300, '"\\ud800"'])
+def test_json_that_no_garment_can_hold_is_refused(tmp_path: Path, value: str):
+    with pytest.raises(GarmentError):
+        load_garment(written(tmp_path, json.dumps(TOWEL).replace('"towel"', value, 1)))

@@ -6,6 +6,7 @@ import pytest
 
 from planner.errors import SceneError
 from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
 from planner.task.scene import Scene
 
 
@@ -75,3 +76,8 @@ def test_what_is_no_scene_is_refused_by_its_field(data: dict[str, object], field
     with pytest.raises(SceneError) as caught:
         Scene.from_dict(data)
     assert caught.value.field == field
+
+
+def test_a_table_built_directly_is_held_to_the_same():
+    with pytest.raises(SceneError, match=r"width_m: 11\.0 is not between 0\.1 and 10"):
+        Table(width_m=11.0)

@@ -1,7 +1,8 @@
 """The JSON form of a value, read and written by its type alone.
 
 Every value is a frozen dataclass; pydantic derives from its annotations how it is written, and how strictly it is read:
-unknown fields are refused by name, numbers are finite JSON numbers. So the form is defined where the value is.
+unknown fields are refused by name, numbers are finite JSON numbers. So the form is defined where the value is. What
+only the value itself can tell, its `__post_init__` refuses with a `FieldError`; the path to it is put before its field.
 """
 
 from collections.abc import Hashable
@@ -10,13 +11,13 @@ from functools import cache
 from typing import Annotated, Any, Generic, TypeVar, cast, get_args, get_origin, get_type_hints
 
 from annotated_types import Interval
-from pydantic import ConfigDict, TypeAdapter, ValidationError
-from pydantic_core import to_json
+from pydantic import BeforeValidator, ConfigDict, TypeAdapter, ValidationError
+from pydantic_core import PydanticSerializationError, PydanticUseDefault, to_json
 
 from planner.errors import FieldError, RequestError
 from planner.strict_model import first_error
 
-STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, json_schema_serialization_defaults_required=True)
 """How values are read; the outermost one names it as its `__pydantic_config__`."""
 
 T = TypeVar("T")
@@ -43,6 +44,8 @@ class JsonForm(Generic[T]):
         """Return the value that JSON holds; raises the form's error, which names the field."""
         try:
             return self._adapter.validate_json(to_json(data))
+        except PydanticSerializationError:
+            raise self._error("", "is nested too deeply, or has text that is no Unicode") from None
         except ValidationError as error:
             raise first_error(error, self._error) from None
 
@@ -52,7 +55,7 @@ def require_intervals(value: Any, error: type[FieldError]) -> None:  # noqa: ANN
     for name, interval in _intervals(cast("Hashable", type(value))):
         found = getattr(value, name)
         if found is not None and not _is_within(found, interval):
-            raise error(name, f"{found} is not between {interval.ge:g} and {interval.le:g}")
+            raise error(name, f"{found} is not {_said(interval)}")
 
 
 @cache
@@ -70,4 +73,21 @@ def _interval(hint: Any) -> Interval | None:  # noqa: ANN401
 
 
 def _is_within(value: Any, interval: Interval) -> bool:  # noqa: ANN401
-    return bool(interval.ge <= value <= interval.le)
+    above = interval.gt < value if interval.ge is None else interval.ge <= value
+    return bool(above and value <= interval.le)
+
+
+def _said(interval: Interval) -> str:
+    if interval.ge is None:
+        return f"greater than {interval.gt:g} and at most {interval.le:g}"
+    return f"between {interval.ge:g} and {interval.le:g}"
+
+
+def _default_for_null(value: object) -> object:
+    if value is None:
+        raise PydanticUseDefault
+    return value
+
+
+NULL_IS_DEFAULT = BeforeValidator(_default_for_null)
+"""Marks a field for which null counts as left out."""

@@ -1,0 +1,45 @@
+"""Points and poses as people give them, in files and requests: no number is beyond the bounds."""
+
+from dataclasses import fields
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, GetCoreSchemaHandler, GetPydanticSchema
+from pydantic_core import CoreSchema, PydanticKnownError, core_schema
+
+from planner.geometry.pose import Pose2
+from planner.strict_model import Bounded
+
+
+def _pair(value: object) -> object:
+    """Return a list of two as a tuple: of a longer or shorter one its length is wrong, and not one of its members."""
+    if not isinstance(value, list):
+        return value
+    count = {"field_type": "List", "actual_length": len(value)}
+    if len(value) < 2:
+        raise PydanticKnownError("too_short", {**count, "min_length": 2})
+    if len(value) > 2:
+        raise PydanticKnownError("too_long", {**count, "max_length": 2})
+    return tuple(value)
+
+
+PlanePoint = Annotated[tuple[Bounded, Bounded], BeforeValidator(_pair)]
+"""A point of the plane (m)."""
+
+
+def _bounded(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401
+    """Return how a dataclass of numbers is read with all of them bounded; written it is as ever."""
+    number = schema(Bounded)
+    members = {field.name: core_schema.typed_dict_field(number) for field in fields(source)}
+    return core_schema.no_info_after_validator_function(
+        lambda given: source(**given),
+        core_schema.typed_dict_schema(members, extra_behavior="forbid"),
+        serialization=core_schema.plain_serializer_function_ser_schema(_same, return_schema=schema(source)),
+    )
+
+
+def _same(value: object) -> object:
+    return value
+
+
+GivenPose = Annotated[Pose2, GetPydanticSchema(_bounded)]
+"""A pose (m, rad)."""
