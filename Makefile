@@ -101,7 +101,7 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV): a minute or two, once"
 	@$(PIP) install --require-hashes -r requirements.txt
 	@$(PIP) install --no-deps --no-build-isolation -e .
-	@$(BIN)/python -c "from planner.plan.make_plan import compile_kernels; compile_kernels()"
+	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels()"
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)

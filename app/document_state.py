@@ -9,7 +9,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
 from app.playback import Playback
 from planner.geometry.pose import Point2
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.task.world_state import WorldState

@@ -3,7 +3,7 @@
 from collections import OrderedDict
 from typing import TypeAlias
 
-from planner.plan.found_plan import FoundPlan
+from planner.planning.found_plan import FoundPlan
 from planner.task.plan import Plan
 
 _MOST = 4

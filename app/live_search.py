@@ -12,7 +12,7 @@ from typing import Protocol
 
 from app.known_plans import KnownPlans
 from planner import find_plan, quick_plan
-from planner.plan.found_plan import FoundPlan
+from planner.planning.found_plan import FoundPlan
 from planner.task.plan import Plan
 from planner.task.task import TIME_LIMIT_S, Task
 

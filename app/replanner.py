@@ -22,7 +22,7 @@ from planner.errors import FoldingError, SceneError
 from planner.task.plan import Plan
 
 WORK_S, LONGER_WORK_S = 10.0, 60.0
-"""How much work a search may do, and one that was asked to look longer (s of the machine of `planner.plan.budget`).
+"""How much work a search may do, and one that was asked to look longer (s of the machine of `planner.planning.budget`).
 
 Not the clock but this ends it, so that what is shown in the end does not depend on how busy the machine was.
 """

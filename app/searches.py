@@ -7,9 +7,9 @@ from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.jobs.apart import Tell
 from planner import make_plan
-from planner.plan.plan_check import require_replay
-from planner.plan.suggestion_map import PlacementMap, placement_map
-from planner.plan.suggestions import suggestions
+from planner.explain.suggestion_map import PlacementMap, placement_map
+from planner.explain.suggestions import suggestions
+from planner.planning.plan_check import require_replay
 from planner.task.plan import Plan
 from planner.task.task import Task
 

@@ -7,10 +7,10 @@ from rich.table import Table
 
 from app.step_words import step_words
 from planner.cloth.garment import Garment
+from planner.explain.garment_check import FoldCheck, GarmentCheck
+from planner.explain.suggestion import Suggestion
+from planner.explain.vertex_check import Support
 from planner.geometry.pose import Point2
-from planner.plan.garment_check import FoldCheck, GarmentCheck
-from planner.plan.suggestion import Suggestion
-from planner.plan.vertex_check import Support
 from planner.task.plan import Plan, PlanStep
 
 _POINTS_SHOWN = 4

@@ -22,7 +22,7 @@ from bench.measurement import BenchmarkError, Ratio
 from bench.report import Report, Row
 from bench.viewers import READY
 from planner import Plan, load_garment, make_plan
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from planner.robot.pr2 import load_robot
 
 COLUMNS = (

@@ -13,8 +13,8 @@ from time import perf_counter
 from typing import Any
 
 from planner import Garment, load_garment, make_plan
-from planner.plan.make_plan import compile_kernels
-from planner.plan.problem import forget_garments
+from planner.planning.problem import forget_garments
+from planner.planning.warm_up import compile_kernels
 
 TIME_LIMIT_S = 60.0
 

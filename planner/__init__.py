@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from planner.cloth.garment import Garment
     from planner.cloth.garment_files import load_garment, shipped_garment_names
+    from planner.explain.garment_check import check_garment
+    from planner.explain.suggestions import suggestions
     from planner.folds.fold_sequence import FoldSequence, fold_dag
-    from planner.plan.garment_check import check_garment
-    from planner.plan.make_plan import find_plan, make_plan, quick_plan
-    from planner.plan.suggestions import suggestions
-    from planner.plan.timeline import Timeline
+    from planner.motion.timeline import Timeline
+    from planner.plans import find_plan, make_plan, quick_plan
     from planner.task.plan import Plan
     from planner.task.scene import Scene
     from planner.task.task import Limits, Task
@@ -47,10 +47,10 @@ _HOMES = {
     "planner.cloth.garment": ("Garment",),
     "planner.cloth.garment_files": ("load_garment", "shipped_garment_names"),
     "planner.folds.fold_sequence": ("FoldSequence", "fold_dag"),
-    "planner.plan.garment_check": ("check_garment",),
-    "planner.plan.make_plan": ("find_plan", "make_plan", "quick_plan"),
-    "planner.plan.suggestions": ("suggestions",),
-    "planner.plan.timeline": ("Timeline",),
+    "planner.explain.garment_check": ("check_garment",),
+    "planner.plans": ("find_plan", "make_plan", "quick_plan"),
+    "planner.explain.suggestions": ("suggestions",),
+    "planner.motion.timeline": ("Timeline",),
     "planner.task.plan": ("Plan",),
     "planner.task.scene": ("Scene",),
     "planner.task.task": ("Limits", "Task"),

@@ -16,7 +16,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point2, Pose2
 from planner.geometry.region import Region
-from planner.primitives.work import Work
+from planner.primitives.context import Context
 from planner.task.scene import Scene
 
 CIRCLE_M = 0.47
@@ -176,6 +176,6 @@ def connected(row: list[int], count: int, start: int | None = None) -> list[int]
     return kept if before else [0] * len(row)
 
 
-def work(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Work:
+def context(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Context:
     """A planning problem for a robot that reaches everything, unless told otherwise."""
-    return Work(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)
+    return Context(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)

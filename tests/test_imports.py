@@ -12,6 +12,8 @@ ROOT = Path(__file__).parent.parent
 # Modules of planner that stand outside the rooms and that every room but search may use.
 GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
 
+BELOW_MOTION = GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "robot")}
+
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.message": frozenset(),
@@ -25,8 +27,10 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.folds": GROUND | {"planner.geometry", "planner.cloth"},
     "planner.task": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
     "planner.primitives": GROUND | {"planner.geometry", "planner.cloth", "planner.folds", "planner.task"},
-    "planner.plan": GROUND
-    | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "search", "robot")},
+    "planner.motion": BELOW_MOTION,
+    "planner.planning": BELOW_MOTION | {"planner.motion", "planner.search"},
+    "planner.explain": BELOW_MOTION | {"planner.motion", "planner.search", "planner.planning"},
+    "planner.plans": BELOW_MOTION | {"planner.motion", "planner.planning", "planner.explain"},
 }
 
 # Where a library may be imported; libraries not named here may be imported anywhere.

@@ -23,8 +23,8 @@ from app.jobs.job_pool import ShouldStop
 from app.overlays.moment import Moment, NoClothError, moment_as_drawn, moment_of_plan
 from app.overlays.overlays import OVERLAYS, overlays
 from planner.errors import RequestError, SceneError
+from planner.explain.suggestion_map import Cell
 from planner.geometry.pose import Pose2
-from planner.plan.suggestion_map import Cell
 
 router = APIRouter(prefix="/api/documents/{document_id}/overlays", tags=["overlays"])
 

@@ -9,7 +9,7 @@ import re
 
 from app.jobs.job_pool import ShouldStop
 from app.ui.stage import Stage
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from planner.robot.pr2 import load_robot
 from planner.task.plan import Plan
 

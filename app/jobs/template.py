@@ -23,7 +23,7 @@ def _load() -> None:
     os.nice(NICENESS)
     for name in _HELD:
         import_module(name)
-    import_module("planner.plan.make_plan").compile_kernels()
+    import_module("planner.plans").compile_kernels()
     signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 

@@ -19,8 +19,8 @@ import numpy as np
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
+from planner.primitives.context import BACK_OFF_STEP_M
 from planner.primitives.reach import Reach
-from planner.primitives.work import BACK_OFF_STEP_M
 from planner.robot.pr2 import load_robot
 
 _BLOCK = 4

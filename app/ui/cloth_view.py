@@ -11,7 +11,7 @@ from app.ui.colours import Palette
 from app.ui.lighting import ink, paint
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.plan.frame import ClothSurface
+from planner.motion.sample import ClothSurface
 
 ROOT = "/cloth"
 

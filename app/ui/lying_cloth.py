@@ -8,7 +8,7 @@ from planner.geometry.region import Region
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased
-from planner.plan.frame import ClothSurface
+from planner.motion.sample import ClothSurface
 
 _HEIGHT_M = 0.0015
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.plan.frame import ClothSurface
+from planner.motion.sample import ClothSurface
 
 _ROUND_M = 1e-3  # so far beyond its edge cloth still counts: a fold line runs along the edge of what is folded
 

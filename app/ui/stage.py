@@ -26,7 +26,7 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
-from planner.plan.frame import ClothSurface, Frame
+from planner.motion.sample import ClothSurface, Sample
 from planner.robot.card import RobotCard
 from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
@@ -137,7 +137,7 @@ class Stage:
         with self._server.atomic():
             self._begin(plan.garment, plan.steps)
 
-    def show(self, frame: Frame) -> None:
+    def show(self, frame: Sample) -> None:
         """Show one moment of the plan."""
         with self._server.atomic():
             self._robot.pose(frame.base, frame.joints)
@@ -174,7 +174,7 @@ class Stage:
         self._marked = None
         self._grips.show(None)
 
-    def _show_step(self, frame: Frame) -> None:
+    def _show_step(self, frame: Sample) -> None:
         step = self._steps[frame.primitive]
         is_over = frame.t_s >= step.end_s - TIME_S
         self._mark(None if is_over else step)

@@ -18,9 +18,9 @@ from planner.geometry.pose import Point2, Pose2, wrapped_angle
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
-from planner.primitives.primitive import InTime, Later
+from planner.primitives.context import Context
+from planner.primitives.primitive import Deferred, DeferredSteps
 from planner.primitives.state import State
-from planner.primitives.work import Work
 from planner.task.grip import Grip, Holding
 from planner.task.phase import ClothMotion, Hand, Phase
 
@@ -51,13 +51,13 @@ class MoveStep:
     """One move as it is performed.
 
     Attributes:
-        work: the problem.
+        context: the problem.
         route: the way.
         before: the state it starts in.
         after: the state it leads to.
     """
 
-    work: Work
+    context: Context
     route: Route
     before: State
     after: State
@@ -66,7 +66,7 @@ class MoveStep:
 
     @cached_property
     def _durations_s(self) -> tuple[float, ...]:
-        scene = self.work.scene
+        scene = self.context.scene
         return self.route.durations_s(scene.base_speed_m_s, scene.base_turn_rad_s)
 
     @property
@@ -77,7 +77,7 @@ class MoveStep:
     @property
     def details(self) -> dict[str, Any]:
         """From where, to where, and the way."""
-        names = [name or None for name, _ in self.work.scene.stations]
+        names = [name or None for name, _ in self.context.scene.stations]
         waypoints = [[p.x_m, p.y_m, p.yaw_rad] for p in self.route.waypoints]
         return {
             "from": names[self.before.station],
@@ -91,9 +91,9 @@ class MoveStep:
 
     def phases(self) -> tuple[Phase, ...]:
         """One phase for each leg, the hands free."""
-        placement = self.work.placed(self.before.offset)
-        still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.work.scene.table))
-        free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
+        placement = self.context.placed(self.before.offset)
+        still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.context.scene.table))
+        free: tuple[Hand | None, ...] = (None,) * len(self.context.reach.arm_names)
         legs = zip(self.route.waypoints[:-1], self.route.waypoints[1:], strict=True)
         return tuple(Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True))
 
@@ -128,11 +128,11 @@ class MoveStep:
         """There is but one way."""
         return ()
 
-    def again(self, work: Work, state: State) -> Iterable["MoveStep"]:
+    def again(self, context: Context, state: State) -> Iterable["MoveStep"]:
         """A move to the station of the same name, if there is one."""
-        wanted, _ = self.work.scene.stations[self.after.station]
-        named = (number for number, (name, _) in enumerate(work.scene.stations) if name == wanted)
-        return (step for number in named for step in work.kept(BaseMove).to(state, number))
+        wanted, _ = self.context.scene.stations[self.after.station]
+        named = (number for number, (name, _) in enumerate(context.scene.stations) if name == wanted)
+        return (step for number in named for step in context.kept(BaseMove).to(state, number))
 
 
 class BaseMove:
@@ -140,38 +140,38 @@ class BaseMove:
 
     begins_with_driving = False
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._routes: dict[tuple[int, int, int], Route] = {}
 
     def successors(self, state: State) -> Iterable[MoveStep]:
         """One step for each other station."""
-        stations = () if state.held else range(len(self._work.scene.stations))
-        return InTime(tuple(self._later(state, station) for station in stations if station != state.station))
+        stations = () if state.held else range(len(self._context.scene.stations))
+        return DeferredSteps(tuple(self._later(state, station) for station in stations if station != state.station))
 
-    def _later(self, state: State, station: int) -> Later[MoveStep]:
+    def _later(self, state: State, station: int) -> Deferred[MoveStep]:
         """A move, in its time: it takes at least what it takes to go and to turn with nothing in the way."""
-        scene, start = self._work.scene, self._work.base_pose(state.station, state.back_off)
-        goal = self._work.station_pose(station)
+        scene, start = self._context.scene, self._context.base_pose(state.station, state.back_off)
+        goal = self._context.station_pose(station)
         drive_s = math.dist(_place(start), _place(goal)) / scene.base_speed_m_s
         turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
         after = State(state.done, state.offset, station, 0)
-        return Later(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
+        return Deferred(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
 
     def to(self, state: State, station: int) -> tuple[MoveStep, ...]:
         """The move to a station."""
         after = State(state.done, state.offset, station, 0)
-        return (MoveStep(self._work, self._route(state, station), state, after),)
+        return (MoveStep(self._context, self._route(state, station), state, after),)
 
     def _route(self, state: State, station: int) -> Route:
         key = (state.station, state.back_off, station)
         if key not in self._routes:
-            work = self._work
-            start = work.base_pose(state.station, state.back_off)
-            out = clear_of_table(start, work.scene.table, work.circle_m)
-            goal = work.station_pose(station)
-            outside = clear_of_table(goal, work.scene.table, work.circle_m)
-            bends = shortest_way(_place(out), _place(outside), work.scene.table, work.circle_m)
+            context = self._context
+            start = context.base_pose(state.station, state.back_off)
+            out = clear_of_table(start, context.scene.table, context.circle_m)
+            goal = context.station_pose(station)
+            outside = clear_of_table(goal, context.scene.table, context.circle_m)
+            bends = shortest_way(_place(out), _place(outside), context.scene.table, context.circle_m)
             self._routes[key] = route_along(start, out, bends, outside, goal)
         return self._routes[key]
 

@@ -6,40 +6,40 @@ from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.primitives.work import DRAGS_PER_M, Work
+from planner.primitives.context import DRAGS_PER_M, Context
 
 
-def longest_drag(work: Work) -> int:
+def longest_drag(context: Context) -> int:
     """The most steps of a drag: the article's length, the longer side of its smallest enclosing rectangle."""
-    return math.floor(work.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
+    return math.floor(context.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
 
 
-def dragged(work: Work, offset: Point2, station: int, steps: int) -> Point2:
+def dragged(context: Context, offset: Point2, station: int, steps: int) -> Point2:
     """Where the article is after a drag from a station by so many steps, as an offset from the start (m)."""
-    yaw = work.station_pose(station).yaw_rad
+    yaw = context.station_pose(station).yaw_rad
     distance = steps / DRAGS_PER_M
     return (offset[0] - distance * math.cos(yaw), offset[1] - distance * math.sin(yaw))
 
 
-def towards_robot(work: Work, station: int) -> Point2:
+def towards_robot(context: Context, station: int) -> Point2:
     """The direction of a drag from a station, a unit vector of the article frame."""
-    heading = work.station_pose(station).yaw_rad + math.pi - work.placement.yaw_rad
+    heading = context.station_pose(station).yaw_rad + math.pi - context.placement.yaw_rad
     return (math.cos(heading), math.sin(heading))
 
 
-def hangs_ahead(work: Work, done: int, offset: Point2, towards: Point2) -> bool:
+def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) -> bool:
     """Whether cloth hangs already from an edge towards which a drag would go."""
-    coordinates = work.sequence.cloth(done).silhouette.coordinates
-    for edge in work.table_in_article(offset).edges:
+    coordinates = context.sequence.cloth(done).silhouette.coordinates
+    for edge in context.table_in_article(offset).edges:
         outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
         if outwards > ANGLE_RAD and edge.left_distances(coordinates).min() < -LENGTH_M:
             return True
     return False
 
 
-def drag_covers(work: Work, done: int, offset: Point2, towards: Point2) -> GripCovers:
+def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
     """The grips that Theorem 2 asks for on the part that lies on the table."""
-    silhouette = work.sequence.cloth(done).silhouette
-    lying = silhouette.intersection(work.table_in_article(offset).region)
-    vertices = must_hold(lying, towards, (), work.scene.support_angle_rad)
-    return grip_covers(lying, vertices, work.sequence.garment.grip_radius_m, len(work.reach.arm_names))
+    silhouette = context.sequence.cloth(done).silhouette
+    lying = silhouette.intersection(context.table_in_article(offset).region)
+    vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)
+    return grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))

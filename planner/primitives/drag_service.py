@@ -14,22 +14,22 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import towards_robot
 from planner.primitives.fold_trial import is_line_on_table
-from planner.primitives.work import Work
 
 
 class Service:
     """Knows which folds of a planning problem grips left by drags may serve; they serve no others."""
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, context: Context) -> None:
         """Ask nothing yet."""
-        self._work = work
+        self._context = context
 
     @cached_property
     def folds(self) -> tuple[frozenset[int], ...]:
         """For each station the folds that grips left by a drag from there may serve."""
-        return tuple(self._served(station) for station in range(len(self._work.scene.stations)))
+        return tuple(self._served(station) for station in range(len(self._context.scene.stations)))
 
     @cached_property
     def all_folds(self) -> int:
@@ -42,12 +42,12 @@ class Service:
 
     def may_serve(self, fold: int, offset: Point2, station: int) -> bool:
         """Return whether one fold may be done there with the grips that the drag has left."""
-        return fold in self.folds[station] and is_line_on_table(self._work, fold, offset)
+        return fold in self.folds[station] and is_line_on_table(self._context, fold, offset)
 
     def _served(self, station: int) -> frozenset[int]:
-        sequence = self._work.sequence
+        sequence = self._context.sequence
         always, moving, ends = self._cloth
-        front = Front.of(ends, [fold.line for fold in sequence.folds], always, towards_robot(self._work, station))
+        front = Front.of(ends, [fold.line for fold in sequence.folds], always, towards_robot(self._context, station))
         radius = sequence.garment.grip_radius_m + LENGTH_M
         blue = (fold.index for fold in sequence.folds if not fold.is_red)
         return frozenset(fold for fold in blue if front.is_near(moving[fold], radius))
@@ -55,7 +55,7 @@ class Service:
     @cached_property
     def _cloth(self) -> tuple[Region, list[Region], list[Region]]:
         """The cloth that no fold moves, what each fold moves, and all whose boundary may be the cloth's."""
-        sequence = self._work.sequence
+        sequence = self._context.sequence
         moving = [sequence.moving(fold.index) for fold in sequence.folds]
         landed = [part.moved(Isometry.reflection(f.line)) for part, f in zip(moving, sequence.folds, strict=True)]
         pattern = sequence.garment.pattern

@@ -10,11 +10,11 @@ import numpy as np
 
 from planner.geometry.pose import Approach, FloatArray, Point3
 from planner.geometry.table_top import TableTop
+from planner.primitives.context import BACK_OFF_STEP_M, BACK_OFFS_PER_M, DRAGS_PER_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
 from planner.primitives.drag_way import DragWay, DragWays
 from planner.primitives.grasping import approaches_from_outside, by_nearness, holdings
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFF_STEP_M, BACK_OFFS_PER_M, DRAGS_PER_M, Work
 from planner.task.grip import Grip, Holding
 from planner.task.phase import ClothMotion, Hand, Phase
 
@@ -24,7 +24,7 @@ class DragStep:
     """One drag as it is performed.
 
     Attributes:
-        work: the problem.
+        context: the problem.
         way: grips and arms.
         before: the state it starts in.
         after: the state it leads to.
@@ -32,7 +32,7 @@ class DragStep:
         approaches: each grip's approach, where that is not the one preferred.
     """
 
-    work: Work
+    context: Context
     way: DragWay
     before: State
     after: State
@@ -49,12 +49,12 @@ class DragStep:
     def duration_s(self) -> float:
         """The drive, the reach and the drag (s)."""
         steps = abs(self.before.back_off - self.first_stand) + self.after.back_off - self.first_stand
-        return self.work.scene.arm_motion_s + self.work.drive_s(steps)
+        return self.context.scene.arm_motion_s + self.context.drive_s(steps)
 
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Each hand's pick and place, from the leftmost arm to the rightmost."""
-        names = self.work.reach.arm_names
+        names = self.context.reach.arm_names
         ends = self._ends()
         found = [
             (arm, Grip(names[arm], _point(self.way.picks[i]), None, _point(ends[i])))
@@ -70,8 +70,8 @@ class DragStep:
     def holdings(self) -> tuple[Holding, ...]:
         """Return what each arm holds, and which vertices Theorem 2 asks for."""
         before = self.before
-        covers = drag_covers(self.work, before.done, before.offset, towards_robot(self.work, before.station))
-        return holdings(self.way.taken, covers.vertices, self.work.reach.arm_names)
+        covers = drag_covers(self.context, before.done, before.offset, towards_robot(self.context, before.station))
+        return holdings(self.way.taken, covers.vertices, self.context.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, back off with the cloth."""
@@ -83,21 +83,21 @@ class DragStep:
 
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:
-        work = self.work
+        context = self.context
         begin, stand, end = (
-            work.base_pose(self.before.station, b)
+            context.base_pose(self.before.station, b)
             for b in (self.before.back_off, self.first_stand, self.after.back_off)
         )
-        start, goal = work.placed(self.before.offset), work.placed(self.after.offset)
-        top = TableTop.of(work.scene.table)
+        start, goal = context.placed(self.before.offset), context.placed(self.after.offset)
+        top = TableTop.of(context.scene.table)
         still = ClothMotion(self.before.done, start, start, top)
         carried = ClothMotion(self.before.done, start, goal, top.open_towards(self._ends()[:, :2]))
-        free: tuple[Hand | None, ...] = (None,) * len(work.reach.arm_names)
-        drive = work.drive_s(abs(self.before.back_off - self.first_stand))
-        drag = work.drive_s(self.after.back_off - self.first_stand)
+        free: tuple[Hand | None, ...] = (None,) * len(context.reach.arm_names)
+        drive = context.drive_s(abs(self.before.back_off - self.first_stand))
+        drag = context.drive_s(self.after.back_off - self.first_stand)
         return (
             Phase(drive, (begin, stand), free, still),
-            Phase(work.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
+            Phase(context.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
             Phase(drag, (stand, end), self._hands(is_reaching=False), carried),
         )
 
@@ -113,13 +113,13 @@ class DragStep:
 
     def _able(self) -> list[list[int]]:
         """Return each hand's approaches in which it reaches its grip, the best first."""
-        work, way = self.work, self.way
-        turn = work.placed(self.before.offset).yaw_rad - work.station_pose(self.before.station).yaw_rad
+        context, way = self.context, self.way
+        turn = context.placed(self.before.offset).yaw_rad - context.station_pose(self.before.station).yaw_rad
         able = []
         for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
-            allowed = approaches_from_outside(work, self.before.done, turn, grip, arm)
-            point = work.in_base(self.before.station, pick[None])
-            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
+            allowed = approaches_from_outside(context, self.before.done, turn, grip, arm)
+            point = context.in_base(self.before.station, pick[None])
+            masks = context.reach.back_offs(arm, point, allowed, context.back_offs, BACK_OFF_STEP_M)
             able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
         return able
 
@@ -150,28 +150,28 @@ class DragStep:
         what the arms can do.
         """
         length = self.after.back_off - self.first_stand
-        stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.work.back_offs]
+        stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.context.back_offs]
         for stand in stands[:: max(1, len(stands) // count)]:
             after = replace(self.after, back_off=stand + length)
             there = replace(self, after=after, first_stand=stand, approaches=None)
             yield from islice(there.variants(), max(1, count // len(stands)))
 
-    def again(self, work: Work, state: State) -> Iterator["DragStep"]:
+    def again(self, context: Context, state: State) -> Iterator["DragStep"]:
         """The same hands drag as far from the same back-off, each at the grip nearest to where it was.
 
         Then from other back-offs, the nearest first; then other hands.
         """
         steps = self.after.back_off - self.first_stand
         count = steps * DRAGS_PER_M // BACK_OFFS_PER_M
-        offset = dragged(work, state.offset, state.station, count)
-        if work.unrest(state.done, offset) is not None:
+        offset = dragged(context, state.offset, state.station, count)
+        if context.unrest(state.done, offset) is not None:
             return
-        for way in by_nearness(self.way, work.kept(DragWays).of(state)):
+        for way in by_nearness(self.way, context.kept(DragWays).of(state)):
             held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()
             for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
-                if stand + steps < work.back_offs:
+                if stand + steps < context.back_offs:
                     after = State(state.done, offset, state.station, stand + steps, held, count if held else 0)
-                    yield from self._turned_alike(DragStep(work, way, state, after, stand))
+                    yield from self._turned_alike(DragStep(context, way, state, after, stand))
 
     def _turned_alike(self, other: "DragStep") -> Iterator["DragStep"]:
         """Yield another drag, first with its hands turned as here where that is not what it prefers and still goes."""
@@ -183,7 +183,7 @@ class DragStep:
         yield other
 
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:
-        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
+        hands: list[Hand | None] = [None] * len(self.context.reach.arm_names)
         ends = self._ends()
         for i, arm in enumerate(self.way.arms):
             pick, place = _point(self.way.picks[i]), _point(ends[i])
@@ -193,7 +193,7 @@ class DragStep:
 
     def _approach(self, grip: int) -> Approach:
         chosen = self.way.approaches[self.first_stand] if self.approaches is None else self.approaches
-        return self.work.reach.approaches[int(chosen[grip])]
+        return self.context.reach.approaches[int(chosen[grip])]
 
     def _ends(self) -> FloatArray:
         dx = self.after.offset[0] - self.before.offset[0]

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_key, nearest_pair_m
 from planner.primitives.state import State
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +51,9 @@ class DragWay:
 class DragWays:
     """The ways to drag in each state; states with the same cloth at the same place share them."""
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, context: Context) -> None:
         """Nothing is known yet."""
-        self._work = work
+        self._context = context
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 
     def of(self, state: State) -> tuple[DragWay, ...]:
@@ -66,16 +66,16 @@ class DragWays:
         return self._found[key]
 
     def _search(self, state: State) -> Iterator[DragWay]:
-        work = self._work
-        placement = work.placed(state.offset)
-        towards = towards_robot(work, state.station)
-        if hangs_ahead(work, state.done, state.offset, towards):
+        context = self._context
+        placement = context.placed(state.offset)
+        towards = towards_robot(context, state.station)
+        if hangs_ahead(context, state.done, state.offset, towards):
             return
-        for cover in drag_covers(work, state.done, state.offset, towards).covers:
+        for cover in drag_covers(context, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
-            if cover and nearest_pair_m(points) >= work.grips_apart_m - LENGTH_M:
+            if cover and nearest_pair_m(points) >= context.grips_apart_m - LENGTH_M:
                 picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
-                for arms in assignments(work, state.station, points):
+                for arms in assignments(context, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]
                     grips, hands = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)
                     yield self._way(state, grips, hands, picks[order], placement)
@@ -83,18 +83,18 @@ class DragWays:
     def _order(self, state: State, arms: tuple[int, ...], picks: FloatArray) -> list[tuple[tuple[int, ...], int, int]]:
         """Of each hand its key, its arm and its number, in order."""
         hands = zip(arms, picks[:, None], strict=True)
-        return sorted((hand_key(self._work, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
+        return sorted((hand_key(self._context, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
 
     def _way(
         self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, placement: Pose2
     ) -> DragWay:
-        work = self._work
-        turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
-        chosen = np.full((work.back_offs, len(cover)), -1, dtype=np.int64)
+        context = self._context
+        turn = placement.yaw_rad - context.station_pose(state.station).yaw_rad
+        chosen = np.full((context.back_offs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
-            allowed = approaches_from_outside(work, state.done, turn, grip, arm)
-            point = work.in_base(state.station, picks[i : i + 1])
-            masks = work.reach.back_offs(arm, point, allowed, work.back_offs, BACK_OFF_STEP_M)
-            is_able = (masks >> np.arange(work.back_offs, dtype=np.uint32) & 1).astype(bool)
+            allowed = approaches_from_outside(context, state.done, turn, grip, arm)
+            point = context.in_base(state.station, picks[i : i + 1])
+            masks = context.reach.back_offs(arm, point, allowed, context.back_offs, BACK_OFF_STEP_M)
+            is_able = (masks >> np.arange(context.back_offs, dtype=np.uint32) & 1).astype(bool)
             chosen[:, i] = np.where(is_able.any(axis=0), allowed[is_able.argmax(axis=0)], -1)
         return DragWay(arms, cover, picks, chosen)

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, nearest_whole
 from planner.primitives.base_legs import legs
+from planner.primitives.context import Context
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
-from planner.primitives.work import Work
 from planner.task.phase import ClothMotion, Hand, Phase
 
 _DENSE_SWEEP = 0.02
@@ -37,14 +37,14 @@ class FoldMotion:
     """How a fold is performed.
 
     Attributes:
-        work: the problem.
+        context: the problem.
         way: grips, arms and paths.
         before: the state it starts in.
         first_stand: back-off from which the path is begun.
         end: back-off at its end.
     """
 
-    work: Work
+    context: Context
     way: FoldWay
     before: State
     first_stand: int
@@ -70,17 +70,17 @@ class FoldMotion:
     def _begin(self, points: "list[_Points]") -> tuple[Phase, ...]:
         still = self._cloth(0.0, 0.0)
         start, stand = self._base(self.before.back_off), self._base(self.first_stand)
-        drive = self.work.drive_s(abs(self.before.back_off - self.first_stand))
-        free: tuple[Hand | None, ...] = (None,) * len(self.work.reach.arm_names)
+        drive = self.context.drive_s(abs(self.before.back_off - self.first_stand))
+        free: tuple[Hand | None, ...] = (None,) * len(self.context.reach.arm_names)
         return (
             Phase(drive, (start, stand), free, still),
-            Phase(self.work.scene.arm_motion_s, (stand, stand), self._hands(points, is_reaching=True), still),
+            Phase(self.context.scene.arm_motion_s, (stand, stand), self._hands(points, is_reaching=True), still),
         )
 
     def _pieces(self) -> Iterator[_Piece]:
         """Stretches of even motion, broken where the base drives and at the apex, and the base's drives."""
-        strip = self.way.strip(self.work, self.before.station)
-        stands = legs(strip, self.first_stand, self.end, self.work.back_offs)
+        strip = self.way.strip(self.context, self.before.station)
+        stands = legs(strip, self.first_stand, self.end, self.context.back_offs)
         at, sweep = self.first_stand, 0.0
         for waypoint, stand in zip(self.way.trial.sweeps.tolist(), stands, strict=True):
             if stand != at or abs(waypoint - 1.0) <= ANGLE_RAD:
@@ -97,12 +97,12 @@ class FoldMotion:
         (start, end), (stand, next_stand) = piece.sweeps, piece.stands
         base, hands, cloth = (self._base(stand), self._base(next_stand)), self._hands(points), self._cloth(start, end)
         if stand != next_stand:
-            return Phase(self.work.drive_s(abs(next_stand - stand)), base, hands, cloth)
-        duration = (end - start) * self.work.scene.arm_motion_s
+            return Phase(self.context.drive_s(abs(next_stand - stand)), base, hands, cloth)
+        duration = (end - start) * self.context.scene.arm_motion_s
         return Phase(duration, base, hands, cloth, motion=0 if start < 1.0 else 1)
 
     def _hands(self, points: "list[_Points]", *, is_reaching: bool = False) -> tuple[Hand | None, ...]:
-        hands: list[Hand | None] = [None] * len(self.work.reach.arm_names)
+        hands: list[Hand | None] = [None] * len(self.context.reach.arm_names)
         for number, (arm, part) in enumerate(zip(self.way.trial.arms, points, strict=True)):
             hands[arm] = Hand(self._approach(number), part.points, not is_reaching, is_reaching, part.rolls_rad)
         return tuple(hands)
@@ -132,13 +132,13 @@ class FoldMotion:
         return np.asarray(turned * nearest_whole(along * math.cos(approach.pitch_rad)))
 
     def _approach(self, grip: int) -> Approach:
-        return self.work.reach.approaches[self.way.approaches[grip]]
+        return self.context.reach.approaches[self.way.approaches[grip]]
 
     def _base(self, back_off: int) -> Pose2:
-        return self.work.base_pose(self.before.station, back_off)
+        return self.context.base_pose(self.before.station, back_off)
 
     def _cloth(self, start: float, end: float) -> ClothMotion:
-        placement = self.work.placed(self.before.offset)
+        placement = self.context.placed(self.before.offset)
         top = self.way.trial.path.top_at(start)
         return ClothMotion(self.before.done, placement, placement, top, self.way.trial.fold, (start, end))
 

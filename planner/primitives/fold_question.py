@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.fold_way import FoldWay, attempt_of
 from planner.primitives.state import State
-from planner.primitives.work import Work
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,21 +39,21 @@ class End:
 class FoldQuestion:
     """One fold, from one station, of the article at one place, with what is held."""
 
-    def __init__(self, work: Work, state: State, fold: int) -> None:
+    def __init__(self, context: Context, state: State, fold: int) -> None:
         """What can be tried in a state with any back-off; what speaks against it is noted."""
-        self._work = work
+        self._context = context
         self._state = state
         self._trials = tuple(self._search(fold))
-        self._hands = tuple(trial.following(work, state.station) for trial in self._trials)
-        self._least = np.zeros(work.back_offs, dtype=np.int64)
+        self._hands = tuple(trial.following(context, state.station) for trial in self._trials)
+        self._least = np.zeros(context.back_offs, dtype=np.int64)
         self._is_noted = False
 
     def _search(self, fold: int) -> Iterator[FoldTrial]:
-        obstacle = geometric_obstacle(self._work, self._state, fold)
+        obstacle = geometric_obstacle(self._context, self._state, fold)
         if obstacle is None:
-            yield from fold_trials(self._work, self._state, fold)
+            yield from fold_trials(self._context, self._state, fold)
         else:
-            self._work.obstacles.note(obstacle)
+            self._context.obstacles.note(obstacle)
 
     def ends(self, begun: NDArray[np.int64], least: int, most: int) -> tuple[list[End], int]:
         """The ends that take so many steps, no less and no more, and that cannot be had as cheaply by driving on.
@@ -102,7 +102,7 @@ class FoldQuestion:
         if not self._is_noted:
             self._is_noted = True
             for trial in self._trials:
-                self._work.obstacles.note_attempt(attempt_of(self._state, trial, np.array([self._state.offset])))
+                self._context.obstacles.note_attempt(attempt_of(self._state, trial, np.array([self._state.offset])))
 
 
 def _beats(one: End, other: End, is_before: bool) -> bool:
@@ -114,10 +114,10 @@ def _beats(one: End, other: End, is_before: bool) -> bool:
 class FoldQuestions:
     """Many states of a search ask the same question, so answers are kept."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._kept: dict[tuple[object, ...], FoldQuestion] = {}
-        places = np.arange(work.back_offs)
+        places = np.arange(context.back_offs)
         away = np.abs(places[:, None] - places)
         self._driven = {False: away, True: np.where(away > 0, IMPOSSIBLE, 0)}
 
@@ -126,7 +126,7 @@ class FoldQuestions:
         done, x, y, station, _, held, dragged = state.key
         key = (done, x, y, station, held, dragged > 0, fold)
         if key not in self._kept:
-            self._kept[key] = FoldQuestion(self._work, state, fold)
+            self._kept[key] = FoldQuestion(self._context, state, fold)
         return self._kept[key]
 
     def begun(self, state: State) -> NDArray[np.int64]:

@@ -13,22 +13,22 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial, fold_trials, grips_obstacle, is_line_on_table
 from planner.primitives.grasping import all_approaches
 from planner.primitives.state import State
 from planner.primitives.surroundings import Surroundings
-from planner.primitives.work import Work
 
 
 class FoldStands:
     """The least driving that each fold of a planning problem takes, by where the article lies and the base stands."""
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, context: Context) -> None:
         """Ask nothing yet."""
-        self._work = work
+        self._context = context
         self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
-        self._places = np.arange(work.back_offs)
-        self._surroundings = work.kept(Surroundings)
+        self._places = np.arange(context.back_offs)
+        self._surroundings = context.kept(Surroundings)
 
     def least(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
         """Return for each back-off the least steps to drive in all when a fold is begun from there.
@@ -47,22 +47,22 @@ class FoldStands:
         return self._known[key]
 
     def _search(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
-        work = self._work
+        context = self._context
         state = State((1 << fold) - 1, offset, station, 0)
-        driven = np.full(work.back_offs, IMPOSSIBLE)
-        if is_line_on_table(work, fold, offset) and grips_obstacle(work, state, fold) is None:
-            for trial in fold_trials(work, state, fold):
+        driven = np.full(context.back_offs, IMPOSSIBLE)
+        if is_line_on_table(context, fold, offset) and grips_obstacle(context, state, fold) is None:
+            for trial in fold_trials(context, state, fold):
                 np.minimum(driven, self._driven(trial, station), out=driven)
         away = np.abs(self._places[:, None] - self._places)
         return np.asarray(np.minimum((driven + away).min(axis=1), IMPOSSIBLE))
 
     def _driven(self, trial: FoldTrial, station: int) -> NDArray[np.int64]:
         """The steps driven from each back-off at which the path may be begun: those to its ends, asked backwards."""
-        work = self._work
+        context = self._context
         approaches = tuple(
-            allowed if self._surroundings.are_same(trial.fold, grip) else work.kept(all_approaches)[arm]
+            allowed if self._surroundings.are_same(trial.fold, grip) else context.kept(all_approaches)[arm]
             for grip, arm, allowed in zip(trial.cover, trial.arms, trial.approaches, strict=True)
         )
         back = replace(trial, tools=trial.tools[:, ::-1], approaches=approaches)
-        anywhere = np.zeros(work.back_offs, dtype=np.int64)
-        return np.asarray(back.following(work, station).least_driving(anywhere, wanted="every").steps)
+        anywhere = np.zeros(context.back_offs, dtype=np.int64)
+        return np.asarray(back.following(context, station).least_driving(anywhere, wanted="every").steps)

@@ -9,13 +9,13 @@ from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point3
 from planner.primitives.base_legs import travel
+from planner.primitives.context import Context
 from planner.primitives.fold_motion import FoldMotion
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.grasping import by_nearness, holdings, like_approach
 from planner.primitives.state import Held, State
-from planner.primitives.work import Work
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
 
@@ -30,7 +30,7 @@ class FoldStep:
     """One fold as it is performed.
 
     Attributes:
-        work: the problem.
+        context: the problem.
         way: grips, arms and paths.
         before: the state it starts in.
         after: the state it leads to.
@@ -38,7 +38,7 @@ class FoldStep:
         driven: how many steps of the back-off grid the base drives from there on.
     """
 
-    work: Work
+    context: Context
     way: FoldWay
     before: State
     after: State
@@ -51,13 +51,13 @@ class FoldStep:
         """The arm motions and all the base's legs (s)."""
         steps = self.driven + abs(self.before.back_off - self.first_stand)
         motions = 2 if self.before.held else 3
-        return motions * self.work.scene.arm_motion_s + self.work.drive_s(steps)
+        return motions * self.context.scene.arm_motion_s + self.context.drive_s(steps)
 
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Each hand's pick, apex and place, from the leftmost arm to the rightmost."""
         picks, apexes, places = (self._tools(sweep) for sweep in (0.0, 1.0, 2.0))
-        names = self.work.reach.arm_names
+        names = self.context.reach.arm_names
         found = [
             (arm, Grip(names[arm], _point(picks[i]), _point(apexes[i]), _point(places[i])))
             for i, arm in enumerate(self.way.trial.arms)
@@ -71,9 +71,9 @@ class FoldStep:
 
     def holdings(self) -> tuple[Holding, ...]:
         """Return what each arm holds, and which vertices Theorem 1 asks for."""
-        work, trial = self.work, self.way.trial
-        covers = work.sequence.covers(trial.fold, work.scene.support_angle_rad, len(work.reach.arm_names))
-        return holdings(trial.taken, covers.vertices, work.reach.arm_names)
+        context, trial = self.context, self.way.trial
+        covers = context.sequence.covers(trial.fold, context.scene.support_angle_rad, len(context.reach.arm_names))
+        return holdings(trial.taken, covers.vertices, context.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
         """Drive, reach, and follow the path with the base's legs in between."""
@@ -89,13 +89,13 @@ class FoldStep:
 
     @property
     def _motion(self) -> FoldMotion:
-        return FoldMotion(self.work, self.way, self.before, self.first_stand, self.after.back_off)
+        return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.back_off)
 
     def variants(self) -> Iterator["FoldStep"]:
         """This, then every other way between the same states, the quickest first."""
         yield self
         fold, end = self.way.trial.fold, self.after.back_off
-        for variant in fold_variants(self.work, self.before, fold, end):
+        for variant in fold_variants(self.context, self.before, fold, end):
             if variant.first == self.first_stand and variant.way.is_like(self.way):
                 continue
             driven = variant.steps - abs(variant.first - self.before.back_off)
@@ -123,58 +123,58 @@ class FoldStep:
     def begun_in(self, state: State) -> "FoldStep":
         """The same from another state of the same situation."""
         steps = self.driven + abs(self.first_stand - state.back_off)
-        return fold_step(self.work, self.way, state, self.first_stand, self.after.back_off, steps)
+        return fold_step(self.context, self.way, state, self.first_stand, self.after.back_off, steps)
 
     def elsewhere(self, count: int) -> Iterator["FoldStep"]:
         """So many other ways to do the same fold in the same state, the base starting and ending anywhere."""
-        for variant in fold_spread(self.work, self.before, self.way.trial.fold, count):
-            yield fold_step(self.work, variant.way, self.before, variant.first, variant.end, variant.steps)
+        for variant in fold_spread(self.context, self.before, self.way.trial.fold, count):
+            yield fold_step(self.context, variant.way, self.before, variant.first, variant.end, variant.steps)
 
-    def again(self, work: Work, state: State) -> Iterator["FoldStep"]:
+    def again(self, context: Context, state: State) -> Iterator["FoldStep"]:
         """The same fold with the same hands, each at the grip nearest to where it was: as it was done, if it still can.
 
         Else the ways in which the base travels least, hands held much the same before others; where the same hands
         cannot, with others.
         """
         old = self.way.trial
-        is_next = old.fold in work.sequence.dag.available(state.done)
-        is_red_from_drag = is_next and state.is_dragged and work.sequence.folds[old.fold].is_red
-        if not is_next or is_red_from_drag or geometric_obstacle(work, state, old.fold) is not None:
+        is_next = old.fold in context.sequence.dag.available(state.done)
+        is_red_from_drag = is_next and state.is_dragged and context.sequence.folds[old.fold].is_red
+        if not is_next or is_red_from_drag or geometric_obstacle(context, state, old.fold) is not None:
             return
         first, end = state.back_off if state.held else self.first_stand, self.after.back_off
-        is_on_grid = max(first, end) < work.back_offs
+        is_on_grid = max(first, end) < context.back_offs
         orientation = dict(zip(old.arms, self.way.approaches, strict=True))
-        for trial in by_nearness(old, fold_trials(work, state, old.fold)):
+        for trial in by_nearness(old, fold_trials(context, state, old.fold)):
             same = FoldWay(trial, tuple(orientation.get(arm, -1) for arm in trial.arms))
             if is_on_grid and all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
-                driven = int(travel(same.strip(work, state.station)[None], work.back_offs)[0, first, end])
+                driven = int(travel(same.strip(context, state.station)[None], context.back_offs)[0, first, end])
                 if driven < IMPOSSIBLE:
-                    yield fold_step(work, same, state, first, end, driven + abs(first - state.back_off))
-            for v in _variants_like(work, state, trial, orientation, end):
-                yield fold_step(work, v.way, state, v.first, v.end, v.steps)
+                    yield fold_step(context, same, state, first, end, driven + abs(first - state.back_off))
+            for v in _variants_like(context, state, trial, orientation, end):
+                yield fold_step(context, v.way, state, v.first, v.end, v.steps)
 
     def _tools(self, sweep: float) -> FloatArray:
         return self.way.trial.path.tool_points(self.way.trial.points, sweep)
 
 
-def fold_step(work: Work, way: FoldWay, state: State, first: int, end: int, steps: int) -> FoldStep:
+def fold_step(context: Context, way: FoldWay, state: State, first: int, end: int, steps: int) -> FoldStep:
     """A fold done in a state, its path begun at one back-off and ended at another in so many steps of driving in all.
 
     Before a red fold the hands hold on.
     """
     fold = way.trial.fold
     held: tuple[Held, ...] = ()
-    if work.sequence.dag.follows_at_once(fold):
-        over = Isometry.reflection(work.sequence.folds[fold].line)
+    if context.sequence.dag.follows_at_once(fold):
+        over = Isometry.reflection(context.sequence.folds[fold].line)
         held = tuple(
             Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.trial.arms, way.trial.cover, strict=True))
         )
     after = State(state.done | 1 << fold, state.offset, state.station, end, held)
-    return FoldStep(work, way, state, after, first, steps - abs(first - state.back_off))
+    return FoldStep(context, way, state, after, first, steps - abs(first - state.back_off))
 
 
 def _variants_like(
-    work: Work, state: State, trial: FoldTrial, orientation: dict[int, int], end: int
+    context: Context, state: State, trial: FoldTrial, orientation: dict[int, int], end: int
 ) -> Iterator[Variant]:
     """The ways of a trial, of least travel first, then those that end nearest to a back-off.
 
@@ -185,11 +185,11 @@ def _variants_like(
         return variant.steps, abs(variant.end - end), variant.rank
 
     like = tuple(
-        like_approach(work, allowed, orientation[arm], _LIKE) if arm in orientation else allowed[:_LIKE]
+        like_approach(context, allowed, orientation[arm], _LIKE) if arm in orientation else allowed[:_LIKE]
         for arm, allowed in zip(trial.arms, trial.approaches, strict=True)
     )
-    yield from sorted(trial_variants(work, state, trial, approaches=like), key=rank)
-    for variant in sorted(trial_variants(work, state, trial), key=rank):
+    yield from sorted(trial_variants(context, state, trial, approaches=like), key=rank)
+    for variant in sorted(trial_variants(context, state, trial), key=rank):
         if any(approach not in some for approach, some in zip(variant.way.approaches, like, strict=True)):
             yield variant
 

@@ -15,6 +15,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.grasping import (
     all_approaches,
     approaches_from_outside,
@@ -26,7 +27,6 @@ from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
 from planner.primitives.state import Held, State
 from planner.primitives.surroundings import Surroundings
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 from planner.task.reason import Code
 
 
@@ -79,99 +79,99 @@ class FoldTrial:
             approaches=tuple(self.approaches[hand] for hand in hands),
         )
 
-    def in_base(self, work: Work, station: int) -> FloatArray:
+    def in_base(self, context: Context, station: int) -> FloatArray:
         """The tool paths as the robot sees them from a station at back-off 0, shape (grips, waypoints, 3), m."""
-        return work.in_base(station, self.tools)
+        return context.in_base(station, self.tools)
 
-    def following(self, work: Work, station: int) -> Following:
+    def following(self, context: Context, station: int) -> Following:
         """The hands as they are to follow their paths from a station."""
-        return work.reach.following(self.arms, self.in_base(work, station), self.approaches, BACK_OFF_STEP_M)
+        return context.reach.following(self.arms, self.in_base(context, station), self.approaches, BACK_OFF_STEP_M)
 
 
 class Depths:
     """How far the part that a fold moves reaches from the fold line."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._known: dict[int, tuple[float, float]] = {}
 
     def of(self, fold: int) -> tuple[float, float]:
         """The smallest and the largest distance from the line, to the left (m)."""
         if fold not in self._known:
-            moving = self._work.sequence.moving(fold)
-            distances = self._work.sequence.folds[fold].line.left_distances(moving.coordinates)
+            moving = self._context.sequence.moving(fold)
+            distances = self._context.sequence.folds[fold].line.left_distances(moving.coordinates)
             self._known[fold] = (float(distances.min()), float(distances.max()))
         return self._known[fold]
 
 
-def geometric_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
+def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
     """What speaks against a fold in a state whatever the arms can do; None if nothing does."""
-    return next(geometric_obstacles(work, state, fold), None)
+    return next(geometric_obstacles(context, state, fold), None)
 
 
-def geometric_obstacles(work: Work, state: State, fold: int) -> Iterator[Obstacle]:
+def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[Obstacle]:
     """All that speaks against a fold in a state whatever the arms can do."""
-    line, label = work.sequence.folds[fold].line, work.sequence.folds[fold].label
-    if not is_line_on_table(work, fold, state.offset):
-        off = work.table_in_article(state.offset).region.distance_to(line)
+    line, label = context.sequence.folds[fold].line, context.sequence.folds[fold].label
+    if not is_line_on_table(context, fold, state.offset):
+        off = context.table_in_article(state.offset).region.distance_to(line)
         text = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
         says = Message("line_off_table", text, {"off_m": float(off)})
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
-    behind = -work.kept(Depths).of(fold)[0]
-    if behind > work.behind_max_m + LENGTH_M:
+    behind = -context.kept(Depths).of(fold)[0]
+    if behind > context.behind_max_m + LENGTH_M:
         text = (
             f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
             "carry it; turn or lengthen the line, or fold that part by itself first"
         )
         yield Obstacle(fold, Code.NOT_A_G_STATE, Message("behind_line", text, {"behind_m": behind}), behind, state)
-    unrest = work.unrest(state.done | 1 << fold, state.offset)
+    unrest = context.unrest(state.done | 1 << fold, state.offset)
     if unrest is not None:
         says = Message("afterwards", f"{label}: afterwards {unrest.message}", {"what": unrest.says.to_dict()})
         yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
 
 
-def is_line_on_table(work: Work, fold: int, offset: Point2) -> bool:
+def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:
     """Whether a part of a fold's line is over the table top after drags by `offset`."""
-    line = work.sequence.folds[fold].line
-    is_end_on_table = work.is_on_table(line.start, offset) or work.is_on_table(line.end, offset)
-    return is_end_on_table or bool(work.table_in_article(offset).region.overlaps_with(line))
+    line = context.sequence.folds[fold].line
+    is_end_on_table = context.is_on_table(line.start, offset) or context.is_on_table(line.end, offset)
+    return is_end_on_table or bool(context.table_in_article(offset).region.overlaps_with(line))
 
 
-def fold_trials(work: Work, state: State, fold: int) -> list[FoldTrial]:
+def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
     """Return the grips and arms that may perform a fold in a state, with what is held or with free hands.
 
     They and their hands come in an order that depends on where things are and not on how they were drawn, and a mirror
     image of the task has them in the same.
     """
-    keyed = [(trial, _hand_keys(work, state, trial)) for trial in _trials(work, state, fold)]
+    keyed = [(trial, _hand_keys(context, state, trial)) for trial in _trials(context, state, fold)]
     return [trial for trial, _ in sorted(keyed, key=lambda pair: pair[1])]
 
 
-def _hand_keys(work: Work, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
+def _hand_keys(context: Context, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
     hands = zip(trial.arms, trial.tools, strict=True)
-    return [hand_key(work, state.station, arm, tools) for arm, tools in hands]
+    return [hand_key(context, state.station, arm, tools) for arm, tools in hands]
 
 
-def _trials(work: Work, state: State, fold: int) -> Iterator[FoldTrial]:
-    path = _path(work, state, fold)
-    for cover, arms in _grips(work, state, fold):
-        points = work.placed(state.offset).to_outer(np.array(cover))
+def _trials(context: Context, state: State, fold: int) -> Iterator[FoldTrial]:
+    path = _path(context, state, fold)
+    for cover, arms in _grips(context, state, fold):
+        points = context.placed(state.offset).to_outer(np.array(cover))
         if not path.is_continuous(points):
             continue
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
-        approaches = tuple(_approaches(work, state, fold, *hand) for hand in zip(cover, arms, strict=True))
+        approaches = tuple(_approaches(context, state, fold, *hand) for hand in zip(cover, arms, strict=True))
         trial = FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
-        keys = _hand_keys(work, state, trial)
+        keys = _hand_keys(context, state, trial)
         yield trial.in_order(sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand])))
 
 
-def held_covers(work: Work, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
+def held_covers(context: Context, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
     """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
 
     Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
-    return work.kept(_HeldCovers).of(fold, held)
+    return context.kept(_HeldCovers).of(fold, held)
 
 
 class _HeldCovers:
@@ -181,8 +181,8 @@ class _HeldCovers:
     says which of the grips it means, not where they are.
     """
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._known: dict[tuple[object, ...], tuple[tuple[int, ...], ...]] = {}
 
     def of(self, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
@@ -194,17 +194,17 @@ class _HeldCovers:
         return tuple(tuple(held[i] for i in numbers) for numbers in self._known[key])
 
     def _search(self, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
-        work = self._work
-        arms = len(work.reach.arm_names)
-        vertices = work.sequence.covers(fold, work.scene.support_angle_rad, arms).vertices
-        points = lifted_points(work, fold, held)
-        radius = work.sequence.folds[fold].grip_radius_m
+        context = self._context
+        arms = len(context.reach.arm_names)
+        vertices = context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices
+        points = lifted_points(context, fold, held)
+        radius = context.sequence.folds[fold].grip_radius_m
         return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
 
 
-def lifted_points(work: Work, fold: int, held: tuple[Held, ...]) -> list[Point2]:
+def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:
     """Those of the grips held that are on the part that a fold moves, article frame (m)."""
-    line, moving = work.sequence.folds[fold].line, work.sequence.moving(fold)
+    line, moving = context.sequence.folds[fold].line, context.sequence.moving(fold)
     return [h.point for h in held if _is_lifted(h.point, moving, line)]
 
 
@@ -214,62 +214,62 @@ def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
     return is_on_part and float(line.distances(np.array([point]))[0]) > LENGTH_M
 
 
-def grips_obstacle(work: Work, state: State, fold: int) -> Obstacle | None:
+def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
     """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
-    arms = len(work.reach.arm_names)
-    covers = work.sequence.covers(fold, work.scene.support_angle_rad, arms)
+    arms = len(context.reach.arm_names)
+    covers = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
     if not covers.is_holdable:
         return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
     apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
-    if apart < work.grips_apart_m - LENGTH_M:
-        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, work.grips_apart_m - apart, state)
+    if apart < context.grips_apart_m - LENGTH_M:
+        return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, context.grips_apart_m - apart, state)
     return None
 
 
-def _path(work: Work, state: State, fold: int) -> FoldPath:
-    line = work.sequence.folds[fold].line
-    _, depth = work.kept(Depths).of(fold)
-    ends = work.placed(state.offset).to_outer(np.array([line.start, line.end]))
+def _path(context: Context, state: State, fold: int) -> FoldPath:
+    line = context.sequence.folds[fold].line
+    _, depth = context.kept(Depths).of(fold)
+    ends = context.placed(state.offset).to_outer(np.array([line.start, line.end]))
     in_table = Segment(_plain(ends[0]), _plain(ends[1]))
-    top = TableTop.of(work.scene.table)
+    top = TableTop.of(context.scene.table)
     if not state.is_dragged:
-        return FoldPath(in_table, depth, top, top, work.scene.edge_clear_m)
-    held = work.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
-    return FoldPath(in_table, depth, top, top.open_towards(held), work.scene.edge_clear_m)
+        return FoldPath(in_table, depth, top, top, context.scene.edge_clear_m)
+    held = context.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
+    return FoldPath(in_table, depth, top, top.open_towards(held), context.scene.edge_clear_m)
 
 
-def _grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
+def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
     """Grips and their arms: those held that suffice, or the best new ones."""
     if state.held:
-        yield from _held_grips(work, state, fold)
+        yield from _held_grips(context, state, fold)
         return
-    obstacle = grips_obstacle(work, state, fold)
+    obstacle = grips_obstacle(context, state, fold)
     if obstacle is not None:
-        work.obstacles.note(obstacle)
+        context.obstacles.note(obstacle)
         return
-    covers = work.sequence.covers(fold, work.scene.support_angle_rad, len(work.reach.arm_names))
+    covers = context.sequence.covers(fold, context.scene.support_angle_rad, len(context.reach.arm_names))
     for cover in covers.covers:
-        points = work.placed(state.offset).to_outer(np.array(cover))
-        if nearest_pair_m(points) >= work.grips_apart_m - LENGTH_M:
-            for arms in assignments(work, state.station, points):
+        points = context.placed(state.offset).to_outer(np.array(cover))
+        if nearest_pair_m(points) >= context.grips_apart_m - LENGTH_M:
+            for arms in assignments(context, state.station, points):
                 yield cover, arms
 
 
-def _held_grips(work: Work, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
+def _held_grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
     """The fewest of the grips held that hold all that must be held."""
-    covers = held_covers(work, fold, state.held)
+    covers = held_covers(context, fold, state.held)
     if not covers and not state.is_dragged:
-        work.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))
+        context.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))
     for cover in covers:
         yield tuple(h.point for h in cover), tuple(h.arm for h in cover)
 
 
-def _approaches(work: Work, state: State, fold: int, grip: Point2, arm: int) -> NDArray[np.int64]:
+def _approaches(context: Context, state: State, fold: int, grip: Point2, arm: int) -> NDArray[np.int64]:
     if state.held:
-        return work.kept(all_approaches)[arm]
-    turn = work.placement.yaw_rad - work.station_pose(state.station).yaw_rad
-    done = (1 << fold) - 1 if work.kept(Surroundings).are_same(fold, grip) else state.done
-    return approaches_from_outside(work, done, turn, grip, arm)
+        return context.kept(all_approaches)[arm]
+    turn = context.placement.yaw_rad - context.station_pose(state.station).yaw_rad
+    done = (1 << fold) - 1 if context.kept(Surroundings).are_same(fold, grip) else state.done
+    return approaches_from_outside(context, done, turn, grip, arm)
 
 
 def _plain(row: FloatArray) -> Point2:

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import BoolArray
 from planner.primitives.base_legs import travel
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 _COMBINATIONS_MAX = 240
 """Of more combinations of orientations than this only so many are looked at, evenly spread."""
@@ -49,18 +49,20 @@ class Variant:
     rank: int
 
 
-def fold_variants(work: Work, state: State, fold: int, end: int) -> Iterator[Variant]:
+def fold_variants(context: Context, state: State, fold: int, end: int) -> Iterator[Variant]:
     """The ways to do a fold in a state and end at a back-off: by rising travel, then the most natural first."""
-    found = (sorted(trial_variants(work, state, trial, end), key=_rank) for trial in fold_trials(work, state, fold))
+    found = (
+        sorted(trial_variants(context, state, trial, end), key=_rank) for trial in fold_trials(context, state, fold)
+    )
     yield from merge(*found, key=_rank)
 
 
-def fold_spread(work: Work, state: State, fold: int, count: int) -> Iterator[Variant]:
+def fold_spread(context: Context, state: State, fold: int, count: int) -> Iterator[Variant]:
     """Some ways to do a fold in a state, wherever the base ends: the best ones, and others evenly spread over the rest.
 
     While the hands are free they are the same wherever the base stands before.
     """
-    found = [v for trial in fold_trials(work, state, fold) for v in trial_variants(work, state, trial)]
+    found = [v for trial in fold_trials(context, state, fold) for v in trial_variants(context, state, trial)]
     found.sort(key=lambda variant: (variant.driven, variant.rank))
     best = count // 2
     step = max(1, -(-(len(found) - best) // (count - best)))
@@ -72,37 +74,37 @@ def _rank(variant: Variant) -> tuple[int, int]:
 
 
 def trial_variants(
-    work: Work, state: State, trial: FoldTrial, end: int | None = None, approaches: Approaches | None = None
+    context: Context, state: State, trial: FoldTrial, end: int | None = None, approaches: Approaches | None = None
 ) -> Iterator[Variant]:
     """The ways of one trial, each combination of orientations with the base travelling least.
 
     The base ends at a back-off, or at any; hands approach in some of the trial's ways, or in any.
     """
-    masks, chosen, ranks = _all_strips(work, state, trial, approaches or trial.approaches)
+    masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
     masks, chosen, ranks = np.ascontiguousarray(masks[::every]), chosen[::every], ranks[::every]
-    steps = np.where(_allowed(work, state, end), travel(masks, work.back_offs), IMPOSSIBLE)
-    begin = np.abs(np.arange(work.back_offs) - state.back_off)
+    steps = np.where(_allowed(context, state, end), travel(masks, context.back_offs), IMPOSSIBLE)
+    begin = np.abs(np.arange(context.back_offs) - state.back_off)
     total = steps if end is None else np.minimum(steps + begin[:, None], IMPOSSIBLE)
-    total = total.reshape(len(steps), work.back_offs**2)
+    total = total.reshape(len(steps), context.back_offs**2)
     least = total.argmin(axis=1)
     for number in np.flatnonzero(total.min(axis=1) < IMPOSSIBLE):
-        first, last = divmod(int(least[number]), work.back_offs)
+        first, last = divmod(int(least[number]), context.back_offs)
         way = FoldWay(trial, tuple(int(approach) for approach in chosen[number]))
         driven = int(steps[number, first, last])
         yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
 
 
-def _allowed(work: Work, state: State, end: int | None) -> BoolArray:
+def _allowed(context: Context, state: State, end: int | None) -> BoolArray:
     """Which back-offs a path may be begun from and ended at, shape (back-offs, back-offs)."""
-    every = np.arange(work.back_offs)
-    is_first = every == state.back_off if state.held else np.ones(work.back_offs, dtype=bool)
-    is_last = every == end if end is not None else np.ones(work.back_offs, dtype=bool)
+    every = np.arange(context.back_offs)
+    is_first = every == state.back_off if state.held else np.ones(context.back_offs, dtype=bool)
+    is_last = every == end if end is not None else np.ones(context.back_offs, dtype=bool)
     return np.asarray(is_first[:, None] & is_last)
 
 
 def _all_strips(
-    work: Work, state: State, trial: FoldTrial, approaches: Approaches
+    context: Context, state: State, trial: FoldTrial, approaches: Approaches
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
     """Every combination of approaches in which the base has a place at every waypoint, and how natural it is.
 
@@ -111,8 +113,8 @@ def _all_strips(
     start = state.back_off if state.held else None
     masks, numbers = [], []
     for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
-        points = work.in_base(state.station, tools)
-        found = work.reach.back_offs(arm, points, allowed, work.back_offs, BACK_OFF_STEP_M, start=start)
+        points = context.in_base(state.station, tools)
+        found = context.reach.back_offs(arm, points, allowed, context.back_offs, BACK_OFF_STEP_M, start=start)
         able = np.flatnonzero(found.all(axis=1))
         masks.append(found[able])
         numbers.append(able)

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import FloatArray
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 AHEAD_M = 0.7
 """About as far ahead of its shoulder a hand works on a table (m)."""
@@ -32,29 +32,29 @@ class FoldWay:
         """Whether the same arms take the same grips in the same approaches."""
         return self.trial.is_like(other.trial) and self.approaches == other.approaches
 
-    def strip(self, work: Work, station: int) -> NDArray[np.uint32]:
+    def strip(self, context: Context, station: int) -> NDArray[np.uint32]:
         """At each waypoint the back-offs from which every hand is in comfort, as bit masks, shape (waypoints,)."""
-        hands = zip(self.trial.arms, self.trial.in_base(work, station), self.approaches, strict=True)
+        hands = zip(self.trial.arms, self.trial.in_base(context, station), self.approaches, strict=True)
         masks = [
-            work.reach.back_offs(arm, points, np.array([approach]), work.back_offs, BACK_OFF_STEP_M)[0]
+            context.reach.back_offs(arm, points, np.array([approach]), context.back_offs, BACK_OFF_STEP_M)[0]
             for arm, points, approach in hands
         ]
         return np.asarray(np.bitwise_and.reduce(masks))
 
 
-def can_follow(work: Work, station: int, trial: FoldTrial, stands: int | None = None) -> bool:
+def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | None = None) -> bool:
     """Whether the arms can follow a trial, the base driving as it may.
 
     Args:
-        work: the problem.
+        context: the problem.
         station: where the robot stands.
         trial: grips, arms and path.
         stands: the back-offs at one of which it is begun, as a bit mask; None: any.
     """
-    begun = np.zeros(work.back_offs, dtype=np.int64)
+    begun = np.zeros(context.back_offs, dtype=np.int64)
     if stands is not None:
-        begun[[not stands >> back_off & 1 for back_off in range(work.back_offs)]] = IMPOSSIBLE
-    return bool(trial.following(work, station).least_driving(begun, wanted="any").ends)
+        begun[[not stands >> back_off & 1 for back_off in range(context.back_offs)]] = IMPOSSIBLE
+    return bool(trial.following(context, station).least_driving(begun, wanted="any").ends)
 
 
 def attempt_of(state: State, trial: FoldTrial, places: FloatArray) -> Attempt:
@@ -62,14 +62,14 @@ def attempt_of(state: State, trial: FoldTrial, places: FloatArray) -> Attempt:
     return Attempt(trial.fold, state, trial.cover, trial.arms, trial.path, trial.points, trial.approaches, places)
 
 
-def away_from_shoulders(work: Work, station: int, arms: tuple[int, ...], tools: FloatArray) -> FloatArray:
+def away_from_shoulders(context: Context, station: int, arms: tuple[int, ...], tools: FloatArray) -> FloatArray:
     """How far the hands must go from their shoulders at most (m), sideways, up or down, and too far ahead.
 
     The base can back off but not go nearer, so what lies ahead counts as far as it is beyond `AHEAD_M`. Only for
     comparing what could not be reached.
 
     Args:
-        work: the problem.
+        context: the problem.
         station: where the robot stands.
         arms: the arm of each grip.
         tools: each grip's tool points in the table frame, shape (grips, n, ..., 3), m.
@@ -79,7 +79,7 @@ def away_from_shoulders(work: Work, station: int, arms: tuple[int, ...], tools: 
     """
     found = []
     for arm, points in zip(arms, tools, strict=True):
-        away = work.in_base(station, points) - np.array(work.reach.shoulders[arm])
+        away = context.in_base(station, points) - np.array(context.reach.shoulders[arm])
         away[..., 0] = np.maximum(away[..., 0] - AHEAD_M, 0.0)
         found.append(np.sqrt((away**2).sum(axis=-1)).max(axis=0))
     return np.asarray(np.max(found, axis=0))

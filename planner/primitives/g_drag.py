@@ -8,13 +8,13 @@ import numpy as np
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
 from planner.primitives.base_legs import unbeaten
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay, DragWays
 from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
-from planner.primitives.primitive import InTime, Later
+from planner.primitives.primitive import Deferred, DeferredSteps
 from planner.primitives.state import State
-from planner.primitives.work import Work
 
 
 class GDrag:
@@ -22,41 +22,41 @@ class GDrag:
 
     begins_with_driving = True
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
-        self._ways = work.kept(DragWays)
-        self._holding = work.kept(HoldingDrags)
-        self._longest = longest_drag(work)
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._ways = context.kept(DragWays)
+        self._holding = context.kept(HoldingDrags)
+        self._longest = longest_drag(context)
 
     def successors(self, state: State) -> Iterable[DragStep]:
         """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
         if state.held:
-            return InTime(())
+            return DeferredSteps(())
         held = State(state.done, state.offset, state.station, 0, dragged=1)
-        return InTime((*self._later(state, 1, state), *self._later(state, 1, held)))
+        return DeferredSteps((*self._later(state, 1, state), *self._later(state, 1, held)))
 
     def by(self, state: State, count: int) -> Iterator[DragStep]:
         """Drags of one distance, so many steps of the grid."""
         ways = () if state.held else self._ways.of(state)
-        offset = dragged(self._work, state.offset, state.station, count)
-        if ways and self._work.unrest(state.done, offset) is None:
+        offset = dragged(self._context, state.offset, state.station, count)
+        if ways and self._context.unrest(state.done, offset) is None:
             yield from self._letting_go(state, ways, count, offset)
             for way in ways:
                 yield from self._holding.every(state, way, count, offset)
 
-    def _later(self, state: State, count: int, towards: State) -> Iterator[Later[DragStep]]:
+    def _later(self, state: State, count: int, towards: State) -> Iterator[Deferred[DragStep]]:
         """Drags of at least so many steps of the grid, in their time; the hands hold on if they do `towards`."""
         if count <= self._longest:
-            duration = self._work.scene.arm_motion_s + self._work.drive_s(count * STEPS_PER_DRAG)
-            yield Later(duration, towards, partial(self._steps, state, count, towards))
+            duration = self._context.scene.arm_motion_s + self._context.drive_s(count * STEPS_PER_DRAG)
+            yield Deferred(duration, towards, partial(self._steps, state, count, towards))
 
-    def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Later[DragStep]]:
+    def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Deferred[DragStep]]:
         """Drags by so many steps of the grid, and in their time by more."""
         ways = self._ways.of(state)
         if not ways:
             return
-        offset = dragged(self._work, state.offset, state.station, count)
-        if self._work.unrest(state.done, offset) is None:
+        offset = dragged(self._context, state.offset, state.station, count)
+        if self._context.unrest(state.done, offset) is None:
             if towards.is_dragged:
                 for way in ways:
                     yield from self._holding.successors(state, way, count, offset)
@@ -70,7 +70,7 @@ class GDrag:
         for way in ways:
             for stand in way.stands:
                 best.setdefault(stand, way)
-        steps = np.full(self._work.back_offs, IMPOSSIBLE)
+        steps = np.full(self._context.back_offs, IMPOSSIBLE)
         for stand in best:
             end = stand + count * STEPS_PER_DRAG
             if end < len(steps):
@@ -78,4 +78,4 @@ class GDrag:
         for end in unbeaten(steps):
             stand = end - count * STEPS_PER_DRAG
             after = State(state.done, offset, state.station, end)
-            yield DragStep(self._work, best[stand], state, after, stand)
+            yield DragStep(self._context, best[stand], state, after, stand)

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from functools import cache, partial
 
 from planner.geometry.driving import IMPOSSIBLE
+from planner.primitives.context import Context
 from planner.primitives.fold_question import FoldQuestions
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
-from planner.primitives.primitive import InTime, Later
+from planner.primitives.primitive import Deferred, DeferredSteps
 from planner.primitives.state import ANYWHERE, State
-from planner.primitives.work import Work
 
 
 class GFold:
@@ -17,28 +17,28 @@ class GFold:
 
     begins_with_driving = True
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
-        self._questions = work.kept(FoldQuestions)
-        self._available = cache(work.sequence.dag.available)
-        self._follows_at_once = [work.sequence.dag.follows_at_once(fold.index) for fold in work.sequence.folds]
-        self._stands = work.kept(FoldStands) if work.sequence.dag.is_loose else None
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._questions = context.kept(FoldQuestions)
+        self._available = cache(context.sequence.dag.available)
+        self._follows_at_once = [context.sequence.dag.follows_at_once(fold.index) for fold in context.sequence.folds]
+        self._stands = context.kept(FoldStands) if context.sequence.dag.is_loose else None
 
     def successors(self, state: State) -> Iterable[FoldStep]:
         """One step for each available fold and each end back-off that no other beats."""
         folds = self._available(state.done)
         if state.is_dragged:
-            folds = tuple(fold for fold in folds if not self._work.sequence.folds[fold].is_red)
-        return InTime(tuple([self._later(state, fold, 0) for fold in folds]))
+            folds = tuple(fold for fold in folds if not self._context.sequence.folds[fold].is_red)
+        return DeferredSteps(tuple([self._later(state, fold, 0) for fold in folds]))
 
-    def _later(self, state: State, fold: int, driven: int) -> Later[FoldStep]:
+    def _later(self, state: State, fold: int, driven: int) -> Deferred[FoldStep]:
         """What needs at least so many steps of driving, in its time."""
         motions = 2 if state.held else 3
-        duration = motions * self._work.scene.arm_motion_s + self._work.drive_s(driven)
+        duration = motions * self._context.scene.arm_motion_s + self._context.drive_s(driven)
         towards = State(state.done | 1 << fold, state.offset, state.station, ANYWHERE)
-        return Later(duration, towards, partial(self._begun, state, fold, driven), is_there=True)
+        return Deferred(duration, towards, partial(self._begun, state, fold, driven), is_there=True)
 
-    def _begun(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
+    def _begun(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Deferred[FoldStep]]:
         """The same, put off where the fold takes more driving whatever other folds are done.
 
         To find that out is done once for all of the many states in which loose folds may be done.
@@ -50,7 +50,7 @@ class GFold:
                 return
         yield from self._steps(state, fold, driven if driven < IMPOSSIBLE else 0)
 
-    def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Later[FoldStep]]:
+    def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Deferred[FoldStep]]:
         """The steps with so much driving or some more, and in their time those with still more."""
         question, begun = self._questions.of(state, fold), self._questions.begun(state)
         if self._follows_at_once[fold]:
@@ -58,6 +58,6 @@ class GFold:
         else:
             ends, more = question.ends(begun, driven, 3 * driven)
         for end in ends:
-            yield fold_step(self._work, end.way, state, end.first, end.back_off, end.steps)
+            yield fold_step(self._context, end.way, state, end.first, end.back_off, end.steps)
         if more < IMPOSSIBLE:
             yield self._later(state, fold, more)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
-from planner.primitives.work import Work
+from planner.primitives.context import Context
 from planner.task.grip import Holding
 
 _PREFERRED_PITCH_RAD = math.radians(30.0)
@@ -25,19 +25,19 @@ def nearest_pair_m(points: FloatArray) -> float:
     return min((float(np.hypot(*(a - b))) for a, b in pairs), default=math.inf)
 
 
-def assignments(work: Work, station: int, points: FloatArray) -> Iterator[tuple[int, ...]]:
+def assignments(context: Context, station: int, points: FloatArray) -> Iterator[tuple[int, ...]]:
     """The ways to give grips to arms: an arm further left takes a grip further left.
 
     Args:
-        work: the problem.
+        context: the problem.
         station: where the robot stands.
         points: the grips in the table frame, shape (n, 2), m.
 
     Yields:
         For each grip the number of its arm. Where two grips are equally far left, both ways come.
     """
-    lateral = work.station_pose(station).to_inner(points)[:, 1]
-    for arms in permutations(range(len(work.reach.arm_names)), len(points)):
+    lateral = context.station_pose(station).to_inner(points)[:, 1]
+    for arms in permutations(range(len(context.reach.arm_names)), len(points)):
         is_ordered = all(
             lateral[i] >= lateral[j] - LENGTH_M
             for i in range(len(points))
@@ -48,24 +48,24 @@ def assignments(work: Work, station: int, points: FloatArray) -> Iterator[tuple[
             yield arms
 
 
-def hand_key(work: Work, station: int, arm: int, tools: FloatArray) -> tuple[int, ...]:
+def hand_key(context: Context, station: int, arm: int, tools: FloatArray) -> tuple[int, ...]:
     """Return by what hands are put in order, whatever the frame of the drawing: where they begin and end.
 
     Mirrored, as all arms were on the left: so what a mirror image of the task tries comes in the same order.
 
     Args:
-        work: the problem.
+        context: the problem.
         station: where the robot stands.
         arm: the hand's arm.
         tools: its tool points in the table frame, shape (n, 3), m.
     """
-    ends = work.in_base(station, tools[[0, -1]]) * np.array([1.0, side_of(work, arm), 1.0])
+    ends = context.in_base(station, tools[[0, -1]]) * np.array([1.0, side_of(context, arm), 1.0])
     return tuple(np.round(ends / SORTING_M).astype(np.int64).ravel().tolist())
 
 
-def side_of(work: Work, arm: int) -> float:
+def side_of(context: Context, arm: int) -> float:
     """Return on which side of the robot an arm is: 1 left, -1 right."""
-    return math.copysign(1.0, work.reach.shoulders[arm][1])
+    return math.copysign(1.0, context.reach.shoulders[arm][1])
 
 
 def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names: Sequence[str]) -> tuple[Holding, ...]:
@@ -106,23 +106,25 @@ def by_nearness(one: T, others: Iterable[T]) -> list[T]:
     return sorted(others, key=away_m)
 
 
-def approaches_from_outside(work: Work, done: int, heading_in_base: float, grip: Point2, arm: int) -> NDArray[np.int64]:
+def approaches_from_outside(
+    context: Context, done: int, heading_in_base: float, grip: Point2, arm: int
+) -> NDArray[np.int64]:
     """The approaches that pinch the cloth from outside, best first; of equally good ones those across the body.
 
     Args:
-        work: the problem.
+        context: the problem.
         done: the folds finished.
         heading_in_base: direction of the article's x axis in the base frame (rad).
         grip: a point of the stack, article frame (m).
         arm: the arm that takes it.
     """
-    return work.kept(_Pinches).of(done, heading_in_base, grip, side_of(work, arm))
+    return context.kept(_Pinches).of(done, heading_in_base, grip, side_of(context, arm))
 
 
-def like_approach(work: Work, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
+def like_approach(context: Context, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
     """Of some approaches so many that turn the hand least from one, in the order in which they were."""
-    wanted = work.reach.approaches[one]
-    found = [work.reach.approaches[approach] for approach in approaches]
+    wanted = context.reach.approaches[one]
+    found = [context.reach.approaches[approach] for approach in approaches]
     off = [
         abs(wrapped_angle(each.heading_rad - wanted.heading_rad)) + abs(each.pitch_rad - wanted.pitch_rad)
         for each in found
@@ -133,8 +135,8 @@ def like_approach(work: Work, approaches: NDArray[np.int64], one: int, count: in
 class _Pinches:
     """From which directions cloth may be pinched: asked again and again for the same grips, so answers are kept."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._headings: dict[tuple[int, Point2], float | None] = {}
         self._known: dict[tuple[int, float, Point2, float], NDArray[np.int64]] = {}
 
@@ -143,43 +145,47 @@ class _Pinches:
         if key not in self._known:
             inward = self._inward_heading(done, grip)
             heading = None if inward is None else heading_in_base + inward
-            self._known[key] = _from_outside(self._work, heading, side)
+            self._known[key] = _from_outside(self._context, heading, side)
         return self._known[key]
 
     def _inward_heading(self, done: int, grip: Point2) -> float | None:
         """The direction into the cloth in the article frame (rad); None for a grip that is not at its edge."""
         if (done, grip) not in self._headings:
-            inward = self._work.sequence.cloth(done).silhouette.inward_bisector(grip)
+            inward = self._context.sequence.cloth(done).silhouette.inward_bisector(grip)
             self._headings[done, grip] = None if inward is None else math.atan2(inward[1], inward[0])
         return self._headings[done, grip]
 
 
-def _from_outside(work: Work, heading: float | None, side: float) -> NDArray[np.int64]:
+def _from_outside(context: Context, heading: float | None, side: float) -> NDArray[np.int64]:
     """The approaches within the cone about a heading, base frame, best first; without one only straight down."""
-    discomfort, off = _discomfort(work, heading)
-    cone, is_vertical = work.scene.approach_cone_rad, [approach.is_vertical for approach in work.reach.approaches]
+    discomfort, off = _discomfort(context, heading)
+    cone, is_vertical = context.scene.approach_cone_rad, [approach.is_vertical for approach in context.reach.approaches]
     is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
     if heading is not None:
         is_within |= off <= cone + EDGE_RAD
-    return _by_comfort(work, discomfort, np.flatnonzero(is_within | is_vertical), side)
+    return _by_comfort(context, discomfort, np.flatnonzero(is_within | is_vertical), side)
 
 
-def all_approaches(work: Work) -> tuple[NDArray[np.int64], ...]:
+def all_approaches(context: Context) -> tuple[NDArray[np.int64], ...]:
     """Every approach, for each arm the best first: what is held already may be held from anywhere."""
-    discomfort, _ = _discomfort(work, None)
+    discomfort, _ = _discomfort(context, None)
     every = np.arange(len(discomfort))
-    return tuple(_by_comfort(work, discomfort, every, side_of(work, arm)) for arm in range(len(work.reach.arm_names)))
+    return tuple(
+        _by_comfort(context, discomfort, every, side_of(context, arm)) for arm in range(len(context.reach.arm_names))
+    )
 
 
-def _by_comfort(work: Work, discomfort: FloatArray, approaches: NDArray[np.int64], side: float) -> NDArray[np.int64]:
+def _by_comfort(
+    context: Context, discomfort: FloatArray, approaches: NDArray[np.int64], side: float
+) -> NDArray[np.int64]:
     """Approaches in the order of their discomfort; of equal ones first flat ones, then those that point across."""
-    found = np.array([(a.pitch_rad, side * a.heading_rad) for a in work.reach.approaches])[approaches]
+    found = np.array([(a.pitch_rad, side * a.heading_rad) for a in context.reach.approaches])[approaches]
     return np.asarray(approaches[np.lexsort((found[:, 1], found[:, 0], discomfort[approaches]))])
 
 
-def _discomfort(work: Work, heading: float | None) -> tuple[FloatArray, FloatArray]:
+def _discomfort(context: Context, heading: float | None) -> tuple[FloatArray, FloatArray]:
     """How far each approach is from the natural one, straight into the cloth, 30 degrees down; and from the heading."""
-    found = [(a.heading_rad, a.pitch_rad, 0.0 if a.is_vertical else 1.0) for a in work.reach.approaches]
+    found = [(a.heading_rad, a.pitch_rad, 0.0 if a.is_vertical else 1.0) for a in context.reach.approaches]
     headings, pitches, counts = np.array(found).T
     off = np.abs(np.remainder(headings - (heading or 0.0) + math.pi, math.tau) - math.pi)
     turn = np.zeros(len(off)) if heading is None else counts * off

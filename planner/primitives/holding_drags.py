@@ -12,13 +12,13 @@ import numpy as np
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
+from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_question import FoldQuestions
 from planner.primitives.fold_trial import held_covers
-from planner.primitives.primitive import Later
+from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFFS_PER_M, DRAGS_PER_M, Work
 
 STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
 """So many steps of the back-off grid has one of the grid of drags."""
@@ -43,9 +43,9 @@ class _Drag(NamedTuple):
 class HoldingDrags:
     """The drags of one planning problem after which the hands hold on."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
-        self._questions = work.kept(FoldQuestions)
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._questions = context.kept(FoldQuestions)
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
         """The drags to an offset, so many steps of the grid of drags away, that leave grips of use to some fold."""
@@ -55,11 +55,11 @@ class HoldingDrags:
 
     def successors(
         self, state: State, way: DragWay, count: int, offset: Point2
-    ) -> Iterator[DragStep | Later[DragStep]]:
+    ) -> Iterator[DragStep | Deferred[DragStep]]:
         """The same, those first that together with a fold take least; what serves no fold better is spare."""
         drag = self._drag(state, way, count, offset)
         folds = self._served(drag)
-        if any(self._work.sequence.dag.follows_at_once(fold) for fold in folds):
+        if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):
             yield from (self._step(drag, after) for after in drag.afters)
         elif folds:
             for fold in folds:
@@ -69,25 +69,25 @@ class HoldingDrags:
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
         held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
         driven = count * STEPS_PER_DRAG
-        ends = (stand + driven for stand in way.stands if stand + driven < self._work.back_offs)
+        ends = (stand + driven for stand in way.stands if stand + driven < self._context.back_offs)
         afters = tuple(State(state.done, offset, state.station, end, held, count) for end in ends)
         return _Drag(state, way, driven, afters)
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
-        return DragStep(self._work, drag.way, drag.before, after, after.back_off - drag.driven)
+        return DragStep(self._context, drag.way, drag.before, after, after.back_off - drag.driven)
 
     def _served(self, drag: _Drag) -> list[int]:
         """The folds that can be done with the grips."""
         if not drag.afters:
             return []
         held = drag.afters[0].held
-        sequence = self._work.sequence
+        sequence = self._context.sequence
         blue = (fold for fold in sequence.dag.available(drag.before.done) if not sequence.folds[fold].is_red)
-        return [fold for fold in blue if held_covers(self._work, fold, held)]
+        return [fold for fold in blue if held_covers(self._context, fold, held)]
 
-    def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Later[DragStep]]:
+    def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
         """The drags that serve a fold best, drag and fold together taking so many steps of driving or more."""
-        begun = np.full(self._work.back_offs, IMPOSSIBLE)
+        begun = np.full(self._context.back_offs, IMPOSSIBLE)
         for after in drag.afters:
             stand = after.back_off - drag.driven
             begun[after.back_off] = abs(drag.before.back_off - stand) + drag.driven
@@ -104,9 +104,9 @@ class HoldingDrags:
         self,
         drag: _Drag,
         driven: int,
-        steps: Callable[[], Iterator[DragStep | Later[DragStep]]],
+        steps: Callable[[], Iterator[DragStep | Deferred[DragStep]]],
         is_spare: bool = False,
-    ) -> Later[DragStep]:
+    ) -> Deferred[DragStep]:
         """What drives so much in all, before, with and after the drag."""
-        duration_s = self._work.scene.arm_motion_s + self._work.drive_s(driven)
-        return Later(duration_s, drag.afters[0], steps, is_spare)
+        duration_s = self._context.scene.arm_motion_s + self._context.drive_s(driven)
+        return Deferred(duration_s, drag.afters[0], steps, is_spare)

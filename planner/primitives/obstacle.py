@@ -32,7 +32,7 @@ def situation(state: State) -> Situation:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Snag:
+class BlockingContact:
     """What an arm cannot help touching, at the moment of a motion at which that is worst.
 
     Attributes:
@@ -62,7 +62,7 @@ class Obstacle:
             is not known.
         state: the state in which it did, of a drag that in which it begins; None where that does not matter.
         point: where, article frame (m), of a drag what the hand holds; None where it is no one place.
-        snag: of a collision what touches what, where that is known.
+        contact: of a collision what touches what, where that is known.
         dragged_to: of a collision in a drag that the fold would need the offset to which that leads (m).
     """
 
@@ -72,7 +72,7 @@ class Obstacle:
     severity: float
     state: State | None = None
     point: Point2 | None = None
-    snag: Snag | None = None
+    contact: BlockingContact | None = None
     dragged_to: Point2 | None = None
 
     def is_milder_than(self, other: "Obstacle") -> bool:

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
+from planner.primitives.context import Context
 from planner.primitives.state import State
-from planner.primitives.work import Work
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
 
@@ -82,7 +82,7 @@ class Step(Protocol):
         """So many other ways to do the same from the same state, the base starting and ending elsewhere."""
         ...
 
-    def again(self, work: Work, state: State) -> "Iterable[Step]":
+    def again(self, context: Context, state: State) -> "Iterable[Step]":
         """The same in a state of another problem, a garment that differs a little: the likest first, if any can be."""
         ...
 
@@ -91,7 +91,7 @@ S = TypeVar("S", bound=Step, covariant=True)
 
 
 @dataclass(frozen=True, eq=False)
-class Later(Generic[S]):
+class Deferred(Generic[S]):
     """Steps that are worked out only when nothing quicker is left to try.
 
     Attributes:
@@ -107,20 +107,20 @@ class Later(Generic[S]):
 
     duration_s: float
     towards: State
-    steps: "Callable[[], Iterable[S | Later[S]]]"
+    steps: "Callable[[], Iterable[S | Deferred[S]]]"
     is_spare: bool = False
     is_there: bool = False
 
 
 @dataclass(frozen=True, eq=False)
-class InTime(Generic[S]):
+class DeferredSteps(Generic[S]):
     """The steps that leave a state, most of them not worked out yet; to go through them works them all out.
 
     Attributes:
         found: steps, and what there is time for.
     """
 
-    found: "tuple[S | Later[S], ...]"
+    found: "tuple[S | Deferred[S], ...]"
 
     def __iter__(self) -> Iterator[S]:
         """All steps."""
@@ -138,18 +138,18 @@ class Primitive(Protocol):
     begins_with_driving: bool
 
     def successors(self, state: State) -> Iterable[Step]:
-        """The steps of this kind that are possible in a state; `InTime` where working them out takes long."""
+        """The steps of this kind that are possible in a state; `DeferredSteps` where working them out takes long."""
         ...
 
 
-def in_time(found: Iterable[Step]) -> "Iterable[Step | Later[Step]]":
+def in_time(found: Iterable[Step]) -> "Iterable[Step | Deferred[Step]]":
     """Steps that leave a state, those that have time as such."""
-    return found.found if isinstance(found, InTime) else found
+    return found.found if isinstance(found, DeferredSteps) else found
 
 
-def _worked_out(found: "Iterable[S | Later[S]]") -> Iterator[S]:
+def _worked_out(found: "Iterable[S | Deferred[S]]") -> Iterator[S]:
     for one in found:
-        if isinstance(one, Later):
+        if isinstance(one, Deferred):
             yield from _worked_out(one.steps())
         else:
             yield one

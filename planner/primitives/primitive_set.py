@@ -3,9 +3,9 @@
 from collections.abc import Callable
 
 from planner.primitives.base_move import BaseMove
+from planner.primitives.context import Context
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.primitive import Primitive
-from planner.primitives.work import Work
 
-PRIMITIVES: tuple[Callable[[Work], Primitive], ...] = (GFold, GDrag, BaseMove)
+PRIMITIVES: tuple[Callable[[Context], Primitive], ...] = (GFold, GDrag, BaseMove)

@@ -1,4 +1,4 @@
-"""The least driving that folds still need, in a relaxed problem. Compiled; see `planner.plan.driving_bound`.
+"""The least driving that folds still need, in a relaxed problem. Compiled; see `planner.planning.driving_bound`.
 
 A *site* is a place of the article and a station. From site to site lead drags and moves, as long as nothing but the
 table's size and the grid speaks against them; at a site the base drives along its back-offs. What lies further from the

@@ -10,12 +10,12 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import grid_key
 from planner.primitives.base_move import BaseMove
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_service import Service
 from planner.primitives.holding_drags import STEPS_PER_DRAG
 from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
 from planner.primitives.state import State
-from planner.primitives.work import Work
 
 SiteKey = tuple[int, int, int]
 """A site to the grid: where the article lies (x, y), and the station."""
@@ -42,13 +42,13 @@ class Site:
 class SiteMap:
     """Sites and the ways between them, found from a first one on."""
 
-    def __init__(self, work: Work, start: State, service: Service) -> None:
+    def __init__(self, context: Context, start: State, service: Service) -> None:
         """Know nothing but the start."""
-        self._work = work
+        self._context = context
         self._service = service
         self._start = Site(start.offset, start.station)
-        self._moves = work.kept(BaseMove)
-        self._longest = longest_drag(work)
+        self._moves = context.kept(BaseMove)
+        self._longest = longest_drag(context)
         self._move_s = cache(self._moved_s)
 
     def within(self, horizon_s: float, most: int) -> tuple[tuple[Site, ...], bool]:
@@ -75,12 +75,12 @@ class SiteMap:
             within: the sites.
             is_service_over: whether all folds that grips left by a drag might serve are done.
         """
-        work = self._work
+        context = self._context
         numbers = {site.key: number for number, site in enumerate(within)}
-        stations = len(work.scene.stations)
+        stations = len(context.scene.stations)
         drags = np.full((len(within), self._longest), NOWHERE)
         moves = np.full((len(within), stations), NOWHERE)
-        move_s = np.zeros((len(within), stations, work.back_offs))
+        move_s = np.zeros((len(within), stations, context.back_offs))
         may_hold = np.zeros(len(within), dtype=bool)
         for number, site in enumerate(within):
             may_hold[number] = not is_service_over and self._service.is_possible(site.offset, site.station)
@@ -90,28 +90,28 @@ class SiteMap:
                 if station != site.station:
                     moves[number, station] = numbers.get(Site(site.offset, station).key, OUTSIDE)
                     move_s[number, station] = self._move_s(site.station, station)
-        step_s = work.drive_s(1)
-        return Sites(drags, moves, move_s, may_hold, work.scene.arm_motion_s, step_s, STEPS_PER_DRAG)
+        step_s = context.drive_s(1)
+        return Sites(drags, moves, move_s, may_hold, context.scene.arm_motion_s, step_s, STEPS_PER_DRAG)
 
     def _beside(self, site: Site) -> Iterator[tuple[Site, float]]:
         """The sites next to one, with what it takes to get there at least (s)."""
-        work = self._work
+        context = self._context
         for count, goal in enumerate(self._dragged(site), start=1):
             is_held = self._service.is_possible(goal.offset, goal.station)
-            yield goal, work.drive_s(count * STEPS_PER_DRAG) + (0.0 if is_held else work.scene.arm_motion_s)
-        for station in range(len(work.scene.stations)):
+            yield goal, context.drive_s(count * STEPS_PER_DRAG) + (0.0 if is_held else context.scene.arm_motion_s)
+        for station in range(len(context.scene.stations)):
             if station != site.station:
                 yield Site(site.offset, station), float(self._move_s(site.station, station).min())
 
     def _dragged(self, site: Site) -> Iterator[Site]:
         """Where drags lead, as long as some of the cloth may still lie on the table."""
         for count in range(1, self._longest + 1):
-            offset = dragged(self._work, site.offset, site.station, count)
-            if not self._work.may_be_on_table(offset):
+            offset = dragged(self._context, site.offset, site.station, count)
+            if not self._context.may_be_on_table(offset):
                 return
             yield Site(offset, site.station)
 
     def _moved_s(self, station: int, goal: int) -> FloatArray:
         """How long a move takes from each back-off (s)."""
-        starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._work.back_offs))
+        starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._context.back_offs))
         return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])

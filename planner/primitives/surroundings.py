@@ -5,7 +5,7 @@ import networkx as nx
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
-from planner.primitives.work import Work
+from planner.primitives.context import Context
 
 _BESIDE_M = 5e-3
 """What another fold moves this near to a grip may change from where the grip is approached (m)."""
@@ -18,9 +18,9 @@ class Surroundings:
     others may be done or not.
     """
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, context: Context) -> None:
         """Ask nothing yet."""
-        self._sequence = sequence = work.sequence
+        self._sequence = sequence = context.sequence
         self._known: dict[tuple[int, Point2], bool] = {}
         folds = range(len(sequence.folds))
         waits = nx.DiGraph(sequence.dag.edges)

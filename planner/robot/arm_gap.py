@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.robot.aim import Aim, aim_at
+from planner.robot.aim import ToolPose, aim_at
 from planner.robot.arm import ArmShape
 
 
@@ -36,7 +36,7 @@ def gap(shape: ArmShape, x: float, y: float, z: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def comfort_gap(shape: ArmShape, aim: Aim, comfort: float) -> float:
+def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
     """The same for an aim and four on the circle of radius `comfort` round it: the worst of them decides."""
     worst = gap(shape, aim.x, aim.y, aim.z)
     if comfort > 0.0:

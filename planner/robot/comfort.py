@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.robot.aim import Aim, aim_at, beside, is_within_height, is_within_length
+from planner.robot.aim import ToolPose, aim_at, beside, is_within_height, is_within_length
 from planner.robot.arm import ArmShape
 from planner.robot.joint_slack import ring_slack
 from planner.robot.kernel import is_reachable_near, shape_of
@@ -170,7 +170,7 @@ def from_cell(bits: int, cell: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def aim_from(ask: Question, place: Place, back_off: int) -> Aim:
+def aim_from(ask: Question, place: Place, back_off: int) -> ToolPose:
     """The aim at a place, the base having backed off."""
     x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
     ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
@@ -205,7 +205,9 @@ def is_comfortable_at(
 
 
 @njit(cache=True, nogil=True)
-def is_comfortable(shape: ArmShape, aim: Aim, comfort: float, arcs: FloatArray, hint: FloatArray) -> tuple[bool, int]:
+def is_comfortable(
+    shape: ArmShape, aim: ToolPose, comfort: float, arcs: FloatArray, hint: FloatArray
+) -> tuple[bool, int]:
     """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made.
 
     Mostly the pan that served last, `hint`, serves all five. If not, the one that it serves least is asked first.

@@ -16,7 +16,7 @@ from numba import njit
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.robot.aim import Aim, aim_at
+from planner.robot.aim import ToolPose, aim_at
 from planner.robot.arm import ArmShape, Sector
 from planner.robot.kernel import witness
 from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
@@ -84,7 +84,7 @@ def _unwound(angle: float, near: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: FloatArray) -> None:
+def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joints: FloatArray) -> None:
     """Set pan, lift, roll and elbow so that the wrist's centre is where it must be; nan where it cannot."""
     pan = _within(shape.pan, pan)
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
@@ -102,7 +102,7 @@ def place_wrist(shape: ArmShape, aim: Aim, pan: float, branch: float, joints: Fl
 
 
 @njit(cache=True, nogil=True)
-def _along(frame: FloatArray, aim: Aim, axis: int) -> float:
+def _along(frame: FloatArray, aim: ToolPose, axis: int) -> float:
     """The component of the approach axis along an axis of a frame."""
     component: float = aim.ax * frame[0, axis] + aim.ay * frame[1, axis] + aim.az * frame[2, axis]
     return component
@@ -110,7 +110,7 @@ def _along(frame: FloatArray, aim: Aim, axis: int) -> float:
 
 @njit(cache=True, nogil=True)
 def turn_hand(
-    shape: ArmShape, aim: Aim, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
+    shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
 ) -> None:
     """Set the last three joints so that the tool has a rotation; `frame` is scratch space, shape (3, 3)."""
     frame[:] = 0.0
@@ -135,7 +135,7 @@ def turn_hand(
 @njit(cache=True, nogil=True)
 def _solve_on(
     shape: ArmShape,
-    aim: Aim,
+    aim: ToolPose,
     rotation: FloatArray,
     near: FloatArray,
     arc: FloatArray,
@@ -227,7 +227,7 @@ def nearby_joints(
 @njit(cache=True, nogil=True)
 def _step_towards(
     shape: ArmShape,
-    aim: Aim,
+    aim: ToolPose,
     rotation: FloatArray,
     near: FloatArray,
     arc: FloatArray,

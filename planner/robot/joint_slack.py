@@ -8,7 +8,7 @@ import math
 
 from numba import njit
 
-from planner.robot.aim import Aim
+from planner.robot.aim import ToolPose
 from planner.robot.arm import ArmShape, Sector
 
 
@@ -21,7 +21,7 @@ def slack_within(limits: Sector, cos: float, sin: float) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def slacks(shape: ArmShape, aim: Aim, pan: float) -> tuple[float, float]:
+def slacks(shape: ArmShape, aim: ToolPose, pan: float) -> tuple[float, float]:
     """The least slack of lift, roll, elbow and wrist at a pan, for cos(roll) >= 0 and for cos(roll) <= 0."""
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
@@ -63,7 +63,7 @@ def _lift_and_wrist_slack(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def ring_slack(shape: ArmShape, aim: Aim, radius: float, pan: float, branch: float) -> tuple[float, int]:
+def ring_slack(shape: ArmShape, aim: ToolPose, radius: float, pan: float, branch: float) -> tuple[float, int]:
     """The least slack at one pan and branch (cos(roll) of its sign) of an aim and four on a circle round it.
 
     And of which: 0 is the aim itself, the others as by `beside`.

@@ -40,7 +40,7 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robot.aim import Aim, aim_at
+from planner.robot.aim import ToolPose, aim_at
 from planner.robot.arm import ArmShape, Sector
 from planner.robot.joint_slack import slacks
 from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
@@ -86,7 +86,7 @@ def shape_of(numbers: FloatArray) -> ArmShape:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _climbed(
-    shape: ArmShape, aim: Aim, arc: FloatArray, branch: int, theta: float, here: float, step: float
+    shape: ArmShape, aim: ToolPose, arc: FloatArray, branch: int, theta: float, here: float, step: float
 ) -> tuple[float, float]:
     """The slack and theta of a peak within a step of theta, or of the first place that is good enough."""
     while here < 0.0 and step > FINEST and here > -STEEPEST * step:
@@ -100,7 +100,7 @@ def _climbed(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def witness(shape: ArmShape, aim: Aim, arcs: FloatArray) -> tuple[int, float]:
+def witness(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> tuple[int, float]:
     """An arc and theta at which every joint is within its limits; arc -1 if there is none.
 
     `arcs` is overwritten with the arcs (see `pan_arcs`).
@@ -124,13 +124,13 @@ def witness(shape: ArmShape, aim: Aim, arcs: FloatArray) -> tuple[int, float]:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def is_reachable(shape: ArmShape, aim: Aim, arcs: FloatArray) -> bool:
+def is_reachable(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> bool:
     """Whether the arm can take this aim with every joint within its limits."""
     return witness(shape, aim, arcs)[0] >= 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def is_reachable_near(shape: ArmShape, aim: Aim, arcs: FloatArray, hint: FloatArray) -> bool:
+def is_reachable_near(shape: ArmShape, aim: ToolPose, arcs: FloatArray, hint: FloatArray) -> bool:
     """The same, trying first the pan that served last, `hint`, shape (1,), which is kept up to date.
 
     Neighbouring places mostly share a pan, or nearly, and to check one costs a tenth of finding one. A yes is as

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.robot.aim import Aim, aim_at, is_within_length
+from planner.robot.aim import ToolPose, aim_at, is_within_length
 from planner.robot.arm import ArmShape, sector
 from planner.robot.joint_slack import slack_within
 from planner.robot.kernel import FINEST
@@ -28,7 +28,7 @@ ELBOW = 3
 
 
 @njit(cache=True, nogil=True)
-def joint_slacks(shape: ArmShape, aim: Aim, pan: float, branch: float) -> tuple[float, float, float, float, float]:
+def joint_slacks(shape: ArmShape, aim: ToolPose, pan: float, branch: float) -> tuple[float, float, float, float, float]:
     """The slack of each of `JOINT_NAMES` at a pan, with cos(roll) of the sign of `branch`.
 
     A slack is the sine of the angle by which the joint lies within its limits. Where rounding has left no
@@ -58,13 +58,13 @@ def joint_slacks(shape: ArmShape, aim: Aim, pan: float, branch: float) -> tuple[
 
 
 @njit(cache=True, nogil=True)
-def _least_slack(shape: ArmShape, aim: Aim, arc: FloatArray, theta: float) -> float:
+def _least_slack(shape: ArmShape, aim: ToolPose, arc: FloatArray, theta: float) -> float:
     """The least slack at an angle of the closed curve over an arc."""
     return min(joint_slacks(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta))))
 
 
 @njit(cache=True, nogil=True)
-def _best_try(shape: ArmShape, aim: Aim, arcs: FloatArray, count: int) -> tuple[int, float]:
+def _best_try(shape: ArmShape, aim: ToolPose, arcs: FloatArray, count: int) -> tuple[int, float]:
     """The arc, of so many, and the angle of its curve at which the least slack is greatest."""
     step = math.tau / SAMPLES
     best, best_arc, best_theta = -math.inf, 0, 0.0

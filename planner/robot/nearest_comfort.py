@@ -18,7 +18,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.robot.aim import Aim, aim_at
+from planner.robot.aim import ToolPose, aim_at
 from planner.robot.arm import ArmShape
 from planner.robot.arm_gap import comfort_gap
 from planner.robot.comfort import is_comfortable
@@ -66,7 +66,7 @@ def _scratch(shape: ArmShape) -> Scratch:
 
 
 @njit(cache=True, nogil=True)
-def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> Aim:
+def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
     """The aim that brings the tool to a point."""
     axis = wanted.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])

@@ -10,14 +10,14 @@ import math
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.robot.aim import Aim
+from planner.robot.aim import ToolPose
 from planner.robot.arm import ArmShape, Sector
 
 MOST_ARCS = 8
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def pan_arcs(shape: ArmShape, aim: Aim, arcs: FloatArray) -> int:
+def pan_arcs(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> int:
     """Find the pans within limits for which elbow and roll have a solution, the elbow within limits.
 
     Args:

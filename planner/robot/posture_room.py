@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.robot.aim import Aim
+from planner.robot.aim import ToolPose
 from planner.robot.arm import ArmShape
 from planner.robot.collision.part_poses import EACH, PLACE, Index, pose_arm, set_middles
 from planner.robot.collision.robot_parts import RobotParts, compiled_parts
@@ -62,13 +62,13 @@ class Room(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def may_be_hindered(aim: Aim) -> bool:
+def may_be_hindered(aim: ToolPose) -> bool:
     """Whether a wrist is so near that the body may be in the way; to ask this costs nothing."""
     return aim.x <= AHEAD_M
 
 
 @njit(cache=True, nogil=True)
-def has_room_about(shape: ArmShape, room: Room, label: int, aim: Aim, arcs: FloatArray) -> bool:
+def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs: FloatArray) -> bool:
     """Whether some posture is clear in the middle of the cell in which a wrist is to be.
 
     `label` tells approaches apart. The room's margin should allow for the size of a cell, so that nowhere in a cell
@@ -82,14 +82,14 @@ def has_room_about(shape: ArmShape, room: Room, label: int, aim: Aim, arcs: Floa
     if room.memory.table[slot] != 0:
         known: bool = room.memory.table[slot] & 1 == 1
         return known
-    middle = Aim(x * CELL_M, y * CELL_M, z * CELL_M, aim.ax, aim.ay, aim.az)
+    middle = ToolPose(x * CELL_M, y * CELL_M, z * CELL_M, aim.ax, aim.ay, aim.az)
     answer = has_room(shape, room, middle, arcs)
     learn(room.memory, slot, key, answer)
     return answer
 
 
 @njit(cache=True, nogil=True)
-def has_room(shape: ArmShape, room: Room, aim: Aim, arcs: FloatArray) -> bool:
+def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bool:
     """Whether some posture at an aim is clear; `arcs`, shape (MOST_ARCS, 2), is room to work in."""
     joints, frame, near, rotation = np.empty(7), np.empty((3, 3)), np.zeros(7), np.zeros((3, 3))
     _level(aim, rotation)
@@ -119,7 +119,7 @@ def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def _level(aim: Aim, rotation: FloatArray) -> None:
+def _level(aim: ToolPose, rotation: FloatArray) -> None:
     """Set a tool's axes for an aim, its y axis horizontal."""
     flat = math.hypot(aim.ax, aim.ay)
     cos, sin = (aim.ax / flat, aim.ay / flat) if flat > 0.0 else (1.0, 0.0)

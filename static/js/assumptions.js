@@ -9,7 +9,7 @@ import { present } from "./present.js";
 
 /** @import { Drawing, Fold } from "pleat" */
 
-/** What is usual (see planner.primitives.scene, planner.plan.make_plan). */
+/** What is usual (see planner.primitives.scene, planner.planning.make_plan). */
 export const USUAL = { friction: 1, comfort_m: 0.03, grip_radius_m: 0.127 };
 
 const SAME = 1e-9;

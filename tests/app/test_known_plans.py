@@ -2,7 +2,7 @@
 
 from app.known_plans import KnownPlans
 from planner import load_garment
-from tests.plan.found import found_plan
+from tests.planning.found import found_plan
 
 
 def test_the_latest_plan_of_each_way_is_known_and_the_quickest_comes_first() -> None:

@@ -11,8 +11,8 @@ from app.document_state import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
 from planner import Task, find_plan
-from planner.plan import plan_search
-from planner.plan.found_plan import FoundPlan
+from planner.planning import plan_search
+from planner.planning.found_plan import FoundPlan
 from tests.app.drawing.drawings import crease
 from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, replanning
 

@@ -10,8 +10,8 @@ from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink
 from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
-from planner.plan.cloth_surface import LAYER_GAP_M
-from planner.plan.timeline import Timeline
+from planner.motion.cloth_surface import LAYER_GAP_M
+from planner.motion.timeline import Timeline
 from planner.robot.pr2 import load_robot
 from planner.task.plan import PlanStep
 

@@ -22,8 +22,8 @@ from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.plan.cloth_surface import LAYER_GAP_M
-from planner.plan.timeline import Timeline
+from planner.motion.cloth_surface import LAYER_GAP_M
+from planner.motion.timeline import Timeline
 from planner.robot.pr2 import load_robot
 from tests.app.pose_matrix import matrix
 

@@ -11,7 +11,7 @@ from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
 from planner import Scene, load_garment
-from planner.plan.frame import ClothSurface
+from planner.motion.sample import ClothSurface
 from tests.app.pose_matrix import matrix
 
 

@@ -23,7 +23,7 @@ from planner.geometry.table import Table
 from planner.primitives.fold_trial import geometric_obstacle
 from planner.primitives.state import State
 from planner.task.reason import Code
-from tests.builders import fold, garment, rectangle, work
+from tests.builders import context, fold, garment, rectangle
 
 TABLE = Table(1.6, 0.98, 0.79)
 UP = (0.0, 1.0)
@@ -202,7 +202,7 @@ def test_the_figures_two_folds_are_told_apart_when_planning():
     outline = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.8), (0.0, 0.8)]
     start, placement = State(0, (0.0, 0.0), 0, 0), Pose2(-1.1, 0.2, -math.pi / 2)
     across, along, short = (
-        work(garment(outline, line, placement=placement))
+        context(garment(outline, line, placement=placement))
         for line in (fold((0.2, 0.0), (0.2, 0.8)), fold((0.4, 0.35), (0.0, 0.35)), fold((0.4, 0.1), (0.0, 0.1)))
     )
     assert geometric_obstacle(across, start, 0) is None

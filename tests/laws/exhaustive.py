@@ -18,11 +18,11 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.primitives.base_move import BaseMove
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
 from planner.primitives.state import Held, State
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 
 Way = tuple[float, State]
 
@@ -30,16 +30,16 @@ Way = tuple[float, State]
 class Exhaustive:
     """Tries all that a robot may do in one planning problem."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
-        self._moves = BaseMove(work)
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._moves = BaseMove(context)
         self._masks: dict[tuple[object, ...], NDArray[np.uint32]] = {}
         self._strips: dict[tuple[object, ...], list[tuple[int, ...]]] = {}
 
     def cost_s(self, start: State) -> float:
         """The least time until every fold is done (s), by Dijkstra's algorithm; infinite if it cannot be."""
-        everything = (1 << len(self._work.sequence.folds)) - 1
-        if self._work.unrest(start.done, start.offset) is not None:
+        everything = (1 << len(self._context.sequence.folds)) - 1
+        if self._context.unrest(start.done, start.offset) is not None:
             return math.inf
         numbers, left = count(), set()
         queue = [(0.0, next(numbers), start)]
@@ -58,21 +58,21 @@ class Exhaustive:
             yield step.duration_s, step.after
 
     def _folds(self, state: State) -> Iterator[Way]:
-        work = self._work
-        for fold in work.sequence.dag.available(state.done):
-            if geometric_obstacle(work, state, fold) is not None:
+        context = self._context
+        for fold in context.sequence.dag.available(state.done):
+            if geometric_obstacle(context, state, fold) is not None:
                 continue
-            for trial in fold_trials(work, state, fold):
-                held = self._held_after(trial) if work.sequence.dag.follows_at_once(fold) else ()
+            for trial in fold_trials(context, state, fold):
+                held = self._held_after(trial) if context.sequence.dag.follows_at_once(fold) else ()
                 motions = 2 if state.held else 3
                 for strip in self._strips_of(state, trial):
                     for end, steps in enumerate(self._travel(strip, state)):
                         if math.isfinite(steps):
                             after = State(state.done | 1 << fold, state.offset, state.station, end, held)
-                            yield motions * work.scene.arm_motion_s + work.drive_s(steps), after
+                            yield motions * context.scene.arm_motion_s + context.drive_s(steps), after
 
     def _held_after(self, trial: FoldTrial) -> tuple[Held, ...]:
-        over = Isometry.reflection(self._work.sequence.folds[trial.fold].line)
+        over = Isometry.reflection(self._context.sequence.folds[trial.fold].line)
         pairs = sorted(zip(trial.arms, trial.cover, strict=True))
         return tuple(Held(arm, over.apply_point(grip)) for arm, grip in pairs)
 
@@ -80,7 +80,7 @@ class Exhaustive:
         """For each combination of approaches the back-offs that suit all hands at each waypoint, as bits."""
         key = (state.done, state.offset, state.station, state.held, trial.fold, trial.cover, trial.arms)
         if key not in self._strips:
-            whole = np.full((1, len(trial.sweeps)), (1 << self._work.back_offs) - 1, dtype=np.uint32)
+            whole = np.full((1, len(trial.sweeps)), (1 << self._context.back_offs) - 1, dtype=np.uint32)
             for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
                 rows = np.array([self._able(state.station, arm, tool, approaches) for tool in tools]).T
                 both = whole[:, None, :] & rows[None, :, :]
@@ -92,14 +92,14 @@ class Exhaustive:
         """For each approach the back-offs from which one tool point is in comfort, as bits."""
         key = (station, arm, tool.tobytes(), approaches.tobytes())
         if key not in self._masks:
-            work = self._work
-            point = work.in_base(station, tool[None])
-            self._masks[key] = work.reach.back_offs(arm, point, approaches, work.back_offs, BACK_OFF_STEP_M)[:, 0]
+            context = self._context
+            point = context.in_base(station, tool[None])
+            self._masks[key] = context.reach.back_offs(arm, point, approaches, context.back_offs, BACK_OFF_STEP_M)[:, 0]
         return self._masks[key]
 
     def _travel(self, strip: tuple[int, ...], state: State) -> list[float]:
         """The fewest steps of the base until it stands at each back-off at the end of a path."""
-        stands = range(self._work.back_offs)
+        stands = range(self._context.back_offs)
         if state.held:
             steps = [0.0 if stand == state.back_off else math.inf for stand in stands]
         else:
@@ -114,33 +114,33 @@ class Exhaustive:
         return steps
 
     def _drags(self, state: State) -> Iterator[Way]:
-        work = self._work
-        towards = towards_robot(work, state.station)
-        if state.held or hangs_ahead(work, state.done, state.offset, towards):
+        context = self._context
+        towards = towards_robot(context, state.station)
+        if state.held or hangs_ahead(context, state.done, state.offset, towards):
             return
-        placement = work.placed(state.offset)
-        turn = placement.yaw_rad - work.station_pose(state.station).yaw_rad
-        for cover in drag_covers(work, state.done, state.offset, towards).covers:
+        placement = context.placed(state.offset)
+        turn = placement.yaw_rad - context.station_pose(state.station).yaw_rad
+        for cover in drag_covers(context, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
-            if not cover or nearest_pair_m(points) < work.grips_apart_m - 1e-5:
+            if not cover or nearest_pair_m(points) < context.grips_apart_m - 1e-5:
                 continue
             picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
-            for arms in assignments(work, state.station, points):
+            for arms in assignments(context, state.station, points):
                 hands_at = zip(cover, arms, strict=True)
-                allowed = [approaches_from_outside(work, state.done, turn, grip, arm) for grip, arm in hands_at]
+                allowed = [approaches_from_outside(context, state.done, turn, grip, arm) for grip, arm in hands_at]
                 hands = zip(arms, picks, allowed, strict=True)
                 able = [self._able(state.station, *hand) for hand in hands]
                 held = tuple(Held(arm, grip) for arm, grip in sorted(zip(arms, cover, strict=True)))
-                for stand in range(work.back_offs):
+                for stand in range(context.back_offs):
                     if all(any(int(mask) >> stand & 1 for mask in masks) for masks in able):
                         yield from self._carried(state, stand, held)
 
     def _carried(self, state: State, stand: int, held: tuple[Held, ...]) -> Iterator[Way]:
         """The drags of every length that begin at a back-off, hands holding on or letting go."""
-        work = self._work
-        for tenths in range(1, longest_drag(work) + 1):
-            end, offset = stand + 2 * tenths, dragged(work, state.offset, state.station, tenths)
-            if end < work.back_offs and work.unrest(state.done, offset) is None:
-                seconds = work.scene.arm_motion_s + work.drive_s(abs(stand - state.back_off) + end - stand)
+        context = self._context
+        for tenths in range(1, longest_drag(context) + 1):
+            end, offset = stand + 2 * tenths, dragged(context, state.offset, state.station, tenths)
+            if end < context.back_offs and context.unrest(state.done, offset) is None:
+                seconds = context.scene.arm_motion_s + context.drive_s(abs(stand - state.back_off) + end - stand)
                 yield seconds, State(state.done, offset, state.station, end)
                 yield seconds, State(state.done, offset, state.station, end, held, dragged=1)

@@ -13,13 +13,13 @@ from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import AREA_M2
-from planner.plan.driving_bound import DrivingBound
-from planner.plan.edges import Edges
-from planner.plan.heuristic import HEURISTICS, Heuristic
+from planner.planning.driving_bound import DrivingBound
+from planner.planning.edges import Edges
+from planner.planning.heuristic import HEURISTICS, Heuristic
+from planner.primitives.context import Context
 from planner.primitives.primitive import Primitive, Step
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
-from planner.primitives.work import Work
 from planner.robot.pr2 import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
 from planner.task.scene import DEFAULT_STATIONS, Scene
@@ -33,7 +33,7 @@ MOST_STATES = 100_000
 FOLDABLE = tuple(name for name in shipped_garment_names() if not name.endswith("-halved"))
 """The shipped garments that can be folded."""
 
-Kinds = Sequence[Callable[[Work], Primitive]]
+Kinds = Sequence[Callable[[Context], Primitive]]
 
 
 @dataclass(frozen=True)
@@ -53,11 +53,13 @@ class Problem:
     comfort_m: float = 0.0
 
     @property
-    def work(self) -> Work:
+    def context(self) -> Context:
         """The problem as the primitives see it, nothing remembered yet."""
         robot = load_robot("pr2")
         reach = robot.reach(self.scene.torso_m, self.comfort_m)
-        return Work(FoldSequence.of(self.garment), self.scene, reach, self.garment.placement, robot.card.base_radius_m)
+        return Context(
+            FoldSequence.of(self.garment), self.scene, reach, self.garment.placement, robot.card.base_radius_m
+        )
 
     @property
     def first_state(self) -> State:
@@ -76,22 +78,22 @@ class Problem:
 
     def lean_cost_s(self) -> float:
         """The same by the edges that planning goes along: without what is spare, or no cheaper than from elsewhere."""
-        work, state = self.work, self.first_state
-        if work.unrest(state.done, state.offset) is not None:
+        context, state = self.context, self.first_state
+        if context.unrest(state.done, state.offset) is not None:
             return math.inf
-        edges = Edges(work, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: False)
+        edges = Edges(context, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: False)
         everything = (1 << len(self.garment.folds)) - 1
-        bound = HEURISTICS["arm_time"](work)
+        bound = HEURISTICS["arm_time"](context)
         found = a_star(state, edges.leaving, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
         assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
         return found.cost
 
     def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
         """What the cheapest sequence of primitives costs (s); infinite when there is none."""
-        work, state = self.work, self.first_state
-        if work.unrest(state.done, state.offset) is not None:
+        context, state = self.context, self.first_state
+        if context.unrest(state.done, state.offset) is not None:
             return math.inf
-        primitives = [kind(work) for kind in kinds]
+        primitives = [kind(context) for kind in kinds]
 
         def successors(state: State, _cost_s: float) -> Iterator[Edge[State, Step]]:
             for primitive in primitives:
@@ -99,7 +101,7 @@ class Problem:
                     yield Edge(step, step.duration_s, step.after)
 
         everything = (1 << len(self.garment.folds)) - 1
-        bound = bound_of(heuristic, work, state)
+        bound = bound_of(heuristic, context, state)
         found = a_star(state, successors, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
         assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
         return found.cost
@@ -109,8 +111,8 @@ BOUNDS = (*HEURISTICS, "driving")
 """The heuristics that requests name, and the one that takes the arms' place where many folds are loose."""
 
 
-def bound_of(name: str, work: Work, start: State) -> Heuristic:
-    return DrivingBound(work, start) if name == "driving" else HEURISTICS[name](work)
+def bound_of(name: str, context: Context, start: State) -> Heuristic:
+    return DrivingBound(context, start) if name == "driving" else HEURISTICS[name](context)
 
 
 @st.composite

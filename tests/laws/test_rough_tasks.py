@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.errors import FoldingError
-from planner.plan.make_plan import compile_kernels
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
+from planner.planning.warm_up import compile_kernels
 from tests.laws.law import LONG, law
 from tests.laws.tasks import rough_task
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from hypothesis import given
 
-from planner.plan.alone import Alone
+from planner.planning.single_fold import SingleFold
 from planner.primitives.primitive_set import PRIMITIVES
 from tests.laws.exhaustive import Exhaustive
 from tests.laws.law import law
@@ -17,7 +17,7 @@ SECOND = 1e-6
 @given(problems(most_folds=3, most_stations=2, back_offs=6))
 @law("planning", short=12, long=50)
 def test_the_search_finds_what_trying_everything_finds(problem: Problem):
-    found, tried = problem.cost_s(), Exhaustive(problem.work).cost_s(problem.first_state)
+    found, tried = problem.cost_s(), Exhaustive(problem.context).cost_s(problem.first_state)
     assert found == pytest.approx(tried, abs=SECOND)
 
 
@@ -30,7 +30,7 @@ def test_what_is_no_cheaper_than_from_elsewhere_is_left_out_without_loss(problem
 @given(problems())
 @law("planning", short=12, long=50)
 def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primitives(problem: Problem):
-    alone = Alone(problem.work, problem.first_state.station, lambda: False)
+    alone = SingleFold(problem.context, problem.first_state.station, lambda: False)
     folds = range(len(problem.garment.folds))
     assert not any(alone.is_impossible(fold) for fold in folds) or problem.cost_s() == math.inf
 
@@ -56,10 +56,10 @@ def test_every_heuristic_finds_the_same_cost(problem: Problem):
 @given(problems())
 @law("planning", short=12, long=50)
 def test_no_heuristic_falls_by_more_than_a_step_costs_and_each_is_nothing_at_the_goal(problem: Problem):
-    work = problem.work
+    context = problem.context
     everything = (1 << len(problem.garment.folds)) - 1
-    kinds = [kind(work) for kind in PRIMITIVES]
-    bounds = [bound_of(name, work, problem.first_state) for name in BOUNDS]
+    kinds = [kind(context) for kind in PRIMITIVES]
+    bounds = [bound_of(name, context, problem.first_state) for name in BOUNDS]
     front, seen = [problem.first_state], {problem.first_state}
     while front and len(seen) < 2000:
         state = front.pop()

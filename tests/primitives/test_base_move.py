@@ -11,7 +11,7 @@ from planner.geometry.table import Table
 from planner.primitives.base_move import BaseMove, Route, clear_of_table, route_along, shortest_way
 from planner.primitives.state import Held, State
 from planner.task.scene import Scene
-from tests.builders import CIRCLE_M, garment, rectangle_points, work
+from tests.builders import CIRCLE_M, context, garment, rectangle_points
 from tests.replay.way_round import require_way_round
 
 TABLE = Table(1.6, 0.98, 0.79)
@@ -24,7 +24,7 @@ def move(start: str, goal: str, back_off: int = 0, scene: Scene | None = None):
     scene = scene or Scene()
     names = [name for name, _ in scene.stations]
     state = State(0, (0.0, 0.0), names.index(start), back_off)
-    found = {s.details["to"]: s for s in BaseMove(work(TOWEL, scene)).successors(state)}
+    found = {s.details["to"]: s for s in BaseMove(context(TOWEL, scene)).successors(state)}
     return found[goal]
 
 
@@ -66,14 +66,14 @@ def test_a_base_backed_off_beyond_the_grown_table_need_not_back_out():
 
 
 def test_there_is_one_move_to_each_other_station_and_it_ends_not_backed_off():
-    steps = list(BaseMove(work(TOWEL)).successors(State(0, (0.0, 0.0), 1, 3)))
+    steps = list(BaseMove(context(TOWEL)).successors(State(0, (0.0, 0.0), 1, 3)))
     assert [s.after.station for s in steps] == [0, 2, 3, 4]
     assert all(s.after.back_off == 0 and not s.after.held for s in steps)
 
 
 def test_the_base_does_not_move_with_cloth_in_its_hands():
     holding = State(0, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), dragged=1)
-    assert list(BaseMove(work(TOWEL)).successors(holding)) == []
+    assert list(BaseMove(context(TOWEL)).successors(holding)) == []
 
 
 def test_between_any_two_stations_the_way_is_legal_and_shortest_from_every_back_off():

@@ -12,13 +12,13 @@ import pytest
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.primitives.base_legs import unbeaten
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import Held, State
-from planner.primitives.work import Work
 from planner.task.scene import Scene
-from tests.builders import WideReach, fold, garment, rectangle_points, work
+from tests.builders import WideReach, context, fold, garment, rectangle_points
 
 NEAR_HALF = fold((0.4, 0.15), (0.0, 0.15))
 BACK = -math.pi / 2
@@ -33,23 +33,23 @@ def start(back_off: int = 0) -> State:
     return State(0, (0.0, 0.0), 0, back_off)
 
 
-def folds_of(problem: Work, state: State | None = None):
+def folds_of(problem: Context, state: State | None = None):
     return list(GFold(problem).successors(state or start()))
 
 
-def drags_of(problem: Work, state: State | None = None):
+def drags_of(problem: Context, state: State | None = None):
     return list(GDrag(problem).successors(state or start()))
 
 
 def test_a_fold_in_reach_from_where_the_base_stands_takes_three_arm_motions():
-    (step,) = folds_of(work(towel(NEAR_HALF)))
+    (step,) = folds_of(context(towel(NEAR_HALF)))
     assert step.duration_s == 9.0
     assert step.after.done == 1 and step.after.back_off == 0 and not step.after.held
     assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.0)
 
 
 def test_its_grips_are_the_near_corners_the_left_arm_at_the_left():
-    (step,) = folds_of(work(towel(NEAR_HALF)))
+    (step,) = folds_of(context(towel(NEAR_HALF)))
     left, right = step.grips
     assert (left.arm, right.arm) == ("left", "right")
     assert left.pick == pytest.approx((-0.75, 0.2, 0.02))
@@ -62,7 +62,7 @@ def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other
     # The line x = 0.2 ends in a notch at (0.2, 0.24); the corner (0.2, 0.3) of the part that moves is on its extension.
     outline = ((0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.2, 0.24), (0.2, 0.3), (0.0, 0.2))
     notched = garment(outline, fold((0.2, 0.0), (0.2, 0.24)), placement=Pose2(-0.75, 0.2, BACK))
-    step = folds_of(work(notched))[0]
+    step = folds_of(context(notched))[0]
     left, right = step.grips
     assert left.place == pytest.approx((-0.65, -0.2, 0.02))
     for place in (right.pick, right.apex, right.place):
@@ -74,7 +74,7 @@ def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other
 def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it():
     # In reach only from 0.15 m back: 0.15 / 0.25 = 0.6 s more.
     far = WideReach(lambda arm, point, back_off: back_off == 3)
-    (step,) = folds_of(work(towel(NEAR_HALF), reach=far))
+    (step,) = folds_of(context(towel(NEAR_HALF), reach=far))
     assert step.after.back_off == 3
     assert step.duration_s == pytest.approx(9.6)
     assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.6)
@@ -84,7 +84,7 @@ def test_the_base_follows_its_hands_where_no_one_place_will_do():
     # The hands go from x = 0.2 to 0.5 m ahead of the base at 0. Only x + 0.05 b between 0.4 and 0.6 is in reach:
     # 0.2 needs b = 4..8, 0.5 needs b = 0..2: at least two steps forward, and from b = 0 first four back.
     band = WideReach(lambda arm, point, back_off: 0.4 - 1e-9 <= point[0] + 0.05 * back_off <= 0.6 + 1e-9)
-    steps = folds_of(work(towel(NEAR_HALF), reach=band))
+    steps = folds_of(context(towel(NEAR_HALF), reach=band))
     nearest = min(steps, key=lambda s: s.duration_s)
     assert nearest.after.back_off == 2
     assert nearest.duration_s == pytest.approx(9.0 + (4 + 2) * 0.2)
@@ -92,7 +92,7 @@ def test_the_base_follows_its_hands_where_no_one_place_will_do():
 
 
 def test_what_no_arm_reaches_is_noted_and_not_done():
-    problem = work(towel(NEAR_HALF), reach=WideReach(lambda arm, point, back_off: False))
+    problem = context(towel(NEAR_HALF), reach=WideReach(lambda arm, point, back_off: False))
     assert folds_of(problem) == []
     assert [code.value for code in problem.obstacles.codes(0)] == ["out_of_reach"]
 
@@ -102,13 +102,13 @@ def test_grips_nearer_than_ten_centimetres_are_not_taken_by_two_hands():
     ribbon = garment(
         rectangle_points(0.08, 0.3), fold((0.08, 0.15), (0.0, 0.15), radius_m=0.03), placement=Pose2(-0.7, 0.0, BACK)
     )
-    problem = work(ribbon)
+    problem = context(ribbon)
     assert folds_of(problem) == []
     assert [code.value for code in problem.obstacles.codes(0)] == ["grips_too_close"]
 
 
 def test_a_line_wholly_off_the_table_is_not_folded():
-    problem = work(towel(NEAR_HALF, x_m=-0.97))
+    problem = context(towel(NEAR_HALF, x_m=-0.97))
     # The line lies at x = -0.97 + 0.15 = -0.82, beyond the edge at -0.8.
     assert folds_of(problem) == []
     assert "line_off_table" in [code.value for code in problem.obstacles.codes(0)]
@@ -116,7 +116,7 @@ def test_a_line_wholly_off_the_table_is_not_folded():
 
 def test_a_fold_after_which_the_cloth_would_slip_is_not_done():
     # The far half comes over the near one: at x = -0.9..-0.75 twice, of it 0.1 m hang and 0.05 m lie.
-    problem = work(towel(fold((0.0, 0.15), (0.4, 0.15)), x_m=-0.9))
+    problem = context(towel(fold((0.0, 0.15), (0.4, 0.15)), x_m=-0.9))
     assert folds_of(problem) == []
     assert [code.value for code in problem.obstacles.codes(0)] == ["slips"]
 
@@ -125,7 +125,7 @@ def test_a_fold_before_a_red_one_keeps_hold_and_the_red_one_saves_the_reach():
     blue = fold((0.4, 0.12), (0.0, 0.12))
     # The flap's free edge comes to lie at y = 0.24; its outer third turns back down over y = 0.2.
     red = fold((0.0, 0.2), (0.4, 0.2), "red")
-    problem = work(towel(blue, red))
+    problem = context(towel(blue, red))
     holding = [s for s in folds_of(problem) if s.after.back_off == 0]
     assert len(holding) == 1 and holding[0].details == {"fold": 0, "holds": True}
     held = holding[0].after
@@ -140,7 +140,7 @@ def test_a_fold_before_a_red_one_keeps_hold_and_the_red_one_saves_the_reach():
 def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_articles_length():
     # 0.3 m along the way of the drag, 0.4 m long: at most 0.4, but 0.3 would leave nothing on the table, and at
     # 0.2 m 0.15 m hang against 0.15 m lying: that just stays.
-    steps = drags_of(work(towel(NEAR_HALF)))
+    steps = drags_of(context(towel(NEAR_HALF)))
     assert {s.details["distance_m"] for s in steps} == {0.1, 0.2}
     for step in steps:
         assert step.after.offset == pytest.approx((-step.distance_m, 0.0))
@@ -149,12 +149,12 @@ def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_articles_leng
 
 
 def test_a_drag_costs_the_reach_and_the_way():
-    straight = [s for s in drags_of(work(towel(NEAR_HALF))) if s.first_stand == 0 and s.distance_m == 0.2]
+    straight = [s for s in drags_of(context(towel(NEAR_HALF))) if s.first_stand == 0 and s.distance_m == 0.2]
     assert {s.duration_s for s in straight} == {3.0 + 0.2 / 0.25}
 
 
 def test_a_drag_takes_the_near_corners_and_moves_them_by_its_distance():
-    step = next(s for s in drags_of(work(towel(NEAR_HALF))) if s.distance_m == 0.1)
+    step = next(s for s in drags_of(context(towel(NEAR_HALF))) if s.distance_m == 0.1)
     for grip in step.grips:
         assert grip.apex is None
         assert grip.pick[2] == grip.place[2] == 0.02
@@ -163,15 +163,15 @@ def test_a_drag_takes_the_near_corners_and_moves_them_by_its_distance():
 
 
 def test_after_a_drag_the_hands_let_go_or_hold_on_for_a_fold():
-    held = {bool(s.after.held) for s in drags_of(work(towel(NEAR_HALF)))}
+    held = {bool(s.after.held) for s in drags_of(context(towel(NEAR_HALF)))}
     assert held == {True, False}
     # Without a fold that could use them, they let go.
     across = fold((0.2, 0.0), (0.2, 0.3))
-    assert {bool(s.after.held) for s in drags_of(work(towel(across)))} == {False}
+    assert {bool(s.after.held) for s in drags_of(context(towel(across)))} == {False}
 
 
 def test_a_fold_with_the_grips_of_a_drag_starts_where_they_are_held_and_saves_the_reach():
-    problem = work(towel(NEAR_HALF))
+    problem = context(towel(NEAR_HALF))
     drag = next(s for s in drags_of(problem) if s.after.held and s.distance_m == 0.1 and s.first_stand == 0)
     steps = folds_of(problem, drag.after)
     step = min(steps, key=lambda s: s.duration_s)
@@ -181,12 +181,12 @@ def test_a_fold_with_the_grips_of_a_drag_starts_where_they_are_held_and_saves_th
 
 
 def test_no_drag_goes_towards_an_edge_from_which_cloth_hangs():
-    assert drags_of(work(towel(NEAR_HALF, x_m=-0.85))) == []
+    assert drags_of(context(towel(NEAR_HALF, x_m=-0.85))) == []
 
 
 def test_a_drag_ends_no_further_back_than_the_base_may_go():
     short = Scene(back_off_max_m=0.1)
-    assert {s.distance_m for s in drags_of(work(towel(NEAR_HALF), short))} == {0.1}
+    assert {s.distance_m for s in drags_of(context(towel(NEAR_HALF), short))} == {0.1}
 
 
 def test_of_ends_those_stay_that_cannot_be_had_by_driving_on():
@@ -197,7 +197,7 @@ def test_of_ends_those_stay_that_cannot_be_had_by_driving_on():
 
 def test_grips_that_are_the_same_to_the_grid_are_held_alike_though_a_rounding_error_lies_between():
     # A drag that is tried from two places may find its grips a rounding error apart: equal states, unequal points.
-    problem = work(towel(NEAR_HALF))
+    problem = context(towel(NEAR_HALF))
     ways = []
     for off_m in (0.0, 1e-9):
         held = tuple(Held(arm, (x + off_m, off_m)) for arm, x in enumerate((0.0, 0.4)))

@@ -8,11 +8,11 @@ import pytest
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.primitives.base_legs import legs
+from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.primitives.work import BACK_OFF_STEP_M, Work
 from planner.robot.pr2 import load_robot
 from tests.builders import CIRCLE_M
 
@@ -21,28 +21,28 @@ BACKED_OFF = State(0, (0.0, 0.0), 0, 5)
 COUNT = 16
 
 
-def problem(name: str) -> Work:
+def problem(name: str) -> Context:
     garment = load_garment(name)
     reach = load_robot("pr2").reach(Scene().torso_m, 0.03)
-    return Work(FoldSequence.of(garment), Scene(), reach, garment.placement, CIRCLE_M)
+    return Context(FoldSequence.of(garment), Scene(), reach, garment.placement, CIRCLE_M)
 
 
 @pytest.fixture(scope="module")
-def work() -> Work:
+def context() -> Context:
     return problem("hand-towel")
 
 
-def step_of(work: Work, state: State, variant: Variant) -> FoldStep:
-    return fold_step(work, variant.way, state, variant.first, variant.end, variant.steps)
+def step_of(context: Context, state: State, variant: Variant) -> FoldStep:
+    return fold_step(context, variant.way, state, variant.first, variant.end, variant.steps)
 
 
-def masks(work: Work, station: int, variant: Variant) -> np.ndarray:
+def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
     """From where each waypoint is in reach of both hands in a variant's orientations, asked one by one."""
     trial, found = variant.way.trial, np.full(len(variant.way.trial.sweeps), -1)
     for arm, tools, approach in zip(trial.arms, trial.tools, variant.way.approaches, strict=True):
-        points = work.in_base(station, tools)
+        points = context.in_base(station, tools)
         for number, point in enumerate(points):
-            row = work.reach.back_offs(arm, point[None], np.array([approach]), work.back_offs, BACK_OFF_STEP_M)
+            row = context.reach.back_offs(arm, point[None], np.array([approach]), context.back_offs, BACK_OFF_STEP_M)
             found[number] &= int(row[0, 0])
     return found
 
@@ -53,44 +53,44 @@ def travel_m(step: FoldStep) -> float:
     return sum(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) for a, b in drives)
 
 
-def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_searchs(work: Work):
-    for step in GFold(work).successors(START):
+def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_searchs(context: Context):
+    for step in GFold(context).successors(START):
         fold, end = step.way.trial.fold, step.after.back_off
-        found = list(fold_variants(work, START, fold, end))
-        durations = [step_of(work, START, v).duration_s for v in found]
+        found = list(fold_variants(context, START, fold, end))
+        durations = [step_of(context, START, v).duration_s for v in found]
         assert len(found) > 1 and durations == sorted(durations)
         assert durations[0] == pytest.approx(step.duration_s)
         assert {v.end for v in found} == {end}
 
 
-def test_each_way_is_another_one(work: Work):
-    (step, *_) = GFold(work).successors(START)
-    found = list(fold_variants(work, START, step.way.trial.fold, step.after.back_off))
+def test_each_way_is_another_one(context: Context):
+    (step, *_) = GFold(context).successors(START)
+    found = list(fold_variants(context, START, step.way.trial.fold, step.after.back_off))
     looks = {(v.way.trial.cover, v.way.trial.arms, v.way.approaches) for v in found}
     assert len(looks) == len(found)
 
 
-def test_the_base_stands_only_where_both_hands_reach_their_waypoint(work: Work):
-    for variant in list(fold_spread(work, BACKED_OFF, 0, COUNT))[::4]:
-        seen, at = masks(work, START.station, variant), variant.first
-        for mask, stand in zip(seen, legs(seen, variant.first, variant.end, work.back_offs), strict=True):
+def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Context):
+    for variant in list(fold_spread(context, BACKED_OFF, 0, COUNT))[::4]:
+        seen, at = masks(context, START.station, variant), variant.first
+        for mask, stand in zip(seen, legs(seen, variant.first, variant.end, context.back_offs), strict=True):
             between = range(min(at, stand), max(at, stand) + 1)
             assert all(int(mask) >> back_off & 1 for back_off in between)
             at = stand
         assert at == variant.end
 
 
-def test_the_travel_told_is_what_the_phases_drive(work: Work):
-    for variant in fold_spread(work, BACKED_OFF, 0, COUNT):
-        step = step_of(work, BACKED_OFF, variant)
+def test_the_travel_told_is_what_the_phases_drive(context: Context):
+    for variant in fold_spread(context, BACKED_OFF, 0, COUNT):
+        step = step_of(context, BACKED_OFF, variant)
         assert travel_m(step) == pytest.approx(variant.steps * BACK_OFF_STEP_M)
         assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(step.duration_s)
 
 
 @pytest.mark.parametrize("count", [1, 3, COUNT, 100_000])
-def test_a_spread_is_as_large_as_asked_or_has_all_there_are(work: Work, count: int):
-    every = list(fold_spread(work, START, 0, 1_000_000))
-    some = list(fold_spread(work, START, 0, count))
+def test_a_spread_is_as_large_as_asked_or_has_all_there_are(context: Context, count: int):
+    every = list(fold_spread(context, START, 0, 1_000_000))
+    some = list(fold_spread(context, START, 0, count))
     assert min(count, len(every)) <= len(some) < 2 * count
     ranks = [(v.driven, v.rank) for v in some]
     assert ranks == sorted(ranks)
@@ -98,8 +98,8 @@ def test_a_spread_is_as_large_as_asked_or_has_all_there_are(work: Work, count: i
 
 
 def test_with_grips_held_the_base_begins_where_it_stands():
-    work = problem("letter-towel")
-    held = max(GFold(work).successors(START), key=lambda s: len(s.after.held)).after
-    assert held.held and held.back_off < work.back_offs
-    found = list(fold_spread(work, held, 1, COUNT))
+    context = problem("letter-towel")
+    held = max(GFold(context).successors(START), key=lambda s: len(s.after.held)).after
+    assert held.held and held.back_off < context.back_offs
+    found = list(fold_spread(context, held, 1, COUNT))
     assert found and {v.first for v in found} == {held.back_off}

@@ -8,7 +8,7 @@ import pytest
 from planner.geometry.pose import Approach, Point2, Pose2
 from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
 from planner.task.scene import Scene
-from tests.builders import WideReach, garment, rectangle_points, work
+from tests.builders import WideReach, context, garment, rectangle_points
 
 TOWEL = garment(rectangle_points(0.4, 0.3))
 
@@ -24,14 +24,14 @@ class Fan(WideReach):
 
 def headings(grip: Point2, cone_deg: float, turn_deg: float = 0.0) -> list[float]:
     """The headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
-    problem = work(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
+    problem = context(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
     found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip, 0)
     chosen = [Fan.approaches[i] for i in found]
     return sorted(999.0 if a.is_vertical else round(math.degrees(a.heading_rad)) for a in chosen)
 
 
 def arms(points: list[Point2], station: int = 0) -> set[tuple[int, ...]]:
-    return set(assignments(work(TOWEL), station, np.array(points)))
+    return set(assignments(context(TOWEL), station, np.array(points)))
 
 
 def test_an_edge_is_pinched_from_within_the_cone_round_straight_in():
@@ -50,7 +50,7 @@ def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one
     # Its lower edge falls by 1 um on 0.4 m, so the bisector by 1.25e-6 rad; 90 degrees is just within 45 of 45.
     assert headings((0.0, 0.0), 45.0) == [0, 30, 60, 90, 999]
     askew = garment([(0.0, 0.0), (0.4, -1e-6), (0.4, 0.3), (0.0, 0.3)])
-    problem = work(askew, Scene(approach_cone_rad=math.radians(45.0)), Fan())
+    problem = context(askew, Scene(approach_cone_rad=math.radians(45.0)), Fan())
     assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0), 0)) == 5
 
 
@@ -91,8 +91,8 @@ def test_the_nearest_pair_of_fewer_than_two_is_nowhere_near():
 
 
 def test_the_base_stands_on_the_back_off_grid():
-    problem = work(TOWEL)
+    problem = context(TOWEL)
     assert problem.back_offs == 17
     assert problem.base_pose(0, 4) == Pose2(-1.15, 0.0, 0.0)
-    assert work(TOWEL, Scene(back_off_max_m=0.0)).back_offs == 1
-    assert work(TOWEL, Scene(back_off_max_m=0.29)).back_offs == 6
+    assert context(TOWEL, Scene(back_off_max_m=0.0)).back_offs == 1
+    assert context(TOWEL, Scene(back_off_max_m=0.29)).back_offs == 6

@@ -15,8 +15,8 @@ import trimesh
 from planner import Plan
 from planner.geometry.table import Table
 from planner.geometry.table_parts import table_parts
-from planner.plan.frame import Frame
-from planner.plan.timeline import Timeline
+from planner.motion.sample import Sample
+from planner.motion.timeline import Timeline
 from tests.replay.hands import CLOSED_M, seen
 from tests.replay.hulls import Body, bodies, robot
 
@@ -40,7 +40,7 @@ class Look:
             neither is so, nan while it holds.
     """
 
-    frame: Frame
+    frame: Sample
     to_grip_m: dict[str, float]
 
 
@@ -84,7 +84,7 @@ def too_low(look: Look, table: Table) -> Iterator[tuple[str, float]]:
                     yield link.name, depth_m
 
 
-def _arm_links(arm: str, frame: Frame, table: Table) -> Iterator[tuple[Body, Any]]:
+def _arm_links(arm: str, frame: Sample, table: Table) -> Iterator[tuple[Body, Any]]:
     """An arm's links from the elbow outwards, and their poses in the table frame, where they are low."""
     robot().update_cfg(frame.joints)
     base = trimesh.transformations.rotation_matrix(frame.base.yaw_rad, (0.0, 0.0, 1.0))
@@ -97,7 +97,7 @@ def _arm_links(arm: str, frame: Frame, table: Table) -> Iterator[tuple[Body, Any
                 yield link, pose
 
 
-def _slabs(frame: Frame) -> list[Any]:
+def _slabs(frame: Sample) -> list[Any]:
     """Where nothing may be: convex pieces of what lies on the table, 3 cm high."""
     corners = frame.cloth.vertices[frame.cloth.triangles]
     lying = corners[(np.abs(corners[:, :, 2]) < OVER_CLOTH_M).all(axis=1)][:, :, :2]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from planner.geometry.table import Table
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from tests.replay.hands import robot
 from tests.replay.hulls import contacts
 

@@ -5,8 +5,8 @@ from functools import cache
 from typing import Any
 
 from planner import Plan, load_garment
-from planner.plan.found_plan import FoundPlan
-from tests.plan.found import found_plan
+from planner.planning.found_plan import FoundPlan
+from tests.planning.found import found_plan
 
 SOLVABLE = (
     "t-shirt",

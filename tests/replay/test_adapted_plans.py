@@ -13,11 +13,11 @@ from planner import Garment, Scene, Task, find_plan, load_garment, make_plan, qu
 from planner.folds.fold import Fold
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.plan.found_plan import FoundPlan
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
+from planner.planning.found_plan import FoundPlan
 from tests.builders import fold, garment, rectangle_points
 from tests.laws.law import LONG
-from tests.plan.found import found_plan
+from tests.planning.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 from tests.replay.planned import IMPOSSIBLE, SOLVABLE, planned

@@ -9,7 +9,7 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from planner import Garment, Scene, load_garment, make_plan
 from planner.geometry.table import Table
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 

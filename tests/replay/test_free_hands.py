@@ -7,7 +7,7 @@ import pytest
 from hypothesis import settings
 
 from planner.geometry.table import Table
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.free_hands import Look, in_table, looks, too_low
 from tests.replay.hands import CLOSED_M

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.checker import check
 from tests.replay.hands import Moment, distance_to_way, require_joint_limits, seen

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import settings
 
 from planner.geometry.table import Table
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.hands import robot
 from tests.replay.joints import RATE_HZ, arm_joints, require_clear, require_speeds, speed_limits

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.shortfall import Shortfall
-from planner.robot.aim import Aim
+from planner.robot.aim import ToolPose
 from planner.robot.approaches import APPROACHES
 from planner.robot.arm import read_arm
 from planner.robot.joint_slack import slacks
@@ -224,7 +224,7 @@ def test_the_joints_slacks_are_those_of_the_kernel():
     compared = 0
     for _ in range(2000):
         axis = rng.normal(size=3)
-        aim = Aim(*rng.uniform(-0.8, 0.8, 3), *(axis / np.linalg.norm(axis)))
+        aim = ToolPose(*rng.uniform(-0.8, 0.8, 3), *(axis / np.linalg.norm(axis)))
         pan = rng.uniform(shape.pan.low, shape.pan.high)
         for branch, least in zip((1.0, -1.0), slacks(shape, aim, pan), strict=True):
             if least > -1.0:

@@ -16,9 +16,9 @@ import pytest
 
 from planner import Plan, load_garment
 from planner.errors import FieldError
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 from planner.task.plan import VERSION
-from tests.plan.found import found_plan
+from tests.planning.found import found_plan
 from tests.replay.planned import planned
 
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.ui.editor.aids import Pile
-from planner.plan.frame import ClothSurface
+from planner.motion.sample import ClothSurface
 
 _GAP_M = 0.0004
 

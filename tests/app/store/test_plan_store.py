@@ -10,7 +10,7 @@ import pytest
 
 from app.store.plan_store import LIVE_MAX, PlanStore, UnknownPlanError
 from planner import Plan, load_garment, make_plan
-from planner.plan.timeline import Timeline
+from planner.motion.timeline import Timeline
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,334 @@
+"""Ways to remove a cause: what is changed, by how much, and what is said of it once it has been tried."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.explain.reason_grips import needed_radius
+from planner.explain.reason_words import reached_with_comfort, reached_with_cone
+from planner.explain.relaxed import Relaxed
+from planner.explain.suggestion_grid import Room
+from planner.geometry.pose import Point3
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
+from planner.message import Message
+from planner.planning.trial import Trial
+from planner.primitives.context import Context
+from planner.task.reason import Code, Reason
+from planner.task.scene import SUPPORT_ANGLE_MAX_RAD
+
+FRICTION_MAX = 10.0
+"""No scene has a larger coefficient."""
+
+_UPRIGHT = 0.5
+"""A direction with a larger component along z than this is up or down."""
+
+_FURTHER_M = (0.001, 0.1, 0.3)
+"""Cloth that is moved just so far that it may lie there is tried so much further on too (m)."""
+
+_BEYOND_M = (0.0, 0.025, 0.05, 0.1, 0.3)
+"""Where no shift was found that does, cloth is moved so much further than the point is short (m): drags go by 0.1 m, so
+between their places less may do."""
+
+_THIRD_HAND_CORNERS_MAX = 12
+"""Of cloth with more corners there are too many ways for three hands to hold it."""
+
+_GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Way:
+    """A way to remove a cause.
+
+    Attributes:
+        kind: what is changed; two of one kind are not combined.
+        amounts: by how much, tried in turn, the last allows most; empty where the cause is there or not.
+        applied: a problem with the cause removed by an amount.
+        told: the reason once that was tried.
+        needed: the amount with which what was found would do as well, where that can be told.
+        exact: with so much less than the least that is told the fold cannot be done.
+        is_dream: whether no robot can be so changed: it shows what stands in the way all the same.
+    """
+
+    kind: str
+    amounts: tuple[float, ...]
+    applied: Callable[[Relaxed, float], Relaxed]
+    told: Callable[[Reason, float], Reason] = lambda reason, _: reason
+    needed: Callable[[Trial], float] | None = None
+    exact: float = 0.001
+    is_dream: bool = False
+
+    @property
+    def most(self) -> float:
+        """The largest amount; 0 where there are none."""
+        return max(self.amounts, default=0.0)
+
+
+COLLISIONS_IGNORED = Way("collision", (), lambda relaxed, _: relaxed.with_collisions_ignored())
+"""What shows that nothing but the arms' touching something stands in the way."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """What may be a cause, and ways to remove it, those that a person can do first."""
+
+    reason: Reason
+    ways: tuple[Way, ...]
+
+
+def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None) -> Iterator[Candidate]:
+    """What may keep a fold from being done, or with None the cloth from staying where it lies at the start.
+
+    Args:
+        context: the problem, with what was met.
+        measured: what seems to stand in the way.
+        fold: the fold.
+    """
+    mine = [reason for reason in measured if reason.fold == fold]
+    if context.has_slipped and context.scene.friction < FRICTION_MAX:
+        slip = next((reason for reason in mine if reason.code is Code.SLIPS), _slips_on_the_way(context, fold))
+        yield Candidate(slip, (_friction(context, slip),))
+    moved: set[Point3 | None] = set()
+    for reason in sorted(mine, key=lambda reason: reason.short_by_m or 0.0):
+        ways = tuple(_ways(context, reason))
+        is_told = ways and ways[0].kind == "cloth" and reason.code is not Code.OUT_OF_REACH and reason.towards in moved
+        if ways and not is_told:
+            moved.add(reason.towards)
+            yield Candidate(reason, ways)
+
+
+def _ways(context: Context, reason: Reason) -> Iterator[Way]:
+    if reason.code in _GRIPS and reason.fold is not None:
+        yield from _hands(context, reason, reason.fold)
+    elif reason.code in (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE):
+        yield from _cloth_moved(context, reason)
+    elif reason.code is Code.OUT_OF_REACH:
+        yield from _reach(context, reason)
+    elif reason.code is Code.COLLISION:
+        yield COLLISIONS_IGNORED
+
+
+def _friction(context: Context, slip: Reason) -> Way:
+    now = context.scene.friction
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        return relaxed.with_scene(replace(relaxed.context.scene, friction=min(now + amount, FRICTION_MAX)))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        needed = now + amount
+        if reason.needed_friction is not None and abs(reason.needed_friction - needed) <= LENGTH_M:
+            return reason
+        other = _slips_on_the_way(context, reason.fold, needed)
+        return replace(other, offset_m=reason.offset_m, point=reason.point)
+
+    measured = () if slip.needed_friction is None else (slip.needed_friction - now,)
+    amounts = (*(by for by in measured if now + by < FRICTION_MAX), FRICTION_MAX - now)
+    return Way("friction", amounts, applied, told, lambda trial: trial.needed_friction - now)
+
+
+def _slips_on_the_way(context: Context, fold: int | None, needed: float | None = None) -> Reason:
+    """That the cloth slips, in a drag that the fold would need or after it."""
+    label = "" if fold is None else f"{context.sequence.folds[fold].label}: "
+    text = f"{label}the cloth slips wherever it would be in reach; the friction is {context.scene.friction:.2f}"
+    if needed is not None:
+        text += f", {math.ceil(needed * 100.0 - LENGTH_M) / 100.0:.2f} would hold it"
+    says = Message("slips_on_the_way", text, {"friction": context.scene.friction, "needed_friction": needed})
+    return Reason(fold, Code.SLIPS, says, needed_friction=needed)
+
+
+def _hands(context: Context, reason: Reason, fold: int) -> Iterator[Way]:
+    """Grips that hold more, in the fold alone or in drags too; stiffer cloth; hands that may be nearer; one more."""
+    if reason.needed_grip_radius_m is None:
+        yield _blue(fold)
+        return
+    drawn, needed = context.sequence.folds[fold], reason.needed_grip_radius_m
+    by_m, one_hands_m = needed - drawn.grip_radius_m, _one_hands_radius(context, fold) - drawn.grip_radius_m
+    yield _grip_radius(context, fold, (by_m,), needed, in_drags=False)
+    yield _grip_radius(context, fold, tuple(sorted({by_m, max(one_hands_m, by_m)})), needed, in_drags=True)
+    if reason.code is Code.GRIPS_TOO_CLOSE and reason.short_by_m is not None:
+        apart_m = context.grips_apart_m
+        yield Way("apart", (reason.short_by_m,), lambda relaxed, by: relaxed.with_grips_nearer(apart_m - by))
+    if reason.code is Code.TOO_MANY_GRIPS:
+        yield _stiffer(context, fold)
+        if len(context.sequence.garment.outline) <= _THIRD_HAND_CORNERS_MAX:
+            yield _third_hand(context, fold)
+
+
+def _grip_radius(context: Context, fold: int, amounts: tuple[float, ...], needed: float, *, in_drags: bool) -> Way:
+    now = context.sequence.folds[fold].grip_radius_m
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        garment = relaxed.context.sequence.garment
+        wider = replace(garment.folds[fold], grip_radius_m=now + amount)
+        folds = (*garment.folds[:fold], wider, *garment.folds[fold + 1 :])
+        of_drags = max(garment.grip_radius_m, now + amount) if in_drags else garment.grip_radius_m
+        return relaxed.with_garment(replace(garment, folds=folds, grip_radius_m=of_drags))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        if abs(now + amount - needed) <= LENGTH_M and not in_drags:
+            return reason
+        radius = math.ceil((now + amount) * 1000.0 - LENGTH_M) / 1000.0
+        where = ", in drags too" if in_drags else ""
+        text = f"{context.sequence.folds[fold].label}: a grip radius of {radius:.3f} m{where} would do, now {now:g} m"
+        values = {"grip_radius_m": now, "needed_grip_radius_m": now + amount, "in_drags": in_drags}
+        says = Message("wider_grip", text, values)
+        return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=now + amount)
+
+    return Way("grip_radius", amounts, applied, told)
+
+
+def _stiffer(context: Context, fold: int) -> Way:
+    """Cloth so stiff that more of it holds itself."""
+    now = context.scene.support_angle_rad
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        angle = min(now + amount, SUPPORT_ANGLE_MAX_RAD)
+        return relaxed.with_scene(replace(relaxed.context.scene, support_angle_rad=angle))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        degrees = math.degrees(now + amount)
+        text = f"{context.sequence.folds[fold].label}: too many points must be held, unless cloth holds itself within "
+        values = {"support_angle_rad": now, "needed_support_angle_rad": now + amount}
+        says = Message("stiffer_cloth", f"{text}{degrees:.0f} degrees of upright, now {math.degrees(now):.0f}", values)
+        return replace(reason, says=says, short_by_m=None, needed_grip_radius_m=None)
+
+    return Way("support_angle", (SUPPORT_ANGLE_MAX_RAD - now,), applied, told, exact=math.radians(0.5))
+
+
+def _third_hand(context: Context, fold: int) -> Way:
+    hands = len(context.reach.arm_names)
+
+    def told(reason: Reason, _: float) -> Reason:
+        label = context.sequence.folds[fold].label
+        text = f"{label}: must be held at more points than {hands} hands can; one more would do"
+        return replace(reason, says=Message("one_more_hand", text, {"hands": hands}), needed_grip_radius_m=None)
+
+    return Way("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_dream=True)
+
+
+def _one_hands_radius(context: Context, fold: int) -> float:
+    """The radius with which one hand would hold all that a fold needs (m)."""
+    drawn, arms = context.sequence.folds[fold], len(context.reach.arm_names)
+    vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
+    return needed_radius(context.sequence.moving(fold), drawn.line, vertices, 1) if len(vertices) else 0.0
+
+
+def _blue(fold: int) -> Way:
+    def applied(relaxed: Relaxed, _: float) -> Relaxed:
+        garment = relaxed.context.sequence.garment
+        blue = replace(garment.folds[fold], kind="blue")
+        return relaxed.with_garment(replace(garment, folds=(*garment.folds[:fold], blue, *garment.folds[fold + 1 :])))
+
+    return Way("blue", (), applied)
+
+
+def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
+    """The cloth moved so far that it lies as it must; of what reaches behind a line, that it can be carried."""
+    if reason.fold is None:
+        yield from _onto_table(context)
+    elif reason.shift_m is not None and reason.shift_towards is not None:
+        yield _moved("cloth", reason.shift_towards, reason.shift_m, _FURTHER_M)
+    elif reason.short_by_m is not None and reason.point is None:
+        yield Way(
+            "behind", (reason.short_by_m,), lambda relaxed, by: relaxed.with_reach_behind(context.behind_max_m + by)
+        )
+
+
+def _onto_table(context: Context) -> Iterator[Way]:
+    """The cloth moved until all of it lies on the table, or as far on the way there as is enough."""
+    room = Room.of(context.sequence.garment, context.placement, context.scene.table)
+    x, y = room.nearest
+    length = math.hypot(x, y)
+    if not room.is_none and length > LENGTH_M:
+        yield _moved("cloth", (x / length, y / length, 0.0), length)
+
+
+def _moved(kind: str, towards: Point3, by_m: float, further_m: tuple[float, ...] = ()) -> Way:
+    """The cloth moved in a direction of the table frame, by so much, or further by one of some lengths (m)."""
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        x, y, _ = (amount * part for part in towards)
+        return relaxed.with_placement(relaxed.context.placement.moved(x, y))
+
+    amounts = tuple(by_m + 2 * LENGTH_M + more for more in (0.0, *further_m))
+    return Way(kind, amounts, applied, lambda reason, by: replace(reason, shift_m=by, shift_towards=towards))
+
+
+def _reach(context: Context, reason: Reason) -> Iterator[Way]:
+    """The hands' way shifted, by moving cloth or robot; less comfort; arms of any length."""
+    comfort = list(_comfort(context, reason))
+    if reason.cause == "comfort_only":
+        yield from comfort
+    if reason.station is not None and reason.shift_m is not None and reason.shift_towards is not None:
+        yield from _shifts(context, reason.station, reason.shift_m, reason.shift_towards)
+    elif reason.station is not None and reason.short_by_m is not None and reason.towards is not None:
+        x, y, _ = reason.towards
+        flat = math.hypot(x, y)
+        if flat > _UPRIGHT:
+            yield _moved("cloth", (x / flat, y / flat, 0.0), reason.short_by_m, _BEYOND_M)
+    if reason.cause != "comfort_only":
+        yield from comfort
+    if context.scene.approach_cone_rad < math.pi - ANGLE_RAD:
+        yield _cone(context)
+    yield Way("arms", (), lambda relaxed, _: relaxed.with_long_arms(), is_dream=True)
+
+
+def _cone(context: Context) -> Way:
+    """Pinches that come from further round the cloth."""
+    now = context.scene.approach_cone_rad
+
+    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+        return relaxed.with_scene(replace(relaxed.context.scene, approach_cone_rad=min(now + amount, math.pi)))
+
+    def told(reason: Reason, amount: float) -> Reason:
+        return reached_with_cone(reason, now + amount)
+
+    return Way("cone", (math.pi - now,), applied, told, exact=math.radians(0.5))
+
+
+def _comfort(context: Context, reason: Reason) -> Iterator[Way]:
+    """Less comfort, to be tried together with other ways where a point lacks more than all of it."""
+    now = context.reach.comfort_m
+    if now <= 0.0:
+        return
+
+    def told(reason: Reason, amount: float) -> Reason:
+        return reached_with_comfort(reason, max(now - amount, 0.0))
+
+    amounts = (now,) if reason.comfort_m is None else (now - reason.comfort_m, now)
+    yield Way("comfort", amounts, lambda relaxed, by: relaxed.with_comfort(max(now - by, 0.0)), told)
+
+
+def _shifts(context: Context, station: str, by_m: float, towards: Point3) -> Iterator[Way]:
+    if abs(towards[2]) > _UPRIGHT:
+        yield from _lifted(by_m, towards)
+        return
+    yield _moved("cloth", towards, by_m)
+
+    def robot_moved(relaxed: Relaxed, amount: float) -> Relaxed:
+        x, y, _ = (-amount * part for part in towards)
+        stations = tuple((n, p.moved(x, y) if n == station else p) for n, p in relaxed.context.scene.stations)
+        return relaxed.with_scene(replace(relaxed.context.scene, stations=stations))
+
+    yield Way("station", (by_m,), robot_moved, _told_shift(towards))
+
+
+def _lifted(by_m: float, towards: Point3) -> Iterator[Way]:
+    """The table raised or lowered, or the torso the other way."""
+
+    def table_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
+        scene = relaxed.context.scene
+        height = scene.table.height_m + amount * towards[2]
+        return relaxed.with_scene(replace(scene, table=replace(scene.table, height_m=height)))
+
+    def torso_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
+        scene = relaxed.context.scene
+        return relaxed.with_scene(replace(scene, torso_m=scene.torso_m - amount * towards[2]))
+
+    yield Way("table", (by_m,), table_lifted, _told_shift(towards))
+    yield Way("torso", (by_m,), torso_lifted, _told_shift(towards))
+
+
+def _told_shift(towards: Point3) -> Callable[[Reason, float], Reason]:
+    return lambda reason, amount: replace(reason, shift_m=amount, shift_towards=towards)

@@ -1,0 +1,143 @@
+"""Whether a garment's folds are legal, by how many grippers each can be held, and why at which corners."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from planner.cloth.garment import Garment
+from planner.explain.reason_obstacle import of_obstacle
+from planner.explain.vertex_check import VertexCheck, vertex_checks
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.primitives.context import Context
+from planner.primitives.fold_trial import grips_obstacle, held_covers
+from planner.primitives.obstacle import Obstacle
+from planner.primitives.state import Held, State
+from planner.robot.pr2 import load_robot
+from planner.task.reason import Code
+from planner.task.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class FoldCheck:
+    """What one fold needs.
+
+    Attributes:
+        name: the fold's name.
+        is_red: whether it is folded with what the fold before it left held.
+        vertices: every corner of the part that moves, and why it must be held or need not be.
+        grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
+        grips_needed: how many; None when more than there are hands.
+        problem: why the hands cannot hold it, with what would do; None if they can.
+    """
+
+    name: str
+    is_red: bool
+    vertices: tuple[VertexCheck, ...]
+    grips: tuple[Point2, ...]
+    grips_needed: int | None
+    problem: str | None
+
+    @property
+    def must_hold(self) -> tuple[Point2, ...]:
+        """The corners that must be held, article frame (m)."""
+        return tuple(vertex.point for vertex in self.vertices if vertex.must_be_held)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The check as JSON."""
+        return {
+            "name": self.name,
+            "kind": "red" if self.is_red else "blue",
+            "grips_needed": self.grips_needed,
+            "grips": [list(grip) for grip in self.grips],
+            "problem": self.problem,
+            "vertices": [
+                {"point": list(v.point), "must_be_held": v.must_be_held, "why": v.support.value} for v in self.vertices
+            ],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class GarmentCheck:
+    """What a garment is, and what all its folds need.
+
+    Attributes:
+        points: how many points its outline has.
+        size_m: the extents of its drawing along x and y (m).
+        area_m2: its area (m^2).
+        folds: one entry for each fold in the user's order.
+    """
+
+    points: int
+    size_m: Point2
+    area_m2: float
+    folds: tuple[FoldCheck, ...]
+
+    @property
+    def is_holdable(self) -> bool:
+        """Whether the hands suffice for every fold."""
+        return all(fold.problem is None for fold in self.folds)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The check as JSON."""
+        return {
+            "outline": {"points": self.points, "size_m": list(self.size_m), "area_m2": self.area_m2},
+            "is_holdable": self.is_holdable,
+            "folds": [fold.to_dict() for fold in self.folds],
+        }
+
+
+def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = "pr2") -> GarmentCheck:
+    """Check every fold of a garment, in the user's order.
+
+    Args:
+        garment: the garment.
+        scene: for its support angle; None for the default scene.
+        robot: the robot's name, for its number of arms.
+
+    Raises:
+        FoldError: a fold is not legal.
+    """
+    scene, machine = scene or Scene(), load_robot(robot)
+    reach = machine.reach(scene.torso_m, 0.0)
+    context = Context(FoldSequence.of(garment), scene, reach, garment.placement, machine.card.base_radius_m)
+    x0, y0, x1, y1 = garment.pattern.bounds
+    folds = tuple(_checks(context))
+    return GarmentCheck(len(garment.outline), (x1 - x0, y1 - y0), garment.pattern.area, folds)
+
+
+def _checks(context: Context) -> Iterator[FoldCheck]:
+    """Every fold, each with what the one before may leave held."""
+    angle, arms = context.scene.support_angle_rad, len(context.reach.arm_names)
+    left_held: list[tuple[Point2, ...]] = []
+    for fold in context.sequence.folds:
+        done = (1 << fold.index) - 1
+        found = context.sequence.covers(fold.index, angle, arms)
+        if fold.is_red:
+            held_sets = [c for held in left_held for c in held_covers(context, fold.index, _as_held(held))]
+            covers = [tuple(h.point for h in cover) for cover in held_sets]
+            obstacle = None if covers else _not_held(context, done, fold.index, left_held)
+        else:
+            covers = list(found.covers)
+            obstacle = grips_obstacle(context, State(done, (0.0, 0.0), 0, 0), fold.index)
+        over = Isometry.reflection(fold.line)
+        left_held = [tuple(over.apply_point(grip) for grip in cover) for cover in covers]
+        yield FoldCheck(
+            fold.name,
+            fold.is_red,
+            vertex_checks(context.sequence.moving(fold.index), fold.line, angle),
+            covers[0] if covers else (),
+            len(covers[0]) if covers else found.count,
+            None if obstacle is None else of_obstacle(context, obstacle).message,
+        )
+
+
+def _not_held(context: Context, done: int, fold: int, left_held: list[tuple[Point2, ...]]) -> Obstacle:
+    """That of what the fold before may leave held nothing suffices: the first of it is told of."""
+    held = _as_held(left_held[0]) if left_held else ()
+    return Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, State(done, (0.0, 0.0), 0, 0, held))
+
+
+def _as_held(grips: tuple[Point2, ...]) -> tuple[Held, ...]:
+    return tuple(Held(arm, grip) for arm, grip in enumerate(grips))

@@ -1,0 +1,245 @@
+"""What one attempt at a fold lacked: the point that was furthest out of reach, and by how much.
+
+A hand follows its way in one orientation. So in each orientation the worst point counts, and the orientation in which
+it is least out of reach. Looked at are, each stricter than the one before, until something is lacking:
+
+1. start, apex and end of each hand's way, each from the back-off that suits it best;
+2. all of its waypoints;
+3. whether the base can drive from back-off to back-off while the hand rests;
+4. both hands' ways at once, from common back-offs.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.shortfall import Shortfall
+from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.fold_trial import FoldTrial
+from planner.primitives.state import State
+
+_ORIENTATIONS_MAX, _PAIRED_MAX = 8, 4
+"""So many of the best orientations of a hand are looked at in the third and in the fourth way."""
+
+_FINEST_M = 0.002
+"""Shortfalls that differ by less are the same (m): each is settled to a millimetre."""
+
+
+class Demand(StrEnum):
+    """What is asked of a point that is out of reach."""
+
+    ALONE = "alone"
+    ONE_ORIENTATION = "one orientation"
+    DRIVING = "driving"
+    WITH_THE_OTHER_HAND = "with the other hand"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Miss:
+    """The point of an attempt that is furthest out of reach, from where it is least so.
+
+    Attributes:
+        state: the state in which the attempt was made.
+        trial: the attempt.
+        stands: the back-offs at which the base may be when it begins, as a bit mask.
+        grip: which grip.
+        waypoint: which of the trial's waypoints.
+        back_off: from where it is least so.
+        shortfall: by how much, and why.
+        demand: what is asked of it.
+    """
+
+    state: State
+    trial: FoldTrial
+    stands: int
+    grip: int
+    waypoint: int
+    back_off: int
+    shortfall: Shortfall
+    demand: Demand
+
+    @property
+    def short_by_m(self) -> float:
+        """How far the point would have to be displaced (m)."""
+        return self.shortfall.short_by_m
+
+
+def miss_of(context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> Miss | None:
+    """What an attempt lacks; None if the arms can follow it after all.
+
+    Args:
+        context: the problem.
+        state: where it begins.
+        trial: the attempt.
+        stands: the back-offs at which the base may be when it begins, as a bit mask.
+        at_most_m: once something is known to lack as much (m), that is answered and no more is looked at.
+    """
+    return _Attempt(context, state, trial, stands, at_most_m).miss()
+
+
+def explained(context: Context, miss: Miss) -> Miss:
+    """The same, with whether the point alone, turned as it likes, would be within reach."""
+    if miss.demand is not Demand.ONE_ORIENTATION:
+        return miss
+    stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.back_offs)
+    seen = _seen(context, miss.state, miss.trial.tools[miss.grip, miss.waypoint], stands)
+    alone = context.reach.shortfall(miss.trial.arms[miss.grip], seen, miss.trial.approaches[miss.grip], miss.short_by_m)
+    is_alone = alone is not None and alone.short_by_m >= miss.short_by_m - _FINEST_M
+    return replace(miss, demand=Demand.ALONE) if is_alone else miss
+
+
+class _Attempt:
+    def __init__(self, context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> None:
+        self._context = context
+        self._state = state
+        self._trial = trial
+        self._stands = stands
+        self._at_most_m = at_most_m
+
+    def miss(self) -> Miss | None:
+        hands = range(len(self._trial.arms))
+        last = len(self._trial.sweeps) - 1
+        found = self._worst_hand((hand, (last // 2, last, 0)) for hand in hands)
+        if found is not None:
+            return found
+        masks = [self._masks(hand) for hand in hands]
+        found = self._worst_hand((hand, range(last + 1)) for hand in hands if not self._followed(masks[hand]))
+        if found is not None:
+            return found
+        return self._on_the_way(masks)
+
+    def _worst_hand(self, ways: Iterable[tuple[int, Sequence[int]]]) -> Miss | None:
+        """The hand that lacks most at some of its waypoints, in one orientation."""
+        worst: Miss | None = None
+        for hand, waypoints in ways:
+            worst = _worst((worst, self._in_one_orientation(hand, waypoints)))
+            if worst is not None and worst.short_by_m >= self._at_most_m:
+                return worst
+        return worst
+
+    def _in_one_orientation(self, hand: int, waypoints: Sequence[int]) -> Miss | None:
+        context, trial = self._context, self._trial
+        begin = np.resize(_bits(self._stands), context.back_offs)
+        stands = [begin if waypoint == 0 else np.arange(context.back_offs) for waypoint in waypoints]
+        seen = np.stack(
+            [_seen(context, self._state, trial.tools[hand, w], s) for w, s in zip(waypoints, stands, strict=True)]
+        )
+        found = context.reach.shortfall_together(trial.arms[hand], seen, trial.approaches[hand], self._at_most_m)
+        if found is None:
+            return None
+        which, shortfall = found
+        back_off = int(stands[which][shortfall.seen_from])
+        return self._miss(hand, waypoints[which], back_off, shortfall, Demand.ONE_ORIENTATION)
+
+    def _miss(self, hand: int, waypoint: int, back_off: int, shortfall: Shortfall, demand: Demand) -> Miss:
+        return Miss(self._state, self._trial, self._stands, hand, waypoint, back_off, shortfall, demand)
+
+    def _masks(self, hand: int) -> NDArray[np.uint32]:
+        """For each approach and waypoint, on its own, the back-offs from which it is in comfort, shape (k, n)."""
+        context, trial = self._context, self._trial
+        points = context.in_base(self._state.station, trial.tools[hand])
+        arm, approaches = trial.arms[hand], trial.approaches[hand]
+        columns = [
+            context.reach.back_offs(arm, point[None], approaches, context.back_offs, BACK_OFF_STEP_M)
+            for point in points
+        ]
+        return np.hstack(columns)
+
+    def _followed(self, masks: NDArray[np.uint32]) -> list[int]:
+        """The orientations in which a hand's whole way can be followed, those with the most freedom first."""
+        able = [number for number, row in enumerate(masks) if self._stuck(row) is None]
+        freedom = np.bitwise_count(masks).sum(axis=1, dtype=np.int64)
+        return sorted(able, key=lambda number: -int(freedom[number]))
+
+    def _on_the_way(self, masks: list[NDArray[np.uint32]]) -> Miss | None:
+        """What is lacking although every waypoint of each hand can be had in one orientation."""
+        driving = _worst(self._driving(hand, rows) for hand, rows in enumerate(masks))
+        return driving if driving is not None else self._together(masks)
+
+    def _driving(self, hand: int, masks: NDArray[np.uint32]) -> Miss | None:
+        """What a hand lacks where the base cannot go on; None if it can in some orientation."""
+        if self._followed(masks):
+            return None
+        complete = np.flatnonzero(masks.all(axis=1))[:_ORIENTATIONS_MAX]
+        stuck = ((number, self._stuck(masks[number])) for number in complete)
+        misses = (self._lacking(hand, int(n), *at, Demand.DRIVING) for n, at in stuck if at is not None)
+        return _least(misses)
+
+    def _stuck(self, row: NDArray[np.uint32]) -> tuple[int, int] | None:
+        """At which waypoint the base cannot go on, and where it is then; None if it can follow to the end."""
+        before = self._stands
+        for waypoint, mask in enumerate(row):
+            after = _spread(before, int(mask))
+            if not after:
+                return waypoint, before
+            before = after
+        return None
+
+    def _lacking(self, hand: int, orientation: int, waypoint: int, back_offs: int, demand: Demand) -> Miss | None:
+        """What one tool point lacks in one orientation from some back-offs, given as a bit mask."""
+        context, trial = self._context, self._trial
+        stands = _bits(back_offs)
+        seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
+        approach = trial.approaches[hand][orientation : orientation + 1]
+        found = context.reach.shortfall(trial.arms[hand], seen, approach, self._at_most_m)
+        if found is None:
+            return None
+        return self._miss(hand, waypoint, stands[found.seen_from], found, demand)
+
+    def _together(self, masks: list[NDArray[np.uint32]]) -> Miss | None:
+        """What the hands lack at once, each alone having a way; None if they lack nothing."""
+        if len(masks) < 2:
+            return None
+        left, right = (self._followed(of_hand)[:_PAIRED_MAX] for of_hand in masks)
+        misses: list[Miss | None] = []
+        for i in left:
+            for j in right:
+                stuck = self._stuck(masks[0][i] & masks[1][j])
+                if stuck is None:
+                    return None
+                misses += self._held_up(stuck, (masks[0][i], masks[1][j]), (i, j))
+        return _least(misses)
+
+    def _held_up(
+        self, stuck: tuple[int, int], rows: tuple[NDArray[np.uint32], NDArray[np.uint32]], orientations: tuple[int, int]
+    ) -> Iterator[Miss | None]:
+        """What either hand lacks where both get stuck, from where the other has what it needs."""
+        waypoint, before = stuck
+        for hand, other in ((0, 1), (1, 0)):
+            stands = _spread(before, int(rows[other][waypoint]))
+            if stands:
+                yield self._lacking(hand, orientations[hand], waypoint, stands, Demand.WITH_THE_OTHER_HAND)
+
+
+def _bits(mask: int) -> list[int]:
+    return [bit for bit in range(mask.bit_length()) if mask >> bit & 1]
+
+
+def _seen(context: Context, state: State, tool: FloatArray, back_offs: Sequence[int] | NDArray[np.int64]) -> FloatArray:
+    """A tool point of the table frame in the base frame from each of some back-offs, shape (n, 3), m."""
+    at_station = context.in_base(state.station, tool[None])
+    return np.asarray(at_station + np.array(back_offs)[:, None] * np.array([BACK_OFF_STEP_M, 0.0, 0.0]))
+
+
+def _spread(seed: int, mask: int) -> int:
+    """The back-offs of a mask to which the base can drive within it from those of a seed."""
+    seed &= mask
+    while True:
+        wider = (seed | seed << 1 | seed >> 1) & mask
+        if wider == seed:
+            return seed
+        seed = wider
+
+
+def _worst(misses: Iterable[Miss | None]) -> Miss | None:
+    """The miss that lacks most; of equals the first; None if there is none."""
+    return max((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)
+
+
+def _least(misses: Iterable[Miss | None]) -> Miss | None:
+    """The miss that lacks least; of equals the first; None if there is none."""
+    return min((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)

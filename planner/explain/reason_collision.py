@@ -1,0 +1,134 @@
+"""What the arms cannot help touching: in a fold, or in a drag that some fold would need.
+
+Where the arms fail to drag the cloth, no fold has been tried: yet it is a fold that cannot be done. So a drag is told
+with each fold that would be within reach right after it, and with none where it would only lead to another drag.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from planner.explain.reason_reach import from_every_station
+from planner.explain.reason_words import carried, dragged, height_words
+from planner.geometry.pose import Point2
+from planner.message import Message
+from planner.primitives.context import Context
+from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_way import can_follow
+from planner.primitives.obstacle import BlockingContact, Obstacle
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+from planner.task.reason import Code, Reason
+
+_START = (0.0, 0.0)
+
+
+def collisions(context: Context, step: Step, contact: BlockingContact | None) -> Iterator[Obstacle]:
+    """A step that the arms cannot perform although its places are in reach, as what stands in the way of folds.
+
+    Args:
+        context: the problem.
+        step: a fold or a drag.
+        contact: what is in the arms' way, where that is known.
+    """
+    depth_m, own = math.inf if contact is None else contact.depth_m, step.details.get("fold")
+    if own is not None:
+        yield Obstacle(own, Code.COLLISION, None, depth_m, step.before, contact=contact)
+        return
+    held = _held_by(context, step, contact)
+    for fold in _next_folds(context, step.after) or (None,):
+        yield Obstacle(fold, Code.COLLISION, None, depth_m, step.before, held, contact, dragged_to=step.after.offset)
+
+
+def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reason:
+    """A collision as a reason; `state` is that in which the fold or the drag begins."""
+    contact, station = obstacle.contact, context.scene.stations[state.station][0]
+    label = "" if obstacle.fold is None else f"{context.sequence.folds[obstacle.fold].label}: "
+    begin = f"{label}{_drag(obstacle, state)}from {station} "
+    values = {"station": station, "drag": _way(obstacle, state), **dragged(state)}
+    if contact is None:
+        text = (
+            f"{begin}the hands could be where they must, but the arms cannot get them there and along "
+            f"their way without touching the table, the robot or each other{carried(state)}"
+        )
+        says = Message("arms_cannot_get_there", text, values)
+        return Reason(obstacle.fold, Code.COLLISION, says, station=station, offset_m=state.offset)
+    x, y, z = contact.point
+    first, second = contact.parts
+    text = (
+        f"{begin}all is in reach, but with the {contact.arm} gripper at ({x:.2f}, {y:.2f}) m, "
+        f"{height_words(z)}, the {first} would hit the {second} by {contact.depth_m:.3f} m at least, however the arm "
+        f"is bent{carried(state)}"
+    )
+    return Reason(
+        obstacle.fold,
+        Code.COLLISION,
+        Message("collision", text, {**values, **_touching(contact)}),
+        cause=contact.cause,
+        point=contact.point,
+        short_by_m=contact.depth_m,
+        is_at_least=True,
+        arm=contact.arm,
+        station=station,
+        offset_m=_offset_then(context, obstacle, state),
+    )
+
+
+def _touching(contact: BlockingContact) -> dict[str, Any]:
+    """What touches what, as values of a message."""
+    return {"arm": contact.arm, "at": list(contact.point), "parts": list(contact.parts), "depth_m": contact.depth_m}
+
+
+def _way(obstacle: Obstacle, state: State) -> list[float] | None:
+    """The drag in which the arms collide (m); None where they collide in the fold."""
+    if obstacle.dragged_to is None:
+        return None
+    return [to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True)]
+
+
+def _drag(obstacle: Obstacle, state: State) -> str:
+    """The drag in which the arms collide, in words."""
+    way = _way(obstacle, state)
+    if way is None:
+        return ""
+    dx, dy = way
+    whom = "" if obstacle.fold is None else " for it"
+    return f"to drag the cloth{whom} by ({dx:.2f}, {dy:.2f}) m, "
+
+
+def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
+    """How far the cloth has been dragged when the arms collide: so far as the hand there has taken what it holds."""
+    if obstacle.contact is None or obstacle.dragged_to is None or obstacle.point is None:
+        return state.offset
+    x, y = np.array(obstacle.contact.point[:2]) - context.placed(_START).to_outer(np.array(obstacle.point))
+    return (float(x), float(y))
+
+
+def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> Point2 | None:
+    """What the hand holds that collides, article frame (m)."""
+    for grip in step.grips:
+        if contact is not None and grip.arm == contact.arm:
+            x, y = context.placed(step.before.offset).to_inner(np.array(grip.pick[:2]))
+            return (float(x), float(y))
+    return None
+
+
+def _next_folds(context: Context, state: State) -> tuple[int, ...]:
+    """The folds that arms could do next that nothing is in the way of."""
+    folds = context.sequence.folds
+    return tuple(
+        f for f in context.sequence.dag.available(state.done) if not folds[f].is_red and _is_next(context, state, f)
+    )
+
+
+def _is_next(context: Context, state: State, fold: int) -> bool:
+    if geometric_obstacle(context, state, fold) is not None:
+        return False
+    stands = 1 << state.back_off if state.held else None
+    return any(
+        can_follow(context, at.station, trial, stands)
+        for at in from_every_station(context, state)
+        for trial in fold_trials(context, at, fold)
+    )

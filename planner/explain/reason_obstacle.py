@@ -1,0 +1,185 @@
+"""What an obstacle says, as a reason: its numbers worked out, and what would do."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from planner.explain.reason_collision import collision_reason
+from planner.explain.reason_grips import farthest_from, held_radius, needed_radius
+from planner.explain.reason_words import carried, dragged
+from planner.geometry.pose import FloatArray, Point2, Point3
+from planner.geometry.tolerance import LENGTH_M
+from planner.message import Message, plain_points
+from planner.primitives.context import Context
+from planner.primitives.fold_trial import geometric_obstacles, lifted_points
+from planner.primitives.grasping import nearest_pair_m
+from planner.primitives.obstacle import Obstacle
+from planner.primitives.state import State
+from planner.task.reason import Code, Reason
+
+_MOVE_STEP_M, _MOVES = 0.02, 50
+"""Where it is not known how far cloth must be moved, it is tried in such steps (m), and so many."""
+
+_UNKNOWN_M, _SLACK_M = 1.0, 1e-3
+"""The severity of what is not known, and how much further cloth is moved for a direction to count (m)."""
+
+_LISTED_MAX = 4
+"""Of more points only the outermost are told."""
+
+
+def of_obstacle(context: Context, obstacle: Obstacle) -> Reason:
+    """What an obstacle says, its numbers worked out."""
+    if obstacle.code is Code.COLLISION and obstacle.state is not None:
+        return collision_reason(context, obstacle, obstacle.state)
+    if obstacle.fold is not None and obstacle.state is not None:
+        if obstacle.code is Code.TOO_MANY_GRIPS:
+            return _too_many_grips(context, obstacle.fold)
+        if obstacle.code is Code.GRIPS_TOO_CLOSE:
+            return _grips_too_close(context, obstacle.fold)
+        if obstacle.code is Code.RED_NEEDS_HOLD:
+            held = lifted_points(context, obstacle.fold, obstacle.state.held)
+            return _red_needs_hold(context, obstacle.fold, tuple(held))
+    return _at_rest(context, obstacle)
+
+
+def lacking(reason: Reason, context: Context) -> float:
+    """How much is lacking, for telling small repairs from large ones (m, or of the friction coefficient)."""
+    if reason.needed_friction is not None:
+        return reason.needed_friction - context.scene.friction
+    return math.inf if reason.short_by_m is None else reason.short_by_m
+
+
+def _at_rest(context: Context, obstacle: Obstacle) -> Reason:
+    """How the cloth would lie or slip."""
+    is_slip = obstacle.code is Code.SLIPS
+    state = obstacle.state
+    move: tuple[float, Point3] | None = None
+    if obstacle.fold is not None and state is not None and not is_slip:
+        move = _least_move(context, obstacle, obstacle.fold, state)
+    point: Point3 | None = None
+    assert obstacle.says is not None
+    says = obstacle.says
+    if state is not None:
+        says = Message(says.code, says.text + carried(state), {**says.values, **dragged(state)})
+        if obstacle.point is not None:
+            x, y = context.placed(state.offset).to_outer(np.array(obstacle.point))
+            point = (float(x), float(y), 0.0)
+    return Reason(
+        obstacle.fold,
+        obstacle.code,
+        says,
+        point=point,
+        short_by_m=None if is_slip or obstacle.severity >= _UNKNOWN_M else obstacle.severity,
+        towards=None if move is None else move[1],
+        shift_m=None if move is None else move[0],
+        shift_towards=None if move is None else move[1],
+        offset_m=None if state is None else state.offset,
+        needed_friction=context.scene.friction + obstacle.severity if is_slip else None,
+    )
+
+
+def _least_move(context: Context, obstacle: Obstacle, fold: int, state: State) -> tuple[float, Point3] | None:
+    """How far the cloth would have to lie elsewhere for an obstacle of its kind to be gone (m), and in which direction.
+
+    Tried are the directions along the table's edges; None where none helps.
+    """
+    if math.isinf(obstacle.severity):
+        return None
+    steps = _MOVE_STEP_M * np.arange(1, _MOVES + 1)
+    known = [obstacle.severity] if obstacle.severity < _UNKNOWN_M else []
+    for step in (*known, *steps[steps > max(known, default=0.0)]):
+        for x, y in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+            if _is_gone(context, obstacle, fold, state, (x * step, y * step)):
+                return float(step), (x, y, 0.0)
+    return None
+
+
+def _is_gone(context: Context, obstacle: Obstacle, fold: int, state: State, move: Point2) -> bool:
+    """Whether no obstacle of a kind is left with the cloth moved (m)."""
+    slack = 1.0 + _SLACK_M / max(math.hypot(*move), LENGTH_M)
+    at = replace(state, offset=(state.offset[0] + slack * move[0], state.offset[1] + slack * move[1]))
+    return all(other.code is not obstacle.code for other in geometric_obstacles(context, at, fold))
+
+
+def _too_many_grips(context: Context, fold: int) -> Reason:
+    drawn, arms = context.sequence.folds[fold], len(context.reach.arm_names)
+    vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
+    needed = needed_radius(context.sequence.moving(fold), drawn.line, vertices, arms)
+    ordered = vertices[np.argsort(drawn.line.positions(vertices), kind="stable")]
+    where = _along(ordered)
+    text = (
+        f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {arms} hands "
+        f"can when each holds what is within {drawn.grip_radius_m:g} m of it; a grip radius of {_up(needed)} m would "
+        "do, or a fold that moves less"
+    )
+    short = needed - drawn.grip_radius_m
+    values = {"points": plain_points(ordered), "hands": arms, **_radii(drawn.grip_radius_m, needed)}
+    says = Message("too_many_grips", text, values)
+    return Reason(fold, Code.TOO_MANY_GRIPS, says, short_by_m=short, needed_grip_radius_m=needed)
+
+
+def _grips_too_close(context: Context, fold: int) -> Reason:
+    drawn, arms = context.sequence.folds[fold], len(context.reach.arm_names)
+    found = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
+    cover = np.array(max(found.covers, key=lambda c: nearest_pair_m(np.array(c))))
+    apart = nearest_pair_m(cover)
+    needed = needed_radius(context.sequence.moving(fold), drawn.line, np.array(found.vertices), 1)
+    text = (
+        f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
+        f"{context.grips_apart_m:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, "
+        "one hand would hold both"
+    )
+    values = {
+        "points": plain_points(cover),
+        "apart_m": apart,
+        "needed_apart_m": context.grips_apart_m,
+        **_radii(drawn.grip_radius_m, needed),
+    }
+    says = Message("grips_too_close", text, values)
+    return Reason(
+        fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=context.grips_apart_m - apart, needed_grip_radius_m=needed
+    )
+
+
+def _red_needs_hold(context: Context, fold: int, held: tuple[Point2, ...]) -> Reason:
+    drawn, arms = context.sequence.folds[fold], len(context.reach.arm_names)
+    vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
+    x, y = farthest_from(held, vertices)
+    needed = held_radius(held, vertices)
+    before = context.sequence.folds[fold - 1].label
+    must = f"{drawn.label}: ({x:.2f}, {y:.2f}) m of the garment must be held"
+    if math.isinf(needed):
+        text = f"{must}, but no hand that still holds from {before} is on the part that moves; make it a blue fold"
+        return Reason(fold, Code.RED_NEEDS_HOLD, Message("red_unheld", text, {"at": [x, y], "before": fold - 1}))
+    text = (
+        f"{must}, but the nearest hand that still holds from {before} is {needed:.2f} m away and holds what is within "
+        f"{drawn.grip_radius_m:g} m; a grip radius of {_up(needed)} m would do, or a blue fold"
+    )
+    short = needed - drawn.grip_radius_m
+    values = {"at": [x, y], "before": fold - 1, **_radii(drawn.grip_radius_m, needed)}
+    says = Message("red_held_too_far", text, values)
+    return Reason(fold, Code.RED_NEEDS_HOLD, says, short_by_m=short, needed_grip_radius_m=needed)
+
+
+def _radii(radius_m: float, needed_m: float) -> dict[str, float]:
+    """The grip radius that is assumed and the one that would do, as values of a message (m)."""
+    return {"grip_radius_m": radius_m, "needed_grip_radius_m": needed_m}
+
+
+def _along(ordered: FloatArray) -> str:
+    """Points of the garment in the order in which they lie along a line: all of a few, else the outermost (m)."""
+    if len(ordered) <= _LISTED_MAX:
+        return _list(ordered)
+    (x0, y0), (x1, y1) = ordered[0], ordered[-1]
+    return f"from ({x0:.2f}, {y0:.2f}) round to ({x1:.2f}, {y1:.2f}) m of the garment"
+
+
+def _list(points: FloatArray) -> str:
+    """Points of the garment (m)."""
+    return f"{' and '.join(f'({x:.2f}, {y:.2f})' for x, y in points)} m of the garment"
+
+
+def _up(number: float) -> str:
+    """A number with three decimals that is not smaller."""
+    return f"{math.ceil(number * 1000.0 - LENGTH_M) / 1000.0:.3f}"

@@ -1,0 +1,141 @@
+"""Of all attempts at a fold that the arms could not follow: which came closest?
+
+There are hundreds: stations, places that drags lead to, choices of grips and arms. What one of them truly lacks takes a
+few milliseconds to work out, a lower bound on it some microseconds. So they are gone through in the order of their
+bounds, and once a bound exceeds the least that was found, nothing better is left.
+"""
+
+import math
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.explain.reason_attempt import Miss, miss_of
+from planner.explain.reason_places import Places
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import FloatArray
+from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_way import away_from_shoulders
+from planner.primitives.obstacle import Attempt
+from planner.primitives.state import State
+
+CANDIDATES_MAX = 1000
+"""Where there are more, only those that are roughly least out of the arms' way are looked at."""
+
+EXAMINED_MAX = 32
+"""So many of those with the least bounds are examined."""
+
+_UNSURE_MAX = 8
+"""So many are examined before it is known whether the cloth can be brought there, which mostly takes longer."""
+
+_EXTREMES = np.array([0.0, 1.0, 2.0])
+"""Start, apex and end of a fold."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Candidate:
+    """An attempt at one place.
+
+    Attributes:
+        attempt: the attempt.
+        place: which of its places.
+        bound_m: how much it lacks at least (m).
+    """
+
+    attempt: Attempt
+    place: int
+    bound_m: float
+
+    @property
+    def state(self) -> State:
+        """The state with the article there."""
+        return self.attempt.at(self.place)
+
+
+def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Places) -> Miss | None:
+    """What the attempt lacked that came closest of those against which nothing else spoke; None if there is none.
+
+    Args:
+        context: the problem, with the attempts made.
+        fold: the fold.
+        dones: the sets of folds done, as bit masks, after which attempts count.
+        places: where the cloth can be brought.
+    """
+    attempts = [attempt for attempt in context.obstacles.attempts(fold) if attempt.state.done in dones]
+    each = max(1, CANDIDATES_MAX // max(1, len(attempts)))
+    candidates = [candidate for attempt in attempts for candidate in _candidates(context, attempt, places, each)]
+    best: Miss | None = None
+    examined = 0
+    for number, candidate in enumerate(sorted(candidates, key=lambda c: c.bound_m)):
+        at_most_m = math.inf if best is None else best.short_by_m
+        if candidate.bound_m >= at_most_m or (examined >= EXAMINED_MAX and best is not None):
+            break
+        state = candidate.state
+        is_to_be_sure = bool(state.held) or number >= _UNSURE_MAX
+        stands = places.stands(state) if is_to_be_sure else (1 << context.back_offs) - 1
+        if stands and geometric_obstacle(context, state, fold) is None:
+            examined += 1
+            miss = _miss(context, candidate.attempt, state, stands, at_most_m)
+            if miss is not None and miss.short_by_m < at_most_m and places.stands(state):
+                best = miss
+    return best
+
+
+def miss_in(context: Context, state: State, fold: int) -> Miss | None:
+    """What the attempt lacks that comes closest in a state, from whatever station; None if one lacks nothing."""
+    best: Miss | None = None
+    for at in from_every_station(context, state):
+        for trial in fold_trials(context, at, fold):
+            at_most_m = math.inf if best is None else best.short_by_m
+            stands = 1 << at.back_off if at.held else (1 << context.back_offs) - 1
+            miss = miss_of(context, at, trial, stands, at_most_m)
+            if miss is None:
+                return None
+            if miss.short_by_m < at_most_m:
+                best = miss
+    return best
+
+
+def from_every_station(context: Context, state: State) -> Iterator[State]:
+    """A state with the base at each station; what is held keeps it where it is."""
+    for station in (state.station,) if state.held else range(len(context.scene.stations)):
+        yield State(state.done, state.offset, station, state.back_off, state.held, state.dragged)
+
+
+def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int) -> Iterator[_Candidate]:
+    """An attempt at those of its places where the cloth may be brought, with their bounds."""
+    worthy = places.worth_trying(attempt)
+    if not len(worthy):
+        return
+    tools, station = _tools(attempt, attempt.places[worthy]), attempt.state.station
+    if len(worthy) > at_most:
+        nearest = np.argsort(away_from_shoulders(context, station, attempt.arms, tools), kind="stable")[:at_most]
+        worthy, tools = worthy[nearest], tools[:, :, nearest]
+    bounds = np.zeros(len(worthy))
+    for arm, ways, approaches in zip(attempt.arms, tools, attempt.approaches, strict=True):
+        in_base = context.in_base(station, ways.transpose(1, 0, 2))
+        found = context.reach.at_least_short(arm, in_base, approaches, context.back_offs, BACK_OFF_STEP_M)
+        bounds = np.maximum(bounds, found)
+    for place, bound in zip(worthy, bounds, strict=True):
+        yield _Candidate(attempt, int(place), float(bound))
+
+
+def _tools(attempt: Attempt, places: FloatArray) -> FloatArray:
+    """The tools at start, apex and end at some places, shape (grips, 3, places, 3), table frame (m)."""
+    shift = places - np.array(attempt.state.offset)
+    raised = np.column_stack([shift, np.full(len(shift), REST_HEIGHT_M)])
+    swept = attempt.path.swept(attempt.points, _EXTREMES[:, None])
+    unrolled = swept.transpose(1, 0, 2)[:, :, None, :] + raised
+    is_hanging = np.array([not attempt.state.is_dragged, True, True])
+    over_edge = attempt.path.over_edge(unrolled, attempt.path.top)
+    return np.asarray(np.where(is_hanging[None, :, None, None], over_edge, unrolled))
+
+
+def _miss(context: Context, attempt: Attempt, state: State, stands: int, at_most_m: float) -> Miss | None:
+    """What an attempt lacks in one of its states; None if nothing."""
+    for trial in fold_trials(context, state, attempt.fold):
+        if (trial.cover, trial.arms) == (attempt.cover, attempt.arms):
+            return miss_of(context, state, trial, stands, at_most_m)
+    return None

@@ -1,0 +1,118 @@
+"""How far would a hand's whole way have to be shifted, so that it is in reach?
+
+The point that is furthest out of reach says why an attempt failed. But mending that point alone may not do: the hands
+must follow all of their way. What mends an attempt for certain is to shift the whole of it as the robot sees it, which
+a person can do: sideways by moving the station or the cloth, up or down by the height of the table or the torso. The
+least such shift is looked for along the directions of `DIRECTIONS`, and each is tried as the planner would try it.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.explain.reason_attempt import Miss
+from planner.geometry.pose import FloatArray, Point3
+from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.fold_way import can_follow
+
+FURTHEST_M = 0.2
+"""No shift further than this is tried."""
+
+_STEP_M, _FINEST_M = 0.02, 0.001
+"""From one shift to the next, and how finely the least is settled (m)."""
+
+_SLANT = math.sqrt(0.5)
+
+DIRECTIONS: tuple[Point3, ...] = (
+    (-1.0, 0.0, 0.0),
+    (0.0, 1.0, 0.0),
+    (0.0, -1.0, 0.0),
+    (1.0, 0.0, 0.0),
+    (-_SLANT, _SLANT, 0.0),
+    (-_SLANT, -_SLANT, 0.0),
+    (_SLANT, _SLANT, 0.0),
+    (_SLANT, -_SLANT, 0.0),
+    (0.0, 0.0, -1.0),
+    (0.0, 0.0, 1.0),
+)
+"""Where a way is shifted, base frame: eight horizontal directions, down and up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """A shift that brings a whole attempt into reach.
+
+    Attributes:
+        distance_m: how far (m).
+        towards: the unit direction, base frame.
+    """
+
+    distance_m: float
+    towards: Point3
+
+
+def remedy(context: Context, miss: Miss) -> Remedy | None:
+    """The least shift tried that lets the arms follow an attempt; None if none does."""
+    attempt = _Shifted(context, miss)
+    best: Remedy | None = None
+    for towards in DIRECTIONS:
+        limit = FURTHEST_M if best is None else best.distance_m - _FINEST_M
+        distance = attempt.least(towards, limit)
+        if distance is not None:
+            best = Remedy(distance, towards)
+    return best
+
+
+class _Shifted:
+    """An attempt, shifted as its robot sees it."""
+
+    def __init__(self, context: Context, miss: Miss) -> None:
+        self._context = context
+        self._trial = miss.trial
+        self._station = miss.state.station
+        self._stands = miss.stands
+        pose = context.station_pose(self._station)
+        self._axes = pose.to_outer(np.eye(3)) - pose.to_outer(np.zeros((3, 3)))
+        last = len(miss.trial.sweeps) - 1
+        self._extremes = (last // 2, last, 0)
+
+    def least(self, towards: Point3, limit: float) -> float | None:
+        """The least shift along a direction, up to a limit, that will do; None if none does."""
+        outer = np.array(towards) @ self._axes
+        near, far = 0.0, _STEP_M
+        while far <= limit + _FINEST_M:
+            short = self._at_least_short(far * outer)
+            if short > 0.0:
+                near, far = far + short, far + max(_STEP_M, _STEP_M * math.ceil(short / _STEP_M))
+            elif self._is_in_reach(far * outer):
+                return self._settled(outer, near, far)
+            else:
+                near, far = far, far + _STEP_M
+        return None
+
+    def _settled(self, outer: FloatArray, near: float, far: float) -> float:
+        while far - near > _FINEST_M:
+            middle = 0.5 * (near + far)
+            near, far = (near, middle) if self._is_in_reach(middle * outer) else (middle, far)
+        return far
+
+    def _at_least_short(self, shift: FloatArray) -> float:
+        context, trial = self._context, self._trial
+        return max(
+            float(
+                context.reach.at_least_short(
+                    arm, self._seen(hand, shift)[None], approaches, context.back_offs, BACK_OFF_STEP_M
+                )[0]
+            )
+            for hand, (arm, approaches) in enumerate(zip(trial.arms, trial.approaches, strict=True))
+        )
+
+    def _is_in_reach(self, shift: FloatArray) -> bool:
+        """Whether the arms can follow the attempt, so shifted in the table frame."""
+        shifted = replace(self._trial, tools=self._trial.tools + shift)
+        return can_follow(self._context, self._station, shifted, self._stands)
+
+    def _seen(self, hand: int, shift: FloatArray) -> FloatArray:
+        """Apex, end and start of a hand's way in the base frame, shape (3, 3), m."""
+        return self._context.in_base(self._station, self._trial.tools[hand, list(self._extremes)] + shift)

@@ -1,0 +1,54 @@
+"""The work that a search for suggestions may do, and how much of it one trial may take."""
+
+from planner.explain.explanation import Explanation
+from planner.planning.budget import Budget
+from planner.planning.plan_search import PlanSearch
+from planner.planning.problem import Problem
+from planner.task.plan import Plan
+from planner.task.task import Task
+
+SHORTEST_TRIAL_S = 1.0
+"""Less work would cut off most plans just before they are found (s, see `Budget`)."""
+
+_TRIALS_LEFT = 6
+_SETTING_UP_S = 0.01
+"""What it takes to put a request, of which nothing is counted: the folds are replayed (s)."""
+
+
+class TrialBudget:
+    """Work and time for a series of trials.
+
+    Attributes:
+        spent_s: the work done so far (s).
+    """
+
+    def __init__(self, whole: Budget) -> None:
+        """Begins with nothing spent of the whole."""
+        self._whole = whole
+        self.spent_s = 0.0
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the time is up, whatever work is left, or somebody wants no more."""
+        return self._whole.is_late
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether somebody wants no more."""
+        return self._whole.should_stop()
+
+    def has_spent(self, share: float) -> bool:
+        """Whether this share of the work has been done, or there is no more time."""
+        return self.spent_s >= share * self._whole.work_limit_s or self.is_late
+
+    def plan(self, task: Task, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
+        """Plan a task with so much work, or what is left if that is less; else with a fraction of what is left."""
+        left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
+        wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
+        part = self._whole.part(min(wanted_s, left_s))
+        self.spent_s += _SETTING_UP_S
+        explainer = Explanation() if with_reasons else None
+        heuristic, most = task.limits.heuristic, task.limits.max_expanded
+        plan = PlanSearch(Problem.of(task), heuristic, part, most, explainer=explainer).plan().plan
+        self.spent_s += part.spent_s
+        return plan

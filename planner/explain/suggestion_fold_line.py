@@ -1,0 +1,129 @@
+"""Suggesting to shift the line of a fold that cannot be done, across its own direction, as little as possible."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.cloth.garment import DrawnFold, Garment
+from planner.errors import FieldError
+from planner.explain.suggestion_trial import Proof, Search, Trial, narrowed
+from planner.explain.suggestion_words import direction_words, in_cm
+from planner.folds.fold import snapped_line
+from planner.folds.fold_cloth import flap_silhouette
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.message import Message
+from planner.task.task import Task
+
+STEPS_M = (0.1, 0.2)
+NARROWED_TO_M = 0.0125
+_FAR_M = 20.0
+_DECIMALS = 5
+
+
+def fold_lines(task: Task, folds: Sequence[int]) -> Search:
+    """Look for the smallest shift of some folds, each alone and then all, to the side where less cloth moves first."""
+    each = [_Shift(task, (fold,), sign) for fold in folds for sign in (1, -1)]
+    sides = each + ([_Shift(task, tuple(folds), sign) for sign in (1, -1)] if len(folds) > 1 else [])
+    for before_m, shift_m in zip((0.0, *STEPS_M), STEPS_M, strict=False):
+        for side in tuple(sides):
+            trial = side.shifted(shift_m)
+            if trial is None:
+                continue
+            plan = yield trial
+            if plan is None:
+                return
+            proof = Proof.of(trial, plan)
+            if proof is not None:
+                sides.remove(side)
+                yield from narrowed(side.shifted, before_m, shift_m, proof, NARROWED_TO_M)
+
+
+@dataclass(frozen=True, slots=True)
+class _Shift:
+    """Folds, and the side to which their lines may be shifted: 1 is left of each, where less moves; -1 right."""
+
+    task: Task
+    folds: tuple[int, ...]
+    sign: int
+
+    def shifted(self, by_m: float) -> Trial | None:
+        """The trial of a shift of all their lines by as much; None where it is not legal."""
+        garment: Garment | None = self.task.garment
+        says = []
+        for fold in self.folds:
+            if garment is None:
+                return None
+            says.append(self._said(fold, by_m))
+            garment = redrawn(garment, fold, self._moved(garment.folds[fold], by_m))
+        if garment is None:
+            return None
+        change = {"garment": garment.to_dict()}
+        text = " and ".join(one.text for one in says)
+        told = says[0] if len(says) == 1 else Message("shift_folds", text, {"shifts": [one.to_dict() for one in says]})
+        return Trial("fold_line", told, change, by_m, replace(self.task, garment=garment))
+
+    def _moved(self, drawn: DrawnFold, by_m: float) -> Segment:
+        line = Segment(drawn.start, drawn.end)
+        dx, dy = (self.sign * by_m * part for part in line.left)
+        (x0, y0), (x1, y1) = line.start, line.end
+        return Segment((x0 + dx, y0 + dy), (x1 + dx, y1 + dy))
+
+    def _said(self, fold: int, by_m: float) -> Message:
+        """What is to be done to one of them."""
+        drawn, placement = self.task.garment.folds[fold], self.task.start.placement
+        left = np.array(Segment(drawn.start, drawn.end).left)
+        x, y = placement.to_outer(self.sign * left) - placement.to_outer(np.zeros(2))
+        text = f"Shift fold {fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
+        return Message("shift_fold", text, {"fold": fold, "by_m": by_m, "towards": [float(x), float(y)]})
+
+
+def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:
+    """The garment with a fold along another line; None if that fold, or one after it, is then not legal.
+
+    The folds after it keep their lines; where an end no longer meets the edge of the cloth it follows the edge along
+    the line.
+    """
+    folds = garment.folds[:fold]
+    try:
+        for index in range(fold, len(garment.folds)):
+            drawn = garment.folds[index]
+            cloth = FoldSequence.of(replace(garment, folds=folds)).final
+            silhouette = flap_silhouette(cloth, is_red=drawn.is_red)
+            if index > fold and _is_snapped(drawn, silhouette):
+                folds = (*folds, drawn)
+                continue
+            ends = chord(silhouette, line if index == fold else Segment(drawn.start, drawn.end))
+            if ends is None:
+                return None
+            folds = (*folds, replace(drawn, start=ends.start, end=ends.end))
+        changed = replace(garment, folds=folds)
+        FoldSequence.of(changed)
+    except FieldError:
+        return None
+    return changed
+
+
+def chord(silhouette: Region, line: Segment) -> Segment | None:
+    """The stretch of a whole line within a silhouette that has most in common with the segment given (m, rounded)."""
+    whole = Segment(line.at(-_FAR_M), line.at(line.length + _FAR_M))
+    best, most_m = None, 0.0
+    for ends in silhouette.overlaps_with(whole):
+        low, high = sorted(line.positions(np.array(ends)))
+        common_m = float(min(high, line.length) - max(low, 0.0))
+        if common_m > most_m:
+            best, most_m = (float(low), float(high)), common_m
+    if best is None:
+        return None
+    (x0, y0), (x1, y1) = line.at(best[0]), line.at(best[1])
+    return Segment((round(x0, _DECIMALS), round(y0, _DECIMALS)), (round(x1, _DECIMALS), round(y1, _DECIMALS)))
+
+
+def _is_snapped(drawn: DrawnFold, silhouette: Region) -> bool:
+    try:
+        snapped_line(drawn, silhouette)
+    except FieldError:
+        return False
+    return True

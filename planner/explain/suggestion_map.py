@@ -1,0 +1,113 @@
+"""What the plan costs wherever the garment could be laid: a map of the table."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from planner.errors import RequestError
+from planner.explain.suggestion_budget import TrialBudget
+from planner.explain.suggestion_grid import Room
+from planner.geometry.pose import Pose2
+from planner.planning.budget import Budget
+from planner.planning.warm_up import compile_kernels
+from planner.task.task import Task
+
+STEP_M = (0.02, 1.0)
+"""The finest and the coarsest map (m)."""
+
+_FIRST_TRY_S, _MORE = 1.0, 4.0
+"""The work of a first try at a place (s, see `Budget`), and how many times as much the next may take."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A placement and its cost.
+
+    Attributes:
+        placement: the article frame in the table frame.
+        cost_s: what the plan costs (s); None: there is none.
+    """
+
+    placement: Pose2
+    cost_s: float | None
+
+    def to_dict(self) -> dict[str, float | None]:
+        """The cell as JSON."""
+        return {"x_m": self.placement.x_m, "y_m": self.placement.y_m, "cost_s": self.cost_s}
+
+
+@dataclass(frozen=True, slots=True)
+class PlacementMap:
+    """A grid of placements, all with one heading, the garment wholly on the table.
+
+    Attributes:
+        step_m: the distance of neighbours (m).
+        cells: the placements whose answer is known, by x, then y.
+        is_complete: whether these are all.
+    """
+
+    step_m: float
+    cells: tuple[Cell, ...]
+    is_complete: bool
+
+    @property
+    def best(self) -> Cell | None:
+        """The cheapest cell."""
+        solved = [(cell.cost_s, number) for number, cell in enumerate(self.cells) if cell.cost_s is not None]
+        return self.cells[min(solved)[1]] if solved else None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The map as JSON."""
+        best = self.best
+        return {
+            "step_m": self.step_m,
+            "cells": [cell.to_dict() for cell in self.cells],
+            "best": None if best is None else {**best.to_dict(), "yaw_rad": best.placement.yaw_rad},
+            "complete": self.is_complete,
+        }
+
+
+def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], bool] | None = None) -> PlacementMap:
+    """Plan a garment at every place of a grid; work left over is given to places that need more.
+
+    Args:
+        task: what is to be planned; the grid goes through its placement, and all placements have its heading. Its
+            limits of time and work are the budget of the whole map, its limit in states that of each plan.
+        step_m: the distance of neighbours (m, 0.02..1).
+        should_stop: asked while planning; true ends the map where it is.
+
+    Raises:
+        FoldError: a fold is not legal on the cloth as it is then.
+        RequestError: an option is out of range.
+    """
+    if not STEP_M[0] <= step_m <= STEP_M[1]:
+        raise RequestError("step_m", f"{step_m} is not between {STEP_M[0]:g} and {STEP_M[1]:g}")
+    compile_kernels()
+    budget = TrialBudget(Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop))
+    here = task.start.placement
+    moves = Room.of(task.garment, here, task.scene.table).moves(step_m)
+    poses = [here.moved(i * step_m, j * step_m) for i, j in sorted(moves, key=_coarse_first)]
+    cells = _planned(task, poses, budget)
+    cells.sort(key=lambda cell: (cell.placement.x_m, cell.placement.y_m))
+    return PlacementMap(step_m, tuple(cells), len(cells) == len(poses))
+
+
+def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
+    """Every other place along both axes first, so that a map cut short still shows the whole table."""
+    i, j = move
+    return (i % 2 + j % 2, i, j)
+
+
+def _planned(task: Task, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
+    """The cells known when the work is done; what needs more than a first try waits for the others."""
+    waiting = deque((pose, _FIRST_TRY_S) for pose in poses)
+    cells = []
+    while waiting and not budget.has_spent(1.0):
+        pose, try_s = waiting.popleft()
+        plan = budget.plan(task.at(pose), try_s)
+        if plan.status != "budget_exceeded":
+            cells.append(Cell(pose, plan.cost_s))
+        else:
+            waiting.append((pose, _MORE * try_s))
+    return cells

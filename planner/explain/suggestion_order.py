@@ -1,0 +1,112 @@
+"""Suggesting another order of the same folds.
+
+The planner already tries every order that the Fold-DAG allows; they all give the same stack. So what is worth trying
+are orders that give another DAG, other layers, and yet the same outline in the end.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+from planner.cloth.garment import Garment
+from planner.errors import FieldError
+from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.region import Region
+from planner.message import Message
+from planner.task.task import Task
+
+SWAPS_MAX = 3
+"""Orders further than so many swaps of neighbours from the user's are not tried."""
+
+ORDERS_MAX = 60
+
+Chain = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Order:
+    """An order of a garment's folds, the chains of red folds whole.
+
+    Attributes:
+        chains: the folds, numbered as the user drew them.
+        swaps: how many neighbours were swapped to come here.
+    """
+
+    chains: tuple[Chain, ...]
+    swaps: int
+
+    @property
+    def folds(self) -> tuple[int, ...]:
+        return tuple(fold for chain in self.chains for fold in chain)
+
+    def neighbours(self) -> Iterator["_Order"]:
+        for i in range(len(self.chains) - 1):
+            first, second = self.chains[i : i + 2]
+            yield _Order((*self.chains[:i], second, first, *self.chains[i + 2 :]), self.swaps + 1)
+
+
+def orders(task: Task) -> Search:
+    """Look for another order that gives a plan, the fewest swaps first; then for cheaper ones."""
+    to_beat = None
+    for order, garment in _other_orders(task.garment):
+        says = _in_words(task.garment, order)
+        trial = Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
+        plan = yield trial
+        if plan is None:
+            return
+        proof = Proof.of(trial, plan)
+        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
+            yield proof.suggestion
+            to_beat = proof.cost_s
+
+
+def _other_orders(garment: Garment) -> Iterator[tuple[_Order, Garment]]:
+    """Legal orders with the same outline in the end, one for each other DAG."""
+    sequence = FoldSequence.of(garment)
+    wanted = sequence.final.silhouette
+    seen_dags = {frozenset(sequence.dag.edges)}
+    for order in _by_swaps(sequence.dag.chains):
+        changed = replace(garment, folds=tuple(garment.folds[i] for i in order.folds))
+        found = _replayed(changed)
+        if found is None:
+            continue
+        edges = frozenset((order.folds[a], order.folds[b]) for a, b in found.dag.edges)
+        if edges not in seen_dags and _is_same(wanted, found.final.silhouette):
+            seen_dags.add(edges)
+            yield order, changed
+
+
+def _by_swaps(chains: Sequence[Chain]) -> Iterator[_Order]:
+    """Orders by the number of swaps, the user's own left out."""
+    front = [_Order(tuple(chains), 0)]
+    seen = {front[0].chains}
+    while front and len(seen) <= ORDERS_MAX:
+        order = front.pop(0)
+        for other in order.neighbours():
+            if other.chains not in seen and other.swaps <= SWAPS_MAX:
+                seen.add(other.chains)
+                front.append(other)
+                yield other
+
+
+def _replayed(garment: Garment) -> FoldSequence | None:
+    try:
+        return FoldSequence.of(garment)
+    except FieldError:
+        return None
+
+
+def _is_same(one: Region, other: Region) -> bool:
+    return one.difference(other).is_sliver and other.difference(one).is_sliver
+
+
+def _in_words(garment: Garment, order: _Order) -> Message:
+    names = {i: f"fold {i} '{fold.name}'" for i, fold in enumerate(garment.folds)}
+    turned = [(later, earlier) for later, earlier in combinations(order.folds, 2) if later > earlier]
+    if len(turned) == 1:
+        later, earlier = turned[0]
+        text = f"Make {names[later]} before {names[earlier]}"
+        return Message("fold_before", text, {"fold": later, "before": earlier})
+    text = "Fold in the order " + ", ".join(names[i].removeprefix("fold ") for i in order.folds)
+    return Message("fold_in_order", text, {"folds": list(order.folds)})

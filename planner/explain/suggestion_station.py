@@ -1,0 +1,84 @@
+"""Suggesting one more place where the robot may stand: the far side, the middles of the sides, mirror images."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_words import moved_words
+from planner.geometry.pose import Pose2, wrapped_angle
+from planner.message import Message
+from planner.task.scene import STATIONS_MAX, Scene
+from planner.task.task import Task
+
+STAND_OFF_M = 0.15
+"""How far outside the table's edge the base's centre stands."""
+
+_SAME_M = 0.05
+_SAME_RAD = 0.1
+
+
+def stations(task: Task) -> Search:
+    """Look for one more station that gives a plan; then for one that gives a cheaper plan."""
+    to_beat = None
+    for name, pose in _others(task.scene):
+        trial = _trial(task, name, pose)
+        plan = yield trial
+        if plan is None:
+            return
+        proof = Proof.of(trial, plan)
+        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
+            yield proof.suggestion
+            to_beat = proof.cost_s
+
+
+def _trial(task: Task, name: str, pose: Pose2) -> Trial:
+    scene = replace(task.scene, stations=(*task.scene.stations, (name, pose)))
+    text = f"Let the robot also stand at {_in_words(name, pose)}"
+    says = Message("stand_also_at", text, {"station": name, "at": [pose.x_m, pose.y_m]})
+    return Trial("station", says, {"scene": scene.to_dict()}, 1.0, task.in_scene(scene))
+
+
+def _in_words(name: str, pose: Pose2) -> str:
+    where = moved_words(pose.x_m, pose.y_m)
+    return f"a station {name!r}, {where} as seen from the table's middle" if where else f"a station {name!r}"
+
+
+def _others(scene: Scene) -> Iterator[tuple[str, Pose2]]:
+    """Stations that the scene has not, each under a name of its own."""
+    taken = dict(scene.stations)
+    room = STATIONS_MAX - len(taken)
+    poses: list[Pose2] = list(taken.values())
+    for wish, pose in (*_on_the_sides(scene), *_mirrored(scene)):
+        if room and not any(_is_same(pose, other) for other in poses):
+            name = _free(wish, taken)
+            taken[name] = pose
+            poses.append(pose)
+            yield name, pose
+
+
+def _on_the_sides(scene: Scene) -> Iterator[tuple[str, Pose2]]:
+    x, y = scene.table.depth_m / 2 + STAND_OFF_M, scene.table.width_m / 2 + STAND_OFF_M
+    yield "far", Pose2(x, 0.0, math.pi)
+    yield "middle_left", Pose2(0.0, y, -math.pi / 2)
+    yield "middle_right", Pose2(0.0, -y, math.pi / 2)
+    yield "near", Pose2(-x, 0.0, 0.0)
+
+
+def _mirrored(scene: Scene) -> Iterator[tuple[str, Pose2]]:
+    """Every station on the other side of the table's axes."""
+    for name, pose in scene.stations:
+        yield f"{name}_mirrored", Pose2(pose.x_m, -pose.y_m, -pose.yaw_rad)
+        yield f"{name}_opposite", Pose2(-pose.x_m, pose.y_m, math.pi - pose.yaw_rad)
+
+
+def _is_same(one: Pose2, other: Pose2) -> bool:
+    apart_m = math.hypot(one.x_m - other.x_m, one.y_m - other.y_m)
+    return apart_m < _SAME_M and abs(wrapped_angle(one.yaw_rad - other.yaw_rad)) < _SAME_RAD
+
+
+def _free(wish: str, taken: dict[str, Pose2]) -> str:
+    name, number = wish, 2
+    while name in taken:
+        name, number = f"{wish}_{number}", number + 1
+    return name

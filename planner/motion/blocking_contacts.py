@@ -1,0 +1,103 @@
+"""What is in the arms' way in a motion that they cannot follow, and by how much at the least.
+
+At some moments of the motion every posture with which an arm could be where it must is looked at by itself, then both
+arms' postures together. The moment at which the best of them is worst says what stops the motion. Where some posture is
+free at every moment the arms are only cut off, one from the next: then nothing is said.
+"""
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point3, Pose2
+from planner.motion.moments import Moments
+from planner.motion.robot_port import Collisions, RobotPort
+from planner.primitives.obstacle import BlockingContact
+from planner.robot.collision.contact import Contact
+
+_MOMENTS = 16
+"""So many moments are looked at."""
+
+_POSTURES, _POSTURES_TOGETHER = 16, 5
+"""So many postures of an arm by itself, and of each arm when both are looked at."""
+
+
+class BlockingContacts:
+    """Looks for what stops motions of one robot at one table."""
+
+    def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float, height_m: float) -> None:
+        """The robot with its lift raised so far, at a table so high (m)."""
+        self._machine = machine
+        self._collisions = collisions
+        self._torso_m = torso_m
+        self._height_m = height_m
+        self._homes = np.array([machine.home(arm) for arm in range(len(machine.card.arms))])
+
+    def of(self, moments: Moments) -> BlockingContact | None:
+        """What stops the hands from doing what they are to do; None where nothing does by itself."""
+        looked_at = np.unique(np.linspace(0, len(moments) - 1, _MOMENTS).round().astype(int))
+        able = {int(moment): self._postures(moments, int(moment)) for moment in looked_at}
+        for least in (self._least_alone, self._least_together):
+            met = [contact for moment, postures in able.items() for contact in least(moments, moment, postures)]
+            if met:
+                return max(met, key=lambda contact: contact.depth_m)
+        return None
+
+    def _postures(self, moments: Moments, moment: int) -> dict[int, FloatArray]:
+        """How each arm that holds cloth can be where it must, shape (k, 7)."""
+        return {
+            int(arm): self._machine.free_postures(
+                int(arm),
+                moments.positions[arm, moment],
+                moments.rotations[arm, moment],
+                self._torso_m,
+                lambda joints: np.ones(len(joints), dtype=bool),
+            )
+            for arm in np.flatnonzero(moments.is_held[:, moment])
+        }
+
+    def _least_alone(self, moments: Moments, moment: int, postures: dict[int, FloatArray]) -> Iterator[BlockingContact]:
+        """Of each arm that touches something in every posture, where it does so least."""
+        for arm, able in postures.items():
+            tried = np.broadcast_to(self._homes, (len(able), *self._homes.shape)).copy()
+            tried[:, arm] = able
+            yield from self._least(moments, moment, arm, _some(tried, _POSTURES))
+
+    def _least_together(
+        self, moments: Moments, moment: int, postures: dict[int, FloatArray]
+    ) -> Iterator[BlockingContact]:
+        """If all arms touch something in all their postures, where they do so least."""
+        some = [_some(able, _POSTURES_TOGETHER) for able in postures.values()]
+        if len(some) == len(self._homes):
+            yield from self._least(moments, moment, min(postures), np.array([*product(*some)]))
+
+    def _least(self, moments: Moments, moment: int, arm: int, postures: FloatArray) -> Iterator[BlockingContact]:
+        base = Pose2.of(moments.bases[moment])
+        met: list[Contact] = []
+        for posture in postures:
+            contact = self._collisions.deepest_contact(base, posture)
+            if contact is None:
+                return
+            met.append(contact)
+        if met:
+            contact = min(met, key=lambda one: one.depth_m)
+            point = self._in_table(base, moments.positions[arm, moment])
+            name = self._machine.card.arms[arm].name
+            yield BlockingContact(name, point, self._cause(contact), (contact.first, contact.second), contact.depth_m)
+
+    def _in_table(self, base: Pose2, position: FloatArray) -> Point3:
+        x, y = base.to_outer(position[:2])
+        return float(x), float(y), float(position[2]) - self._height_m
+
+    def _cause(self, contact: Contact) -> str:
+        if "table" in contact.second:
+            return "table"
+        arms = [arm.name for arm in self._machine.card.arms]
+        owners = {arm for arm in arms for part in (contact.first, contact.second) if part.startswith(f"{arm} ")}
+        return "arms" if len(owners) > 1 else "own_body"
+
+
+def _some(rows: FloatArray, count: int) -> FloatArray:
+    """So many of an array's rows, evenly spread."""
+    return rows[np.unique(np.linspace(0, len(rows) - 1, count).round().astype(int))] if len(rows) else rows

@@ -1,0 +1,59 @@
+"""The joints of a run."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.motion.leads import Cloths, Lines
+from planner.motion.moments import Moments
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Carried:
+    """The joints of a run.
+
+    Attributes:
+        moments: the moments while cloth is held.
+        cloths: the cloth that lies before and after.
+        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that do nothing are at home, those that have let
+            go wait where they withdrew to.
+        first: the step at which the grips are reached: the first of the moments.
+        lines: how the hands come and leave.
+        half_turns: by which angle each hand is turned about its approach axis beside that (rad), 0 or pi: to a gripper
+            it is all one which finger is which, so it is turned as is nearer to home, shape (arms,).
+    """
+
+    moments: Moments
+    cloths: Cloths
+    bases: FloatArray
+    joints: FloatArray
+    first: int
+    lines: Lines
+    half_turns: FloatArray
+
+    @property
+    def last(self) -> int:
+        """The step of the last of the moments, at which the hands let go."""
+        return self.first + len(self.moments) - 1
+
+    def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
+        """Its joints as guides for a run that differs a little, shape (steps, arms, 7).
+
+        Args:
+            first: the step of that run at which the grips are reached.
+            moments: its moments.
+            steps: its steps in all.
+        """
+        old, new = self.moments.progress, moments.progress
+        held = np.interp(new, old, np.arange(len(old))) + self.first
+        coming = np.linspace(0.0, self.first, first, endpoint=False)
+        leaving = np.linspace(self.last, len(self.joints) - 1.0, steps - first - len(new) + 1)[1:]
+        places = np.concatenate([coming, held, leaving])
+        before = np.minimum(places.astype(np.int64), len(self.joints) - 1)
+        along = (places - before)[:, None, None]
+        after = np.minimum(before + 1, len(self.joints) - 1)
+        found = np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
+        found[:, :, -1] -= self.half_turns
+        return found

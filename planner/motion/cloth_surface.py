@@ -1,0 +1,180 @@
+"""The cloth in space at one moment: every layer cut where it bends, each flat piece a few triangles.
+
+Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the
+baseline: what has not been lifted yet and what is laid down already lie flat, what is between stands. Flat parts
+are cut by the table's edges, beyond which they hang. Layers are drawn a little apart, as if each were one thickness
+of cloth. Standing cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.cloth.layer import Layer
+from planner.folds.fold_path import FoldPath
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.drape import bends, draped
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.segment import Segment
+from planner.geometry.table_top import TableTop
+from planner.geometry.triangles import creased, parted
+from planner.motion.sample import ClothSurface
+from planner.task.phase import ClothMotion
+
+LAYER_GAP_M = 0.0015
+"""How far apart neighbouring layers are drawn (m)."""
+
+_Seen = tuple[int, int | None, float, Pose2, TableTop, float]
+"""All that the look of the cloth depends on: folds done, the fold under way and its sweep, where, over what, droop."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Pieces:
+    """Flat cloth.
+
+    Attributes:
+        triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
+        numbers: the layer in which each is, shape (n,).
+        is_back: whether it shows its back, shape (n,).
+    """
+
+    triangles: FloatArray
+    numbers: NDArray[np.int64]
+    is_back: BoolArray
+
+    @staticmethod
+    def of(layers: Sequence[Layer], numbers: Sequence[int]) -> "_Pieces":
+        """Layers with their numbers."""
+        meshes = [layer.region.triangles for layer in layers]
+        counts = [len(mesh) for mesh in meshes]
+        is_back = np.repeat(np.array([layer.face == "back" for layer in layers], dtype=np.bool_), counts)
+        triangles = np.concatenate([np.empty((0, 3, 2)), *meshes])
+        return _Pieces(triangles, np.repeat(np.array(numbers, dtype=np.int64), counts), is_back)
+
+    def parts(self, triangles: FloatArray, sources: NDArray[np.int64]) -> "_Pieces":
+        """What they are cut into, each of which is a part of one of them."""
+        return _Pieces(triangles, self.numbers[sources], self.is_back[sources])
+
+    def parted(self, line: Segment) -> tuple["_Pieces", "_Pieces"]:
+        """What lies to the left and what to the right of the whole line through a segment."""
+        left, right = parted(self.triangles, line)
+        return self.parts(*left), self.parts(*right)
+
+    def turned(self, line: Segment) -> "_Pieces":
+        """Turned over a line; each keeps its number."""
+        return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
+
+    @property
+    def gaps(self) -> FloatArray:
+        """How far each is drawn off the table (m), shape (n, 1)."""
+        return np.asarray((self.numbers[:, None] + 1) * LAYER_GAP_M)
+
+
+@dataclass(slots=True)
+class _Mesh:
+    """What is seen of cloth that lies somewhere: flat on the table and over its edges, or standing.
+
+    Attributes:
+        placement: the article frame in the table frame.
+        top: the table top over which cloth does not hang.
+        droop: how far cloth beyond its edges has turned down.
+    """
+
+    placement: Pose2
+    top: TableTop
+    droop: float
+    corners: list[FloatArray] = field(default_factory=list)
+    unrolled: list[FloatArray] = field(default_factory=list)
+    layers: list[NDArray[np.int64]] = field(default_factory=list)
+
+    def lay(self, pieces: _Pieces) -> None:
+        """Add cloth that lies."""
+        flat = self.placement.to_outer(pieces.triangles)
+        if not self.top.covers(flat):
+            flat, sources = creased(flat, bends(self.top, flat, float(pieces.gaps.max(initial=0.0))))
+            pieces = pieces.parts(flat, sources)
+        unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
+        rolled = np.concatenate([flat, np.broadcast_to(pieces.gaps[..., None], (*flat.shape[:2], 1))], axis=2)
+        if self.droop < 1.0:
+            rolled[self.top.beyond(flat) > 0.0] = np.nan
+        self._add(pieces, draped(self.top, unrolled, pieces.gaps, self.droop), rolled)
+
+    def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
+        """Add cloth that a fold has lifted."""
+        swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
+        lean = pieces.gaps[..., None] * np.array([*path.line.left, 0.0])
+        standing = draped(self.top, swept).reshape(-1, 3, 3) - lean
+        self._add(pieces, standing, np.full(standing.shape, np.nan))
+
+    def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
+        """Add triangles, shape (n, 3, 3), and where they are unrolled; those that show their backs are turned over."""
+        for kept, points in ((self.corners, corners), (self.unrolled, unrolled)):
+            kept.append(np.where(pieces.is_back[:, None, None], points[:, ::-1], points))
+        self.layers.append(pieces.numbers)
+
+    def surface(self) -> ClothSurface:
+        vertices = np.concatenate(self.corners).reshape(-1, 3)
+        triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
+        unrolled = np.concatenate(self.unrolled).reshape(-1, 3)
+        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled)
+
+
+class ClothSurfaces:
+    """The cloth of one planning problem, at any moment of any phase."""
+
+    def __init__(self, sequence: FoldSequence) -> None:
+        self._sequence = sequence
+        self._last: tuple[_Seen, ClothSurface] | None = None
+
+    def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
+        """The cloth a fraction of the way through a phase's motion; `droop` as in `draped`.
+
+        As long as nothing of it moves it is the same object.
+        """
+        first, last = motion.sweep
+        sweep = 0.0 if motion.fold is None else max(first + fraction * (last - first), 0.0)
+        fold = motion.fold if sweep > 0.0 else None
+        seen = (motion.done, fold, sweep, motion.start.between(motion.end, fraction), motion.top, droop)
+        known = self._last
+        if known is None or known[0] != seen:
+            self._last = known = (seen, self._surface(*seen))
+        return known[1]
+
+    def _surface(
+        self, done: int, fold: int | None, sweep: float, placement: Pose2, top: TableTop, droop: float
+    ) -> ClothSurface:
+        mesh = _Mesh(placement, top, droop)
+        if fold is None:
+            layers = self._sequence.cloth(done).layers
+            mesh.lay(_Pieces.of(layers, range(len(layers))))
+        else:
+            self._fold(mesh, done, fold, sweep)
+        return mesh.surface()
+
+    def _fold(self, mesh: _Mesh, done: int, fold: int, sweep: float) -> None:
+        folded = self._sequence.folded(done, fold)
+        line = self._sequence.folds[fold].line
+        staying = len(folded.cloth.layers) - folded.cloth.moved
+        numbers = range(staying, len(folded.cloth.layers))
+        is_falling = sweep > 1.0
+        moving = _Pieces.of(folded.layers, numbers[::-1] if is_falling else numbers)
+        depth = float(line.left_distances(folded.moving.coordinates).max())
+        standing, lying = moving.parted(_baseline(line, depth * abs(1.0 - sweep)))
+        mesh.lay(_Pieces.of(folded.cloth.layers[:staying], range(staying)))
+        mesh.lay(lying.turned(line) if is_falling else lying)
+        mesh.erect(standing, FoldPath(_placed(line, mesh.placement), depth, mesh.top, mesh.top), sweep)
+
+
+def _baseline(line: Segment, distance: float) -> Segment:
+    """Where cloth stops lying: beside the fold line, to the left (m)."""
+    nx, ny = line.left
+    (ax, ay), (bx, by) = line.start, line.end
+    return Segment((ax + distance * nx, ay + distance * ny), (bx + distance * nx, by + distance * ny))
+
+
+def _placed(line: Segment, placement: Pose2) -> Segment:
+    start, end = placement.to_outer(np.array([line.start, line.end])).tolist()
+    return Segment(tuple(start), tuple(end))

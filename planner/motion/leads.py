@@ -1,0 +1,207 @@
+"""Where the arms' tools go in a run: straight to their grips, along the cloth's way, and straight away from it.
+
+A hand comes to its grip along its approach axis, fingers first, and leaves it backwards and upwards; these lines are
+part of the path, so that the joints with which the cloth is taken are ones with which it can be reached and left.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.tolerance import LENGTH_M
+from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
+from planner.motion.moments import Moments, about_x
+from planner.robot.tool_path import ToolPath
+
+APPROACH_M, RETREAT_M = 0.10, 0.12
+"""How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""
+
+CLEAR_M = 0.12
+"""How high over the table a hand then is, where that is in reach: from there it travels (m)."""
+
+_STEP_M = 0.01
+"""How far hands go on these ways from one step to the next (m)."""
+
+Shares = tuple[tuple[float, float], ...]
+
+NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
+UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
+FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
+"""How much of the straight line and of the rise is tried: what must do, what takes hands clear of cloth, and what had
+better."""
+
+OVER, BESIDE = 0.5 * np.pi, 0.0
+"""The roll of a hand with one finger over the other, and side by side (rad)."""
+
+HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray, LyingCloth | None], bool]
+"""Asked with an arm, the base (x, y, yaw; table frame), a tool's place (m) and axes (base frame), and cloth that lies:
+can it be there, clear of the cloth?"""
+
+
+Cloths = tuple[LyingCloth | None, LyingCloth]
+"""The cloth as it lies before a run, and after it; None before one that begins with cloth in the hands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """How hands come and leave.
+
+    Attributes:
+        roll_rad: how far they have rolled about their approach axes; see `rolled`.
+        shares: how much of the straight line and of the rise is tried, the first that there is room for is taken.
+    """
+
+    roll_rad: float
+    shares: Shares
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lead:
+    """One arm's part in a run.
+
+    Attributes:
+        arm: which arm.
+        path: where its tool must be at each step of the run; where it has withdrawn to it stays.
+        from_grip_m: how far it has to go to its grip as it comes, and has gone since it let go (m); 0 while it holds,
+            shape (steps,).
+        let_go: the first step at which it holds no more.
+    """
+
+    arm: int
+    path: ToolPath
+    from_grip_m: FloatArray
+    let_go: int
+
+    def must_clear(self, steps: NDArray[np.int64]) -> tuple[BoolArray, BoolArray]:
+        """At which of some steps it must be clear of the cloth that lies before, and of that which lies after."""
+        is_far = self.from_grip_m[steps] > NEAR_GRIP_M
+        return is_far & (steps < self.let_go), is_far & (steps >= self.let_go)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leads:
+    """All arms' parts in a run.
+
+    Attributes:
+        each: the arms that do something.
+        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        first: the step at which the grips are reached.
+    """
+
+    each: tuple[Lead, ...]
+    bases: FloatArray
+    first: int
+
+    @staticmethod
+    def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> "Leads":
+        """The parts of the arms that hold cloth at some of the moments.
+
+        Args:
+            moments: the moments while cloth is held.
+            lines: how hands come and leave.
+            height_m: the table top's height over the floor.
+            has_room: where a hand can be.
+            cloths: the cloth that lies before and after.
+        """
+        arms = np.flatnonzero(moments.is_held.any(axis=1))
+        ways = [_way(int(arm), moments, lines, height_m, has_room, cloths) for arm in arms]
+        before = max(len(_stepped(way.approach)) for way in ways) - 1
+        after = max(len(_stepped(way.retreat)) for way in ways) - 1
+        start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
+        bases = np.concatenate([start, moments.bases, end])
+        return Leads(tuple(way.lead(before, after, len(bases)) for way in ways), bases, before)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Way:
+    """Where an arm's tool goes: to its grip, along the cloth's way, and from where it lets go."""
+
+    arm: int
+    positions: FloatArray
+    rotations: FloatArray
+    spans_s: FloatArray
+    approach: FloatArray
+    retreat: FloatArray
+
+    def lead(self, before: int, after: int, steps: int) -> Lead:
+        """The tool's path of so many steps, coming in some of them, leaving in some, then where it is."""
+        coming = _resampled(_stepped(self.approach), before)[:0:-1]
+        leaving = _resampled(_stepped(self.retreat), after)[1:]
+        first, last = self.rotations[:1], self.rotations[-1:]
+        rest = steps - before - len(self.positions)
+        path = ToolPath(
+            np.concatenate([coming, self.positions, leaving, leaving[-1:].repeat(rest - after, 0)]),
+            np.concatenate([first.repeat(before, 0), self.rotations, last.repeat(rest, 0)]),
+            np.concatenate([np.full(before, np.inf), self.spans_s, np.full(rest, np.inf)]),
+            (before, before + len(self.positions)),
+        )
+        from_grip = np.zeros(steps)
+        from_grip[:before] = _gone_m(self.positions[0], coming[::-1])[::-1]
+        from_grip[steps - rest :] = _gone_m(self.positions[-1], path.positions[steps - rest :])
+        return Lead(self.arm, path, from_grip, steps - rest)
+
+
+def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
+    """How far each of some points is from a start, along the way through all of them (m)."""
+    return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
+
+
+def rolled(arm: int, roll_rad: float) -> FloatArray:
+    """Return the rotation by which an arm's hand rolls about its approach axis, shape (3, 3).
+
+    The arms are mirror images: the right one rolls the other way, so that what one can do the other can.
+    """
+    return np.asarray(about_x(np.array([roll_rad if arm == 0 else -roll_rad]))[0])
+
+
+def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> _Way:
+    held = np.flatnonzero(moments.is_held[arm])
+    positions = moments.positions[arm, held]
+    rotations = moments.rotations[arm, held] @ rolled(arm, lines.roll_rad)
+    upwards = np.array([0.0, 0.0, 1.0])
+    coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
+    leaving *= RETREAT_M / np.linalg.norm(leaving)
+    ends = []
+    for number, line, cloth in ((0, APPROACH_M * coming, cloths[0]), (-1, leaving, cloths[1])):
+        base, rotation = moments.bases[held[number]], rotations[number]
+        corners = _corners(positions[number], line, lines.shares, height_m)
+        if number == 0 and cloth is None:
+            ends.append(positions[[0] * 3])
+            continue
+        able = (c for c in corners if has_room(arm, base, c[-1], rotation, cloth if _is_far(c) else None))
+        ends.append(next(able, positions[[number] * 3]))
+    spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
+    return _Way(arm, positions, rotations, spans, *ends)
+
+
+def _is_far(corners: FloatArray) -> bool:
+    """Whether a way leads so far from its grip that a hand at its end must be clear of cloth."""
+    return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum()) > NEAR_GRIP_M
+
+
+def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: float) -> list[FloatArray]:
+    """The corners of ways from a place along a line and up, each of shape (3, 3), m."""
+    far = position + np.array(shares)[:, :1] * line
+    rises = np.maximum(height_m + CLEAR_M - far[:, 2], 0.0) * np.array(shares)[:, 1]
+    tips = far + rises[:, None] * np.array([0.0, 0.0, 1.0])
+    return [np.array([position, corner, tip]) for corner, tip in zip(far, tips, strict=True)]
+
+
+def _stepped(corners: FloatArray) -> FloatArray:
+    """The points of a polyline, no more than a step apart, shape (n, 3), m; at least two."""
+    parts = [corners[:1]]
+    for start, end in pairwise(corners):
+        count = int(np.ceil((np.linalg.norm(end - start) - LENGTH_M) / _STEP_M))
+        parts.append(start + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - start))
+    points = np.concatenate(parts)
+    return points if len(points) > 1 else points.repeat(2, 0)
+
+
+def _resampled(points: FloatArray, steps: int) -> FloatArray:
+    """A polyline's points as so many steps, shape (steps + 1, 3); no fewer than it has."""
+    numbers = np.linspace(0.0, len(points) - 1, steps + 1)
+    return np.column_stack([np.interp(numbers, np.arange(len(points)), column) for column in points.T])

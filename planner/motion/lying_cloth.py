@@ -1,0 +1,84 @@
+"""The cloth that lies while hands are free, which they neither touch nor sweep along."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from planner.geometry.convex_pieces import convex_pieces
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.tolerance import grid_key
+from planner.motion.robot_port import Clearance, Collisions
+from planner.primitives.context import Context
+from planner.primitives.state import State
+
+OVER_CLOTH_M = 0.032
+"""How high over cloth free arms stay where that is looked at (m): 3 cm, and what may be lost in between."""
+
+NEAR_GRIP_M = 0.07
+"""So near to its grip, along its way, a hand may be lower (m): within 8 cm, and less than a step to spare."""
+
+
+@dataclass(frozen=True)
+class LyingCloth:
+    """Cloth that lies on the table.
+
+    Attributes:
+        key: tells it from other cloth, or the same elsewhere.
+    """
+
+    key: bytes
+    _pieces: tuple[FloatArray, ...] = field(compare=False, repr=False)
+    _collisions: Collisions = field(compare=False, repr=False)
+
+    def arm_clear(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
+        """At which joints of a free arm, shape (n, 7), all of it is high enough over the cloth, shape (n,).
+
+        Args:
+            arm: which arm.
+            bases: where the base stands.
+            joints: the arm's joints (rad).
+            is_certain: whether only those count that certainly are, which is quicker to tell.
+        """
+        return self._clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
+
+    def are_all_clear(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        """Whether all arms are in all of some configurations, shape (n, arms, 7)."""
+        return all(bool(self.arm_clear(arm, bases, joints[:, arm]).all()) for arm in range(joints.shape[1]))
+
+    @cached_property
+    def _clearance(self) -> Clearance:
+        return self._collisions.over_cloth(self._pieces, OVER_CLOTH_M)
+
+
+class LyingCloths:
+    """The cloth of one planning problem in each of its states."""
+
+    def __init__(self, context: Context, collisions: Collisions) -> None:
+        self._context = context
+        self._collisions = collisions
+        self._known: dict[tuple[int, int, int], LyingCloth] = {}
+        self._whole = lru_cache(None)(self._whole_pieces)
+
+    def of(self, state: State) -> LyingCloth:
+        """The cloth as it lies in a state once nothing is held; what hangs beside the table is left out."""
+        key = (state.done, grid_key(state.offset[0]), grid_key(state.offset[1]))
+        if key not in self._known:
+            placement = self._context.placed(state.offset)
+            pieces = tuple(placement.to_outer(piece) for piece in self._pieces(state))
+            name = b"".join(np.round(piece, 6).tobytes() + b"|" for piece in pieces)
+            self._known[key] = LyingCloth(name, pieces, self._collisions)
+        return self._known[key]
+
+    def _pieces(self, state: State) -> Sequence[FloatArray]:
+        context = self._context
+        if context.is_all_on_table(state.done, state.offset):
+            return self._whole(state.done)
+        top = context.table_in_article(state.offset).region
+        return convex_pieces(context.sequence.cloth(state.done).silhouette.intersection(top))
+
+    def _whole_pieces(self, done: int) -> tuple[FloatArray, ...]:
+        return convex_pieces(self._context.sequence.cloth(done).silhouette)

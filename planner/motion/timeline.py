@@ -1,0 +1,92 @@
+"""What a plan looks like at every moment: a function of the plan alone.
+
+It needs no robot and no search, so a plan that was read from a file is played like one that was just made.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from planner.errors import RequestError, UnsolvedPlanError
+from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import TIME_S
+from planner.motion.cloth_surface import ClothSurfaces
+from planner.motion.sample import Sample
+from planner.task.plan import Plan
+from planner.task.trajectory import Trajectory
+
+RATE_HZ = (1.0, 200.0)
+
+_SINK_S = 0.4
+"""How long cloth that is let go beyond an edge is shown sinking (s); the model lets it hang at once."""
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """A solved plan from 0 to its end.
+
+    Attributes:
+        plan: the plan.
+        trajectory: its trajectory.
+    """
+
+    plan: Plan
+    trajectory: Trajectory
+    _surfaces: ClothSurfaces = field(repr=False, compare=False)
+
+    @staticmethod
+    def of(plan: Plan) -> "Timeline":
+        """Return the timeline of a plan; raises `UnsolvedPlanError`."""
+        if plan.trajectory is None:
+            raise UnsolvedPlanError(plan.status)
+        return Timeline(plan, plan.trajectory, ClothSurfaces(plan.sequence))
+
+    @property
+    def duration_s(self) -> float:
+        """The plan's cost (s)."""
+        return self.trajectory.duration_s
+
+    def at(self, t_s: float) -> Sample:
+        """Return the frame at a time (s); times before the start or after the end give the first or last frame."""
+        path = self.trajectory
+        t = min(max(t_s, 0.0), self.duration_s)
+        number = path.index_at(t)
+        segment = path.segments[number]
+        cloth = segment.phase.cloth
+        return Sample(
+            t,
+            segment.step,
+            segment.base_at(t),
+            path.torso_m,
+            path.joints_at(t),
+            path.velocities_at(t),
+            {track.arm: track.opening_at(t) for track in path.grippers},
+            segment.placement_at(t),
+            self._surfaces.at(cloth, segment.fraction_at(t), self._droop(number, t)),
+            cloth.top,
+        )
+
+    def base_at(self, t_s: float) -> Pose2:
+        """Return where the base is at a time, table frame: the same as in the frame of that time, and soon known."""
+        t = min(max(t_s, 0.0), self.duration_s)
+        return self.trajectory.segment_at(t).base_at(t)
+
+    def _droop(self, number: int, t_s: float) -> float:
+        """How far cloth that was held out in the segment before has sunk: 1 when it hangs."""
+        segments = self.trajectory.segments
+        if number == 0 or segments[number - 1].phase.cloth.top == segments[number].phase.cloth.top:
+            return 1.0
+        return min((t_s - segments[number].start_s) / _SINK_S, 1.0)
+
+    def samples(self, rate_hz: float) -> Iterator[Sample]:
+        """Yield frames at an even rate from 0 to the end; the last stands exactly at the end.
+
+        Raises:
+            RequestError: the rate is not between 1 and 200 Hz.
+        """
+        if not RATE_HZ[0] <= rate_hz <= RATE_HZ[1]:
+            raise RequestError("rate_hz", f"{rate_hz} is not between {RATE_HZ[0]:g} and {RATE_HZ[1]:g}")
+        count = 0
+        while count / rate_hz < self.duration_s - TIME_S:
+            yield self.at(count / rate_hz)
+            count += 1
+        yield self.at(self.duration_s)

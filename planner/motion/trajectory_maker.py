@@ -1,0 +1,167 @@
+"""The trajectory of a plan, made of its acts: segments for base and cloth, one track for the arms.
+
+While cloth is held the joints are those of the acts. Between two acts the hands are free, and the base drives (see
+`planner.motion.transit_planner`).
+"""
+
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.table_top import TableTop
+from planner.motion.act import Act
+from planner.motion.joint_track import JointTrack
+from planner.motion.lying_cloth import LyingCloth
+from planner.motion.robot_port import Collisions
+from planner.motion.timed_phase import TimedPhase
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.transit_paths import TransitPaths
+from planner.motion.transit_planner import Line, TransitPlanner
+from planner.motion.transit_time import TransitTime
+from planner.primitives.context import Context
+from planner.robot.card import ArmCard, RobotCard
+from planner.task.phase import ClothMotion, Phase
+from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
+
+_FINGER_KNOTS = 8
+"""Keyframes while fingers close or open: they swing on links, so their joint does not go evenly."""
+
+
+def trajectory(
+    context: Context, card: RobotCard, maker: TransferPlanner, acts: Sequence[Act], duration_s: float
+) -> Trajectory:
+    """Return what robot and cloth do in a plan's acts.
+
+    Args:
+        context: the planning problem.
+        card: the robot.
+        maker: what made the acts' joint paths.
+        acts: the acts, one after the other.
+        duration_s: how long they last (s).
+    """
+    reel = _Reel(maker.transits, maker.collisions, maker.dwell_s)
+    segments = tuple(reel.segments(acts, _standing(context)))
+    track = reel.track
+    rows = np.array(track.joints).reshape(len(track.times_s), -1)
+    names = tuple(name for arm in card.arms for name in arm.joint_names)
+    return Trajectory(
+        duration_s,
+        segments,
+        ArmTrack(names, tuple(track.times_s), tuple(map(tuple, rows.tolist()))),
+        tuple(_gripper_track(arm, *track.openings(number)) for number, arm in enumerate(card.arms)),
+        context.scene.torso_m,
+        {card.lift_joint: context.scene.torso_m, **dict(card.resting)},
+    )
+
+
+def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[float]) -> GripperTrack:
+    """Return a gripper's keyframes, with some more wherever it moves."""
+    knots = np.linspace(0.0, 1.0, _FINGER_KNOTS + 1)[1:]
+    times, openings = [np.array(times_s[:1])], [np.array(openings_m[:1])]
+    for number in range(1, len(times_s)):
+        start, end = openings_m[number - 1 : number + 1]
+        shares = knots if start != end else knots[-1:]
+        times.append(times_s[number - 1] + shares * (times_s[number] - times_s[number - 1]))
+        openings.append((1.0 - shares) * start + shares * end)
+    opening = np.concatenate(openings).tolist()
+    positions = tuple(arm.gripper.angle(one) for one in opening)
+    return GripperTrack(
+        arm.name, arm.gripper.joint_name, tuple(np.concatenate(times).tolist()), tuple(opening), positions
+    )
+
+
+def _standing(context: Context) -> Phase:
+    """Return a phase of no length in which nothing moves: all there is to see of a plan without steps."""
+    state = context.start
+    base, placement = context.base_pose(state.station, state.back_off), context.placed(state.offset)
+    still = ClothMotion(state.done, placement, placement, TableTop.of(context.scene.table))
+    return Phase(0.0, (base, base), (None,) * len(context.reach.arm_names), still)
+
+
+class _Reel:
+    """Puts transfers and moves together."""
+
+    def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
+        """Begin with all arms at home.
+
+        Args:
+            transits: the ways of free hands.
+            collisions: what is in whose way.
+            dwell_s: how long fingers take to close and to open (s).
+        """
+        self._transits = transits
+        self._dwell_s = dwell_s
+        self._hands = TransitPlanner(transits, collisions, dwell_s)
+        self.track = JointTrack.at_rest(transits.home)
+        self._cues: list[TimedPhase] = []
+        self._free: list[TimedPhase] = []
+        self._now = 0.0
+        self._before: Transfer | None = None
+        self._turns: FloatArray = np.zeros_like(transits.home)
+
+    def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
+        """Yield what base and cloth do in a plan's acts; `rest` is all there is to see if there are none."""
+        for act in acts:
+            if act.run is not None:
+                self._run(act.first, act.run)
+                continue
+            for number, step in enumerate(act.steps):
+                lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
+                self._free += [TimedPhase.even(act.first + number, phase, phase.duration_s) for phase in lasting]
+        self._cues += self._free
+        if not self._cues:
+            self._cues.append(TimedPhase.even(0, rest, 0.0))
+        starts = accumulate((cue.duration_s for cue in self._cues), initial=0.0)
+        for cue, start_s in zip(self._cues, starts, strict=False):
+            times, fractions = tuple(cue.times_s.tolist()), tuple(cue.fractions.tolist())
+            yield Segment(cue.primitive, start_s, cue.phase, times, fractions)
+
+    def _run(self, primitive: int, run: Transfer) -> None:
+        for phase in run.free_phases:
+            extra = run.reach_late_s if any(phase.hands) else 0.0
+            self._free.append(TimedPhase.even(primitive, phase, phase.duration_s + extra))
+        if run.carried.cloths[0] is None:
+            self._begin_holding(run)
+        else:
+            self._reach(run, run.carried.cloths[0])
+        held = self._now
+        timing = run.timing
+        for cue in timing.cues:
+            self._cues.append(TimedPhase(primitive + cue.primitive, cue.phase, cue.times_s, cue.fractions))
+        self.track.add(held + timing.times_s, run.carried.joints[run.carried.first + timing.moments] + self._turns)
+        is_last = run.carried.moments.is_last_held
+        for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
+            opens = held + timing.first_s(int(np.argmax(is_last[arm])))
+            if held > 0.0:
+                self.track.close(arm, held - self._dwell_s, held)
+            self.track.open(arm, opens, opens + self._dwell_s)
+        self._now = held + float(timing.times_s[-1])
+        self._before = run
+        self._free = []
+
+    def _begin_holding(self, run: Transfer) -> None:
+        """Begin with the cloth in the hands, which are where the run has them first."""
+        self.track = JointTrack.at_rest(run.carried.joints[run.carried.first])
+        for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
+            self.track.begin_closed(arm)
+
+    def _reach(self, run: Transfer, cloth: LyingCloth) -> None:
+        """Everything until a run's grips are reached, cloth lying there meanwhile."""
+        tail, start = self._tail(), run.carried.joints[0]
+        self._turns = self._transits.unwound(start, tail.joints[-1]) - start
+        lead = Line(run.carried.joints[: run.carried.first + 1] + self._turns, run.lead_s)
+        between = TransitTime(self._free, self._now, cloth)
+        free, keyframes = self._hands.keyframes(between, tail, lead)
+        self.track.add(keyframes.times_s, keyframes.joints)
+        self._cues += free.cues
+        self._now = free.end_s
+
+    def _tail(self) -> Line:
+        """The way on which the hands withdraw from the run before."""
+        if self._before is None:
+            return Line(self.track.last[None], np.empty(0))
+        joints = self._before.carried.joints[self._before.carried.last :]
+        return Line(joints + (self.track.last - joints[0]), self._before.tail_s)

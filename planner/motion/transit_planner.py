@@ -1,0 +1,174 @@
+"""How hands that let go come to their next grips while the base drives: keyframes within the time there is.
+
+The hands withdraw straight from where they let go (the *tail* of the run before), travel, and come straight to the next
+grips (the *lead* of the run to come). If the straight way will not do beside the moving base, they go home first; if
+that will not do either, the base waits until they are there.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise, product
+from typing import NamedTuple
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Pose2
+from planner.motion.joint_track import JointTrack
+from planner.motion.pacing import eased
+from planner.motion.robot_port import Collisions
+from planner.motion.transit_paths import AT_GRIPS, TransitPaths
+from planner.motion.transit_time import TransitTime
+
+_LEAD_S, _TAIL_S = 0.8, 0.6
+"""How long hands take to come straight to their grips and to withdraw, if there is time (s)."""
+
+_CHECK_S = 0.04
+"""How far apart moments are at which free hands beside a moving base are checked (s)."""
+
+_KEYFRAMES = 12
+"""Into how many keyframes an eased line of free hands is cut."""
+
+_EASING = 0.3
+
+
+class Keyframes(NamedTuple):
+    """Where all arms are when.
+
+    Attributes:
+        times_s: rising, shape (n,).
+        joints: all arms' joints then (rad), shape (n, arms, 7).
+    """
+
+    times_s: FloatArray
+    joints: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """A straight way of the hands to grips or from them, as a run has it.
+
+    Attributes:
+        joints: all arms' joints (rad), shape (n, arms, 7).
+        least_s: the least time for each of its steps (s), shape (n - 1,).
+    """
+
+    joints: FloatArray
+    least_s: FloatArray
+
+    @property
+    def shortest_s(self) -> float:
+        """The least time for all of it (s)."""
+        return float(self.least_s.sum())
+
+
+class TransitPlanner:
+    """Leads free hands from run to run."""
+
+    def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
+        """The hands of one robot, whose ways are known, among what they may collide with.
+
+        They rest at their grips for so long until their fingers have closed (s).
+        """
+        self._dwell_s = dwell_s
+        self._transits = transits
+        self._collisions = collisions
+
+    def keyframes(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
+        """How the hands get from a tail to a lead in a free time; and that time, changed if the base has to wait."""
+        keyframes = self._overlapping(free, tail, lead)
+        return self._waiting(free, tail, lead) if keyframes is None else (free, keyframes)
+
+    def _overlapping(self, free: TransitTime, tail: Line, lead: Line) -> Keyframes | None:
+        """Keyframes of hands that travel while the base drives; None if that would not be clear."""
+        start, goal = tail.joints[-1], lead.joints[0]
+        ways = [np.array([start, goal])]
+        home = self._transits.unwound(self._transits.home, start)
+        spared = self._transits.spared(tail.joints, lead.joints)
+        found = self._transits.way(Pose2.of(free.base_at(free.end_s)), start, goal, free.cloth, spared)
+        if found is not None:
+            ways.append(found)
+        ways.append(np.array([start, home, goal]))
+        # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
+        for way, tail_s in product(ways, (_TAIL_S, 0.0)):
+            keyframes = self._timed(free, tail, way, lead, tail_s)
+            if keyframes is not None and self._is_clear(free, tail, keyframes):
+                return keyframes
+        return None
+
+    def _timed(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
+        """Keyframes that withdraw, go a way and come to the grips within a free time; None if that is too short."""
+        needed = self._transits.needed_s(way)
+        arrives = free.end_s - self._dwell_s
+        spare = arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum()))
+        if spare < 0.0:
+            return None
+        out = _stretched(tail.least_s, min(tail_s, tail.shortest_s + spare / 4))
+        down = _stretched(lead.least_s, min(_LEAD_S, lead.shortest_s + spare / 4))
+        leaves, comes = free.start_s + float(out.sum()), arrives - float(down.sum())
+        travel_t, travel = _travel(way, needed, leaves, comes)
+        times = [free.start_s + np.cumsum(out), travel_t, comes + np.cumsum(down), np.array([free.end_s])]
+        return _keyframes(times, tail, [travel], lead)
+
+    def _is_clear(self, free: TransitTime, tail: Line, keyframes: Keyframes) -> bool:
+        """Whether hands that go on from a tail touch nothing, the base where it is then, nor pass low over cloth."""
+        track = JointTrack([free.start_s], [tail.joints[0]])
+        track.add(keyframes.times_s, keyframes.joints)
+        count = int(np.ceil((free.end_s - free.start_s) / _CHECK_S))
+        moments = np.linspace(free.start_s, free.end_s, count + 1)
+        bases = np.array([free.base_at(t) for t in moments])
+        there = np.array([track.joints_at(t) for t in moments])
+        is_free = self._collisions.are_all_free(bases, there)
+        return is_free and self._transits.are_clear(free.cloth, bases, there, AT_GRIPS)
+
+    def _waiting(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
+        """The base waits until the hands are home; they set out again when it has arrived.
+
+        What it waits is taken from the reach, which lasts long enough for both: see `ReachTime`.
+        """
+        home = self._transits.unwound(self._transits.home, tail.joints[-1])
+        first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
+        away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
+        if away is None and np.array_equal(tail.joints[-1], home):  # at home already, at a table as high as the hands
+            away = np.array([home, home])
+        back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
+        assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"
+        leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
+        wait_s = tail.shortest_s + float(leave_s.sum())
+        waited = free.after_waiting(wait_s)
+        arrives = waited.end_s - self._dwell_s
+        begins = arrives - (lead.shortest_s + float(back_s.sum()))
+        travel = [
+            _travel(away, leave_s, waited.start_s + tail.shortest_s, waited.start_s + wait_s),
+            (np.array([begins]), home[None]),
+            _travel(back, back_s, begins, arrives - lead.shortest_s),
+        ]
+        come = travel[-1][0][-1] + np.cumsum(lead.least_s)
+        times = [waited.start_s + np.cumsum(tail.least_s), *(t for t, _ in travel), come, np.array([waited.end_s])]
+        return waited, _keyframes(times, tail, [joints for _, joints in travel], lead)
+
+
+def _keyframes(times: list[FloatArray], tail: Line, travel: list[FloatArray], lead: Line) -> Keyframes:
+    """Keyframes on a tail, on the way from it to a lead, on that, and once more where that ends."""
+    joints = np.concatenate([tail.joints[1:], *travel, lead.joints[1:], lead.joints[-1:]])
+    return Keyframes(np.concatenate(times), joints)
+
+
+def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tuple[FloatArray, FloatArray]:
+    """Keyframes along a way, each of its lines eased."""
+    total = float(needed.sum())
+    if total <= 0.0:
+        return np.array([end]), way[-1:]
+    pace = (end - start) / total
+    easing = min(_EASING, max(0.0, 1.0 - 1.0 / pace))
+    shares = np.linspace(0.0, 1.0, _KEYFRAMES + 1)[1:]
+    times, joints = [], []
+    for (a, b), begin, need in zip(pairwise(way), np.cumsum(needed) - needed, needed, strict=True):
+        times.append(start + pace * (begin + shares * need))
+        joints.append(a + eased(shares, easing)[:, None, None] * (b - a))
+    return np.concatenate(times), np.concatenate(joints)
+
+
+def _stretched(steps_s: FloatArray, total_s: float) -> FloatArray:
+    """Steps that take so long together, none of them less than it needs (s)."""
+    if not len(steps_s):
+        return steps_s
+    return np.asarray(steps_s + max(0.0, total_s - float(steps_s.sum())) / len(steps_s))

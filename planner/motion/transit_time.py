@@ -1,0 +1,62 @@
+"""A time in which no hand holds cloth: what base and cloth do meanwhile, and where the base is at each moment."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.motion.lying_cloth import LyingCloth
+from planner.motion.timed_phase import TimedPhase
+from planner.task.phase import Phase
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TransitTime:
+    """A time in which hands are free.
+
+    Attributes:
+        cues: what base and cloth do then, one after the other.
+        start_s: when it begins (s).
+        cloth: what lies on the table meanwhile.
+    """
+
+    cues: list[TimedPhase]
+    start_s: float
+    cloth: LyingCloth
+
+    @property
+    def end_s(self) -> float:
+        """When it ends (s)."""
+        return self.start_s + sum(cue.duration_s for cue in self.cues)
+
+    def base_at(self, t_s: float) -> FloatArray:
+        """Where the base is at a time: x (m), y (m), yaw (rad)."""
+        start = self.start_s
+        for cue in self.cues[:-1]:
+            if t_s <= start + cue.duration_s:
+                break
+            start += cue.duration_s
+        else:
+            cue = self.cues[-1]
+        pose = cue.base_at(t_s - start)
+        return np.array([pose.x_m, pose.y_m, pose.yaw_rad])
+
+    def after_waiting(self, wait_s: float) -> "TransitTime":
+        """The same time, but that the base waits first (s), which is taken from the reach at the end."""
+        *driving, reach = self.cues
+        waiting = TimedPhase(
+            reach.primitive, _resting(self.cues[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0])
+        )
+        shorter = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s - wait_s)
+        return TransitTime([waiting, *driving, shorter], self.start_s, self.cloth)
+
+
+def _resting(phase: Phase) -> Phase:
+    """A phase in which everything is as at the start of another."""
+    cloth = phase.cloth
+    return Phase(
+        0.0,
+        (phase.base[0], phase.base[0]),
+        tuple(None for _ in phase.hands),
+        type(cloth)(cloth.done, cloth.start, cloth.start, cloth.top, cloth.fold, (cloth.sweep[0], cloth.sweep[0])),
+    )

@@ -1,0 +1,89 @@
+"""The edges of the graph that is searched: the primitives possible in each state, worked out once."""
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import TypeAlias
+
+from planner.geometry.tolerance import TIME_S
+from planner.primitives.context import Context
+from planner.primitives.primitive import Deferred, Step, in_time
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.state import ANYWHERE, State
+from planner.search.a_star import Edge, Promise, Successors
+
+Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
+"""Of the steps that leave a state those that are to be followed, each with what it costs (s)."""
+
+
+class Edges:
+    """What can be done in each state of one planning problem."""
+
+    def __init__(self, context: Context, possible: Possible, is_wanted: Callable[[State], bool]) -> None:
+        """Nothing is worked out yet.
+
+        Args:
+            context: the problem.
+            possible: asked each time that edges are wanted.
+            is_wanted: whether spare steps to the grasp of a state are wanted by now; asked each time that there are.
+        """
+        self._primitives = [kind(context) for kind in PRIMITIVES]
+        self._context = context
+        self._possible = possible
+        self._is_wanted = is_wanted
+        self._steps: dict[tuple[State, bool], tuple[Step | Deferred[Step], ...]] = {}
+        self._asked: set[State] = set()
+        self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
+        self._worked_out: dict[Deferred[Step], tuple[Step | Deferred[Step], ...]] = {}
+
+    @property
+    def expanded(self) -> int:
+        """How many states have been asked about, each counted once."""
+        return len(self._asked)
+
+    def begin(self) -> None:
+        """A search begins: no state has been left yet."""
+        self._left.clear()
+
+    def leaving(self, state: State, cost_s: float) -> Successors[State, Step]:
+        """The edges that leave a state reached at a cost (s), and promises of those that have time.
+
+        Where the base could as well have driven there from a state that has been left before, what begins with driving
+        is left out: from there it took no longer.
+        """
+        self._asked.add(state)
+        is_passed = not state.held and self._is_passed(state, cost_s)
+        key = (state, is_passed)
+        if key not in self._steps:
+            kinds = [kind for kind in self._primitives if not (is_passed and kind.begins_with_driving)]
+            self._steps[key] = tuple(one for kind in kinds for one in in_time(kind.successors(state)))
+        return self._of(state, self._steps[key])
+
+    def _is_passed(self, state: State, cost_s: float) -> bool:
+        """Whether a state that differs in the back-off alone was left so much earlier; else this one is noted."""
+        left = self._left.setdefault((state.done, state.place, state.station), [])
+        drive_s = self._context.drive_s
+        if any(before_s + drive_s(abs(back_off - state.back_off)) <= cost_s + TIME_S for back_off, before_s in left):
+            return True
+        left.append((state.back_off, cost_s))
+        return False
+
+    def _of(self, state: State, found: Iterable[Step | Deferred[Step]]) -> Successors[State, Step]:
+        for later in (one for one in found if isinstance(one, Deferred)):
+            if later.is_spare and not self._is_wanted(later.towards):
+                continue
+            if later in self._worked_out:
+                yield from self._of(state, self._worked_out[later])
+            else:
+                towards = later.towards if later.is_there else _anywhere(later.towards)
+                yield Promise(later.duration_s, towards, partial(self._redeemed, state, later))
+        for step, cost_s in self._possible(state, (one for one in found if not isinstance(one, Deferred))):
+            yield Edge(step, cost_s, step.after)
+
+    def _redeemed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
+        self._worked_out[later] = tuple(later.steps())
+        return self._of(state, self._worked_out[later])
+
+
+def _anywhere(state: State) -> State:
+    """A state that stands for all with as many folds done, hands holding on or not, wherever cloth and robot are."""
+    return State(state.done, (0.0, 0.0), ANYWHERE, ANYWHERE, dragged=state.dragged)

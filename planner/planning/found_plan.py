@@ -1,0 +1,106 @@
+"""A plan together with what it was found with: of use for the next plan of a garment that differs a little."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from planner.motion.act import Act
+from planner.motion.trajectory_maker import trajectory
+from planner.planning.problem import Problem
+from planner.primitives.context import DRAGS_PER_M, Context
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+from planner.task.plan import Plan, PlanStep, Statistics
+from planner.task.reason import Reason
+from planner.task.task import Task
+from planner.task.world_state import HeldPoint, WorldState
+
+
+@dataclass(frozen=True, eq=False)
+class FoundPlan:
+    """A plan, and how it was found.
+
+    Attributes:
+        plan: the plan, which is data alone.
+        problem: what was asked, ready for planning.
+        acts: the steps again, with the joint paths of those that belong together.
+    """
+
+    plan: Plan
+    problem: Problem
+    acts: tuple[Act, ...]
+
+    @staticmethod
+    def of(
+        problem: Problem,
+        status: Literal["solved", "infeasible", "budget_exceeded"],
+        acts: tuple[Act, ...],
+        reasons: tuple[Reason, ...],
+        statistics: Statistics,
+        *,
+        is_exhaustive: bool,
+    ) -> "FoundPlan":
+        """Make a plan of what was found, act by act."""
+        steps = tuple(_scheduled(problem, acts))
+        plan = Plan(problem.task, status, steps, None, reasons, statistics, is_exhaustive)
+        if plan.cost_s is not None:
+            path = trajectory(problem.context, problem.robot.card, problem.maker, acts, plan.cost_s)
+            plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
+        return FoundPlan(plan, problem, acts)
+
+    def or_quicker(self, other: "FoundPlan") -> "FoundPlan":
+        """Return this plan or another for the same task, whichever is quicker; the bound is what neither beats."""
+        better = other if _rank(other) < _rank(self) else self
+        bounds = [one.plan.bound_s for one in (self, other) if one.plan.status != "infeasible"]
+        known = [bound_s for bound_s in bounds if bound_s is not None]
+        bound_s = min(known) if known and len(known) == len(bounds) else None
+        statistics = replace(other.plan.statistics.after(self.plan.statistics), bound_s=bound_s)
+        is_exhaustive = self.plan.is_exhaustive and other.plan.is_exhaustive
+        return better.told_again(better.plan.task, statistics, is_exhaustive=is_exhaustive)
+
+    def told_again(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
+        """Return the same plan as the answer to a task with other limits, after some more work."""
+        plan = replace(self.plan, task=task, statistics=statistics, is_exhaustive=is_exhaustive)
+        return FoundPlan(plan, self.problem, self.acts)
+
+
+def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
+    """Return by what plans are compared: any plan before none, then what it costs, and a limit reached before a no."""
+    cost_s = found.plan.cost_s
+    return cost_s is None, 0.0 if cost_s is None else cost_s, found.plan.status == "infeasible"
+
+
+def _scheduled(problem: Problem, acts: Sequence[Act]) -> Iterator[PlanStep]:
+    now, before = 0.0, problem.task.start
+    for act in acts:
+        for step, duration_s in zip(act.steps, act.durations_s(), strict=True):
+            after = _world_after(problem.context, step, before)
+            yield PlanStep(
+                step.kind,
+                now,
+                duration_s,
+                step.details,
+                problem.context.base_stop(step.after),
+                step.grips,
+                before,
+                after,
+                step.holdings(),
+            )
+            now, before = now + duration_s, after
+
+
+def _world_after(context: Context, step: Step, before: WorldState) -> WorldState:
+    state = step.after
+    new = tuple(fold for fold in range(len(context.sequence.folds)) if (state.done & ~step.before.done) >> fold & 1)
+    return WorldState(
+        before.folds_done + new,
+        context.placed(state.offset),
+        context.base_stop(state),
+        held_points(context, state),
+        state.dragged / DRAGS_PER_M,
+    )
+
+
+def held_points(context: Context, state: State) -> tuple[HeldPoint, ...]:
+    """Return what is held in a state of the search."""
+    return tuple(HeldPoint(context.reach.arm_names[held.arm], held.point) for held in state.held)

@@ -1,0 +1,121 @@
+"""Some plan, found soon: a search that goes straight for the end.
+
+It is the search for the quickest plan with the time to come counted several times over (weighted A*, Pohl 1970), so
+that it prefers to finish what it has begun. What it finds can be done, but may be far from the quickest. It gives up
+early, since then it mostly is no quicker than the proper search.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import count
+
+from planner.motion.act import Act, runs_of
+from planner.motion.transfer import Transfer
+from planner.motion.tries import QUICK
+from planner.planning.edges import Edges
+from planner.planning.effort import Effort
+from planner.planning.heuristic import arm_time
+from planner.planning.problem import Problem
+from planner.primitives.primitive import Step
+from planner.primitives.state import State, StateKey
+from planner.search.a_star import a_star
+
+WEIGHT = 10.0
+"""So many times the time to come counts more than the time so far."""
+
+_EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 2
+"""So many states are expanded, and so many more for each fold."""
+
+_LOOKS_PER_STATE = 12
+"""So many times as many states and promises of steps are looked at altogether."""
+
+_FAILURES_MAX = 8
+"""So many runs may turn out not to be real."""
+
+_ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=1)
+"""What is tried with one hand, and with both, which mostly fail for good, and slowly."""
+
+
+def greedy(
+    problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool], wanted: int | None = None
+) -> tuple[Act, ...] | None:
+    """What is left to be done from a state on.
+
+    Args:
+        problem: what is to be planned.
+        start: the state.
+        effort: what is done is added to it.
+        is_over: asked again and again; true means that there is no time.
+        wanted: the folds to be done, as a bit mask, what they wait for among them; None for all.
+
+    Returns:
+        What is done, act by act, the first beginning with primitive 0; None where no way was found soon that the arms
+        can follow.
+    """
+    return _Greedy(problem, effort, is_over, wanted).acts(start)
+
+
+class _Greedy:
+    def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None) -> None:
+        self._problem = problem
+        self._effort = effort
+        self._is_over = is_over
+        self._wanted = (1 << len(problem.context.sequence.folds)) - 1 if wanted is None else wanted
+        self._remaining = arm_time(problem.context, self._wanted)
+        self._edges = Edges(problem.context, self._possible, lambda held: held.grasp in self._doubted)
+        self._made: dict[tuple[StateKey, ...], Transfer | None] = {}
+        self._struck: set[tuple[StateKey, StateKey]] = set()
+        self._doubted: set[tuple[object, ...]] = set()
+
+    def acts(self, start: State) -> tuple[Act, ...] | None:
+        expanded_max = _EXPANDED_MAX + _EXPANDED_PER_FOLD * len(self._problem.context.sequence.folds)
+        looks = count()
+        while len(self._struck) < _FAILURES_MAX and not self._is_over():
+            self._edges.begin()
+            result = a_star(
+                start,
+                self._edges.leaving,
+                lambda state: state.done & self._wanted == self._wanted,
+                lambda state: WEIGHT * self._remaining(state),
+                expanded_max,
+                lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
+                is_consistent=False,
+            )
+            self._effort.expanded += result.expanded
+            self._effort.explored += result.explored
+            if not result.path:
+                return None
+            with self._effort.on_joints():
+                found = self._real([edge.action for edge in result.path])
+            if found is not None:
+                return found
+        return None
+
+    def _possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
+
+    def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+        """What steps are once they are real; where a run is not, its last step is tried no more."""
+        acts = []
+        for first, run in runs_of(steps):
+            act = None if self._is_over() else self._act(first, run)
+            if act is None:
+                self._struck.add(_ends(run[-1]))
+                self._doubted.update(step.after.grasp for step in run if step.after.held)
+                return None
+            acts.append(act)
+        return tuple(acts)
+
+    def _act(self, first: int, steps: tuple[Step, ...]) -> Act | None:
+        if not any(step.grips for step in steps):
+            return Act(first, steps, None)
+        key = (steps[0].before.key, *(step.after.key for step in steps))
+        if key not in self._made:
+            tries = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
+            self._made[key] = self._problem.maker.real(steps, tries)
+        run = self._made[key]
+        return None if run is None else Act(first, run.steps, run)
+
+
+def _ends(step: Step) -> tuple[StateKey, StateKey]:
+    return step.before.key, step.after.key

@@ -1,0 +1,201 @@
+"""Making a plan real, lazily: joint paths only for what the search is about to accept.
+
+The search works with what each primitive costs if the arms can follow; that is a lower bound. When it has found a path,
+the path's runs are made real one after the other. A step that cannot be is struck out, one that takes longer gets its
+true cost, and the search goes on with what is known now. Bounds only rise, so the first path that is real at the cost
+at which it was found is the quickest of all: the same that a search would find that made every step real at once.
+
+The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
+either, and to be told so one by one would take long. So a spread of other ways to do the same, begun and ended
+elsewhere, is looked at at once, and some of those that may do are tried; in every state in which the hands would do the
+same the first few that are real take the place of all that the search had, but for what has turned out to be real
+before. What the same arms have failed at several times from one station, wherever the cloth lay, and never succeeded
+in, is tried no more from there. So "infeasible" is no proof where steps were struck out.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
+
+from planner.geometry.tolerance import TIME_S
+from planner.motion.act import Act, duration_s, in_turn, runs_of
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_planner import TransferPlanner, ways_of
+from planner.motion.tries import QUICK, Tries
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+
+
+class OutOfTimeError(Exception):
+    """There was no time to look whether steps are real, or no more work was to be done."""
+
+
+class MotionValidator:
+    """Knows which steps of one planning problem are slower than they seem, or cannot be.
+
+    Attributes:
+        struck: the runs that could not be made real, each up to the step that could not.
+        slower: what the steps asked about last are, where they are real but take longer than they seemed to.
+    """
+
+    def __init__(
+        self,
+        maker: TransferPlanner,
+        is_over: Callable[[], bool],
+        tries: Tries = QUICK,
+        runs_max: float = math.inf,
+    ) -> None:
+        """Nothing is known yet.
+
+        Args:
+            maker: makes runs real.
+            is_over: asked before each run and each look; true means that there is no time.
+            tries: how much is tried.
+            runs_max: the arms are led through no more runs than this.
+        """
+        self._maker = maker
+        self._is_over = is_over
+        self._tries = tries
+        self._last_run = maker.tries + runs_max
+        self._made: dict[tuple[object, ...], Transfer | None] = {}
+        self._least_s: dict[object, float] = {}
+        self._others: dict[object, tuple[Step, ...]] = {}
+        self._real_steps: set[object] = set()
+        self._failures: Counter[tuple[object, ...]] = Counter()
+        self._succeeded: set[tuple[object, ...]] = set()
+        self._given_up: dict[tuple[object, ...], int] = {}
+        self._doubted: set[tuple[object, ...]] = set()
+        self.rejected: list[tuple[Step, ...]] = []
+        self.slower: tuple[Act, ...] = ()
+
+    def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
+        if not (self._others or self._least_s):
+            yield from ((step, step.duration_s) for step in steps)
+            return
+        situations: dict[tuple[object, ...], None] = {}
+        for step in steps:
+            if self._given_up and step.task in self._given_up:
+                continue
+            situation = step.situation
+            situations[situation] = None
+            if situation not in self._others or _key(step) in self._real_steps:
+                yield from self._unless_rejected(step)
+        for situation in situations:
+            for other in self._others.get(situation, ()):
+                yield from self._unless_rejected(other.begun_in(state))
+
+    def _unless_rejected(self, step: Step) -> Iterator[tuple[Step, float]]:
+        cost_s = self._known_s(step)
+        if math.isfinite(cost_s):
+            yield step, cost_s
+
+    @property
+    def has_doubts(self) -> bool:
+        """Whether some steps were rejected, or cost more than the search's bounds: what was left untried may do."""
+        return bool(self._least_s)
+
+    def is_in_doubt(self, held: State) -> bool:
+        """Whether ways to or from a grasp have turned out not to be real, or to take longer than they seemed."""
+        return held.grasp in self._doubted or held.station in self._given_up.values()
+
+    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+        """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
+
+        What takes longer can be done all the same: that is `slower` then.
+
+        Raises:
+            OutOfTimeError: there was no time to find out; what is known by then stays.
+        """
+        self.slower = ()
+        found: list[Act] = []
+        runs: list[tuple[tuple[Step, ...], Transfer]] = []
+        for first, run in runs_of(steps):
+            made = self._real(run) if any(step.grips for step in run) else None
+            found.append(Act(first, run if made is None else made.steps, made))
+            if made is not None:
+                runs.append((run, made))
+            elif any(step.grips for step in run):
+                self._all_agree(runs)
+                self._reject(run)
+                return None
+        acts = in_turn(found)
+        seemed_s = sum(self._known_s(step) for step in steps)
+        if duration_s(acts) <= seemed_s + TIME_S or self._all_agree(runs):
+            return acts
+        self.slower = acts
+        return None
+
+    def _real(self, run: tuple[Step, ...]) -> Transfer | None:
+        key = tuple(_key(step) for step in run)
+        if key not in self._made:
+            ways = self._in_time(ways_of(run, self._tries))
+            self._made[key] = self._maker.first_real(ways, self._tries)
+        return self._made[key]
+
+    def _reject(self, run: tuple[Step, ...]) -> None:
+        """Strike out the first step up to which a run cannot be made real; find other ways to do the same."""
+        number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
+        culprit, before = run[number], run[:number]
+        self.rejected.append(run[: number + 1])
+        others: dict[object, Step] = {}
+        self._least_s[_key(culprit)] = math.inf
+        self._doubt(run)
+        tries = self._tries
+        new = ((*before, other) for other in culprit.elsewhere(tries.spread) if _key(other) not in others)
+        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), tries.tried)):
+            if candidate.is_together and tried == tries.vain and not others:
+                break
+            made, other = self._maker.made(candidate), candidate.steps[-1]
+            if made is not None:
+                others[_key(other)] = other
+                self._made[tuple(_key(step) for step in candidate.steps)] = made
+                self._least_s[_key(other)] = made.durations_at_most_s()[-1]
+            if len(others) == tries.enough:
+                break
+        self._others[culprit.situation] = tuple(others.values())
+        if others:
+            self._succeeded.add(culprit.task)
+        self._failures[culprit.task] += 1
+        if self._failures[culprit.task] >= tries.failures and culprit.task not in self._succeeded:
+            self._given_up[culprit.task] = culprit.before.station
+
+    def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
+        for steps in choices:
+            self._require_time()
+            yield steps
+
+    def _require_time(self) -> None:
+        if self._is_over() or self._maker.tries >= self._last_run:
+            raise OutOfTimeError
+
+    def _known_s(self, step: Step) -> float:
+        """The least that a step is known to take (s)."""
+        return max(step.duration_s, self._least_s.get(_key(step), 0.0))
+
+    def _all_agree(self, runs: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
+        """Whether the steps of some runs take as long as was known; what they take is known now."""
+        agreed = [self._agrees(run, made) for run, made in runs]
+        return all(agreed)
+
+    def _agrees(self, run: tuple[Step, ...], made: Transfer) -> bool:
+        is_known = True
+        for step, lasts_s in zip(run, made.durations_at_most_s(), strict=True):
+            known = self._known_s(step)
+            is_known &= lasts_s <= known + TIME_S
+            self._least_s[_key(step)] = max(lasts_s, known)
+            self._real_steps.add(_key(step))
+            self._succeeded.add(step.task)
+            self._given_up.pop(step.task, None)
+        if not is_known:
+            self._doubt(run)
+        return is_known
+
+    def _doubt(self, run: tuple[Step, ...]) -> None:
+        """What seemed best about the grasps on the way may be no longer."""
+        self._doubted.update(step.after.grasp for step in run if step.after.held)
+
+
+def _key(step: Step) -> tuple[object, ...]:
+    return (step.kind, step.before.key, step.after.key)

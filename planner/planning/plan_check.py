@@ -1,0 +1,169 @@
+"""The check of a plan that came from elsewhere: can it be done, step by step, as it says?
+
+Each step is held against the cloth model and against the grips that the primitives would take; the trajectory against
+the robot: the tools are where the cloth is held, no joint is faster than it can be, and nothing touches.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from planner.errors import FieldError, RequestError
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
+from planner.planning.problem import Problem
+from planner.primitives.drag_way import DragWays
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.state import State
+from planner.task.plan import Plan, PlanStep
+from planner.task.trajectory import Segment, Trajectory
+
+TOOL_M = 0.005
+"""How far a tool may be from where the cloth is that it holds (m)."""
+
+_SAMPLE_S = 0.05
+"""How far apart the moments are at which joints are looked at (s)."""
+
+_SPEED = 1.001
+"""The share of its greatest speed that a joint may have; the rest is rounding."""
+
+
+def require_replay(plan: Plan) -> None:
+    """Raise an error unless a solved plan can be done as it says.
+
+    Raises:
+        FoldError: a fold is not legal on the cloth as it is then.
+        RequestError: names the step, as ``steps[2].grips``, and says what is wrong with which number.
+    """
+    problem = Problem.of(plan.task)
+    if problem.unrest is not None:
+        raise RequestError("task.start", problem.unrest.message)
+    if plan.trajectory is None:
+        return
+    if not problem.is_goal(problem.state_of(plan.end)):
+        raise RequestError("steps", "not all folds are done at the end")
+    _require_segments(plan, plan.trajectory)
+    for number, step in enumerate(plan.steps):
+        try:
+            _require_step(problem, step, plan.trajectory.of_step(number), plan.trajectory)
+        except FieldError as error:
+            raise error.within(f"steps[{number}]") from None
+
+
+def _require_segments(plan: Plan, path: Trajectory) -> None:
+    """Require that segments follow one another and belong to the steps as these are timed."""
+    now = 0.0
+    for number, segment in enumerate(path.segments):
+        if abs(segment.start_s - now) > TIME_S:
+            raise RequestError(f"trajectory.segments[{number}].start_s", f"is {segment.start_s}, not {now}")
+        if not 0 <= segment.step < max(len(plan.steps), 1):
+            raise RequestError(f"trajectory.segments[{number}].step", f"there is no step {segment.step}")
+        now += segment.duration_s
+    if abs(now - path.duration_s) > TIME_S or abs(path.duration_s - (plan.cost_s or 0.0)) > TIME_S:
+        raise RequestError("trajectory.duration_s", f"is {path.duration_s}, its segments last {now}")
+
+
+def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory) -> None:
+    before, after = problem.state_of(step.before), problem.state_of(step.after)
+    _require_cloth(problem, step, before, after)
+    tools = _Tools(problem, step, before) if step.grips else None
+    for segment in segments:
+        for t_s in _moments(segment):
+            _require_arms(problem, segment, path, t_s, tools)
+
+
+def _moments(segment: Segment) -> Iterator[float]:
+    count = max(2, math.ceil(segment.duration_s / _SAMPLE_S) + 1)
+    yield from (segment.start_s + float(t) for t in np.linspace(0.0, segment.duration_s, count))
+
+
+def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State) -> None:
+    """Require that the cloth goes from the state before to the state after as a step of this kind takes it."""
+    context, fold = problem.context, step.fold
+    wanted = step.before.folds_done if fold is None else (*step.before.folds_done, fold)
+    if step.after.folds_done != wanted:
+        raise RequestError("after.folds_done", f"are {list(step.after.folds_done)}, not {list(wanted)}")
+    if fold is not None:
+        if fold not in context.sequence.dag.available(before.done):
+            raise RequestError("details.fold", f"fold {fold} still waits for others")
+        obstacle = geometric_obstacle(context, before, fold)
+        if obstacle is not None and obstacle.says is not None:
+            raise RequestError("details.fold", obstacle.says.text)
+    unrest = context.unrest(after.done, after.offset)
+    if unrest is not None:
+        raise RequestError("after", unrest.message)
+    start, end = step.before.placement, step.after.placement
+    moved_m = math.dist((start.x_m, start.y_m), (end.x_m, end.y_m))
+    dragged_m = float(step.details.get("distance_m", 0.0))
+    if abs(moved_m - dragged_m) > LENGTH_M or abs(end.yaw_rad - start.yaw_rad) > ANGLE_RAD:
+        raise RequestError("after.placement", f"the article has moved by {moved_m} m, not by {dragged_m} m")
+
+
+class _Tools:
+    """Where the tools must be while a step holds cloth."""
+
+    def __init__(self, problem: Problem, step: PlanStep, before: State) -> None:
+        names = problem.context.reach.arm_names
+        self._placement = step.before.placement
+        self._arms = {names.index(holding.arm): holding.point for holding in step.holdings}
+        self._trial: FoldTrial | None = None
+        self._picks: dict[int, FloatArray] = {}
+        context, state = problem.context, before
+        if step.fold is not None:
+            trials = fold_trials(context, state, step.fold)
+            found = next((trial for trial in trials if self._is_alike(trial.taken)), None)
+            if found is None:
+                raise RequestError("holdings", "these grips do not hold what the fold needs")
+            self._trial = found
+        else:
+            ways = context.kept(DragWays).of(state)
+            way = next((way for way in ways if self._is_alike(way.taken)), None)
+            if way is None:
+                raise RequestError("holdings", "these grips do not hold what the drag needs")
+            self._picks = dict(zip(way.arms, way.picks, strict=True))
+
+    def _is_alike(self, taken: dict[int, tuple[float, float]]) -> bool:
+        if taken.keys() != self._arms.keys():
+            return False
+        return all(math.dist(point, self._arms[arm]) <= LENGTH_M for arm, point in taken.items())
+
+    def at(self, segment: Segment, t_s: float) -> dict[int, FloatArray]:
+        """Return where the tool of each arm must be that holds cloth at a time, table frame, shape (3,), m."""
+        holding = [arm for arm, hand in enumerate(segment.phase.hands) if hand is not None and hand.is_closed]
+        if self._trial is not None:
+            first, last = segment.phase.cloth.sweep
+            sweep = first + segment.fraction_at(t_s) * (last - first)
+            points = self._trial.path.tool_points(self._trial.points, sweep)
+            places = dict(zip(self._trial.arms, points, strict=True))
+        else:
+            now = segment.placement_at(t_s)
+            shift = np.array([now.x_m - self._placement.x_m, now.y_m - self._placement.y_m, 0.0])
+            places = {arm: pick + shift for arm, pick in self._picks.items()}
+        return {arm: places[arm] for arm in holding if arm in places}
+
+
+def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: float, tools: _Tools | None) -> None:
+    """Require that at a time the arms are where they must be, no joint is too fast, and nothing touches."""
+    card, scene = problem.robot.card, problem.context.scene
+    joints = path.arms.at(t_s).reshape(len(card.arms), -1)
+    speeds = np.abs(path.arms.velocities_at(t_s)).reshape(len(card.arms), -1)
+    for number, arm in enumerate(card.arms):
+        fastest = int(np.argmax(speeds[number] / np.array(arm.speeds_rad_s)))
+        if speeds[number, fastest] > _SPEED * arm.speeds_rad_s[fastest]:
+            told = f"at {t_s:.2f} s {arm.joint_names[fastest]} turns at {speeds[number, fastest]:.2f} rad/s"
+            raise RequestError("trajectory", f"{told}, more than its {arm.speeds_rad_s[fastest]:.2f} rad/s")
+    base = segment.base_at(t_s)
+    if not problem.robot.collisions(scene.table, path.torso_m).are_all_free(base, joints[None]):
+        raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
+    for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
+        tool, _ = problem.robot.tool_pose(arm_number, joints[arm_number], path.torso_m)
+        off_m = float(np.linalg.norm(_in_table(base, tool, scene.table.height_m) - place))
+        if off_m > TOOL_M:
+            told = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"
+            raise RequestError("trajectory", told)
+
+
+def _in_table(base: Pose2, tool: FloatArray, height_m: float) -> FloatArray:
+    """Return a tool's place in the table frame, given in the base frame, shape (3,), m."""
+    return np.asarray(base.to_outer(tool) - np.array([0.0, 0.0, height_m]))

@@ -1,0 +1,192 @@
+"""One planning problem: a task, made ready for planning."""
+
+from dataclasses import dataclass, replace
+
+from planner.cloth.cloth_state import spread_out
+from planner.cloth.g_state import Unrest
+from planner.cloth.garment import Garment
+from planner.errors import RequestError
+from planner.folds.fold_cloth import fold_cloth
+from planner.folds.fold_sequence import FoldSequence, replayed
+from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import LENGTH_M, nearest_whole
+from planner.motion.robot_port import RobotPort
+from planner.motion.transfer_planner import TransferPlanner
+from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
+from planner.primitives.reach import Reach
+from planner.primitives.state import Held, State
+from planner.primitives.unlimited_reach import UnlimitedReach
+from planner.robot.pr2 import load_robot
+from planner.task.scene import Scene
+from planner.task.task import Task
+from planner.task.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """What is to be planned.
+
+    Attributes:
+        task: what was asked.
+        context: the garment's folds, the scene, the robot's reach, where the article lies.
+        robot: the robot.
+        maker: what finds its joint paths.
+    """
+
+    task: Task
+    context: Context
+    robot: RobotPort
+    maker: TransferPlanner
+
+    @property
+    def start(self) -> State:
+        """The state before the first primitive."""
+        return self.context.start
+
+    @property
+    def unrest(self) -> Unrest | None:
+        """Why the cloth would not stay where it lies at the start; None if it does."""
+        return self.context.unrest(self.start.done, self.start.offset)
+
+    def state_of(self, world: WorldState) -> State:
+        """Return a state of the world as the search knows it.
+
+        Raises:
+            RequestError: the base stands at no station, or an arm has a name that the robot has not.
+        """
+        names = [name for name, _ in self.context.scene.stations]
+        station = world.base.station or ""
+        if station not in names:
+            raise RequestError("base.station", f"{station!r} is none of {', '.join(names)}")
+        here, there = self.context.placement, world.placement
+        return State(
+            world.done,
+            (there.x_m - here.x_m, there.y_m - here.y_m),
+            names.index(station),
+            nearest_whole(world.base.back_off_m * BACK_OFFS_PER_M),
+            _held(world, self.robot),
+            nearest_whole(world.dragged_m * DRAGS_PER_M),
+        )
+
+    def is_goal(self, state: State) -> bool:
+        """Whether all folds are done."""
+        return state.done == (1 << len(self.context.sequence.folds)) - 1
+
+    def varied(
+        self,
+        garment: Garment | None = None,
+        scene: Scene | None = None,
+        placement: Pose2 | None = None,
+        comfort_m: float | None = None,
+        behind_max_m: float | None = None,
+        grips_apart_m: float | None = None,
+    ) -> "Problem":
+        """The same with some of it changed, for the same robot, what is known of its reach shared; raises as `of` does.
+
+        So both are for one thread.
+        """
+        task, context, machine = self.task, self.context, self.robot
+        comfort = context.reach.comfort_m if comfort_m is None else comfort_m
+        moved = replace(task, garment=garment or task.garment).at(placement or task.start.placement).within(comfort)
+        changed = moved if scene is None else moved.in_scene(_without_nameless(scene))
+        sequence = context.sequence if garment is None else replayed(garment)
+        wanted, start = _searched(changed, sequence, machine)
+        is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m)
+        reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort)
+        behind = context.behind_max_m if behind_max_m is None else behind_max_m
+        apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
+        fresh = Context(sequence, wanted, reach, changed.start.placement, context.circle_m, behind, apart, start)
+        return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
+
+    @property
+    def may_let_go(self) -> bool:
+        """Whether something is held at the start that no red fold needs: to let go of it is free."""
+        return bool(self.start.held) and self.context.sequence.dag.last_of_begun_chain(self.start.done) is None
+
+    def let_go(self) -> "Problem":
+        """The same with free hands at the start; nothing is worked out yet."""
+        fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
+        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+
+    def with_long_arms(self, more_hands: int = 0) -> "Problem":
+        """The same for a robot whose hands reach every place, and some more; joint paths are not to be asked for."""
+        return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
+
+    def anew(self) -> "Problem":
+        """The same with nothing worked out yet, for somebody else's use: a problem is not shared between threads."""
+        return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
+
+    def _with_reach(self, reach: Reach) -> "Problem":
+        context = self.context
+        limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
+        fresh = Context(context.sequence, context.scene, reach, context.placement, *limits, context.start)
+        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+
+    @staticmethod
+    def of(task: Task) -> "Problem":
+        """Make a task ready for planning.
+
+        Raises:
+            FoldError: a fold is not legal on the cloth as it is then.
+            RequestError: there is no such robot, or the start is none that the folds allow.
+        """
+        machine, sequence = load_robot(task.robot), replayed(task.garment)
+        scene, start = _searched(task, sequence, machine)
+        reach = machine.reach(scene.torso_m, task.limits.comfort_radius_m)
+        context = Context(sequence, scene, reach, task.start.placement, machine.card.base_radius_m, start=start)
+        return Problem(task, context, machine, TransferPlanner(context, machine))
+
+
+def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[Scene, State]:
+    """Return the scene and the start as the search knows them: a base at no station has a station without a name."""
+    start, scene = task.start, task.scene
+    _require_folds_in_order(start, sequence)
+    station, back_off = _stand(task)
+    if station is None:
+        scene = replace(scene, stations=(*scene.stations, ("", start.base.pose)))
+        station = len(scene.stations) - 1
+    dragged = nearest_whole(start.dragged_m * DRAGS_PER_M)
+    return scene, State(start.done, (0.0, 0.0), station, back_off, _held(start, machine), dragged)
+
+
+def _without_nameless(scene: Scene) -> Scene:
+    """Return a scene without the station that stands for a base at none."""
+    return replace(scene, stations=tuple((name, pose) for name, pose in scene.stations if name))
+
+
+def _stand(task: Task) -> tuple[int | None, int]:
+    """Return the base's station and back-off on its grid; no station where it stands elsewhere."""
+    base, scene = task.start.base, task.scene
+    back_off = nearest_whole(base.back_off_m * BACK_OFFS_PER_M)
+    for number, (name, pose) in enumerate(scene.stations):
+        at = pose.ahead(-back_off / BACK_OFFS_PER_M)
+        is_there = max(abs(at.x_m - base.x_m), abs(at.y_m - base.y_m)) <= LENGTH_M
+        if name == base.station and is_there and back_off / BACK_OFFS_PER_M <= scene.back_off_max_m + LENGTH_M:
+            return number, back_off
+    return None, 0
+
+
+def _held(start: WorldState, machine: RobotPort) -> tuple[Held, ...]:
+    names = [arm.name for arm in machine.card.arms]
+    for number, held in enumerate(start.held):
+        if held.arm not in names:
+            raise RequestError(f"start.held[{number}].arm", f"{held.arm!r} is none of {', '.join(names)}")
+    found = [Held(names.index(held.arm), held.point) for held in start.held]
+    if len({held.arm for held in found}) < len(found):
+        raise RequestError("start.held", "an arm holds two points")
+    return tuple(sorted(found, key=lambda held: held.arm))
+
+
+def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
+    """Raise `RequestError` unless the folds done could be done in this order."""
+    done = 0
+    for number, fold in enumerate(start.folds_done):
+        if fold not in sequence.dag.available(done):
+            raise RequestError(f"start.folds_done[{number}]", f"fold {fold} cannot come there: it waits for others")
+        done |= 1 << fold
+
+
+def forget_garments() -> None:
+    """Forget all cloth that is remembered, folded or not: whoever measures wants it worked out anew."""
+    for remembered in (replayed, fold_cloth, spread_out):
+        remembered.cache_clear()

@@ -1,0 +1,245 @@
+"""Each fold alone: can it be done at all, wherever the article lies and the robot stands?
+
+To prove that no plan exists A* must exhaust its states, and there are many: every placement that drags can bring
+about, every back-off, every hold. But mostly one fold is to blame, and it can be seen by itself. Relax everything
+else: let the article lie wherever drags could carry it, let the robot stand at any station and back off at will, let it
+hold whatever a drag could have left it with. If even then the fold cannot be done, no plan exists.
+
+Most of those cases differ in nothing that matters. A drag or a back-off along the base's x axis only shifts a path
+along that axis; so for its apex, end and start, asked one by one, all cases with the same lateral place and height are
+one question: from anywhere along that line? The few that survive are asked in full. The relaxation drops constraints
+and adds none, so it never denies what can be done.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.pose import BoolArray, FloatArray, Point2, Pose2
+from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.planning.single_fold_cases import Case, Cases
+from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.drag_grips import dragged, longest_drag
+from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, geometric_obstacles
+from planner.primitives.fold_way import attempt_of, can_follow
+from planner.primitives.state import State
+
+_SETS_MAX = 64
+"""Folds that may come after more sets of other folds than this are left to the search."""
+
+_OFFSETS_MAX = 2000
+"""Where drags can lead to more placements than this, the search decides."""
+
+_BITS = 32
+
+_GUESSES, _GUESSED_DRAGS = 2, 6
+"""How many cases, and drags in each, are tried before all is gone through."""
+
+_EXTREMES = (1.0, 2.0, 0.0)
+"""The moments of a fold that fail first: the apex, the end, the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A tool point of a fold's path, wherever the article lies: all on which it depends whether it is in reach."""
+
+    done: int
+    is_held_out: bool
+    station: int
+    arm: int
+    sweep: float
+    point: tuple[int, ...]
+
+
+class SingleFold:
+    """Asks for each fold of a planning problem, begun at a station, whether it could be done alone."""
+
+    def __init__(self, context: Context, station: int, should_stop: Callable[[], bool]) -> None:
+        """Once it should stop, every fold may be possible."""
+        self._should_stop = should_stop
+        self._is_stopped = False
+        self._context = context
+        self._station = station
+        self._offsets = drag_offsets(context)
+        self._places = self._offsets
+        self._cases = Cases(context, station, self._offsets, self._has_to_stop)
+        self._answers: dict[_Asked, BoolArray] = {}
+
+    def is_impossible(self, fold: int) -> bool:
+        """Whether a fold can never be done; if so, what stopped it is left as its only obstacles."""
+        context = self._context
+        sets = context.sequence.dag.sets_before(fold, _SETS_MAX)
+        if sets is None or len(self._offsets) > _OFFSETS_MAX or context.sequence.folds[fold].is_red:
+            return False
+        before = context.obstacles.taken_away(fold)
+        guesses = (case for done in sets for case in islice(self._cases.of(done, fold), _GUESSES))
+        if any(self._is_possible_nearby(case, fold) for case in guesses):
+            context.obstacles.put_back(before)
+            return False
+        context.obstacles.taken_away(fold)
+        self._places = self._with_line_on_table(fold)
+        self._answers.clear()
+        if not len(self._places):
+            self._note_lines_off(fold, sets)
+            context.obstacles.put_back(before)
+            return True
+        is_impossible = not any(self._is_possible_after(done, fold) for done in sets) and not self._is_stopped
+        context.obstacles.put_back(before)
+        return is_impossible
+
+    def _has_to_stop(self) -> bool:
+        """Whether there is no more time; then what was not looked at may be possible."""
+        self._is_stopped = self._is_stopped or self._should_stop()
+        return self._is_stopped
+
+    def _is_possible_after(self, done: int, fold: int) -> bool:
+        return any(
+            self._is_possible(case, fold, station)
+            for case in self._cases.of(done, fold)
+            for station in (range(len(self._context.scene.stations)) if case.station is None else (case.station,))
+        )
+
+    def _is_possible_nearby(self, case: Case, fold: int) -> bool:
+        """A quick guess: whether a fold can be done from the first station where drags from there may bring it."""
+        steps = min(longest_drag(self._context), _GUESSED_DRAGS)
+        places = [dragged(self._context, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
+        station = self._station if case.station is None else case.station
+        states = [case.state(station, np.array(place)) for place in places]
+        return any(
+            self._can_follow(state, fold, trial)
+            for state in states
+            for trial in fold_trials(self._context, state, fold)
+        )
+
+    def _with_line_on_table(self, fold: int) -> FloatArray:
+        line = self._context.sequence.folds[fold].line
+        moves = Pose2(0.0, 0.0, self._context.placement.yaw_rad).to_inner(self._offsets)
+        lines = np.array([line.start, line.end]) + moves[:, None]
+        return np.asarray(self._offsets[self._context.table_in_article((0.0, 0.0)).region.touches(lines)])
+
+    def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
+        """Remember the place at which a line that is never on the table is nearest to it."""
+        context = self._context
+        line = context.sequence.folds[fold].line
+        offsets = [(float(x), float(y)) for x, y in self._offsets]
+        nearest = min(offsets, key=lambda offset: context.table_in_article(offset).region.distance_to(line))
+        for done in sets:
+            for obstacle in geometric_obstacles(context, State(done, nearest, self._station, 0), fold):
+                context.obstacles.note(obstacle)
+
+    def _is_possible(self, case: Case, fold: int, station: int) -> bool:
+        anywhere = case.state(station, np.zeros(2))
+        for trial in fold_trials(self._context, anywhere, fold):
+            stages = self._stages(case, trial, station)
+            for index in np.flatnonzero(stages == len(_EXTREMES)):
+                if self._has_to_stop():
+                    return True
+                state = case.state(station, self._places[index])
+                here = (t for t in fold_trials(self._context, state, fold) if t.is_like(trial))
+                if any(self._can_follow(state, fold, same) for same in here):
+                    return True
+            self._context.obstacles.note_attempt(attempt_of(anywhere, trial, self._places))
+        return False
+
+    def _stages(self, case: Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
+        """How many of apex, end and start can be reached, one after the other, at each place."""
+        unrolled = trial.path.swept(trial.points, np.array(_EXTREMES)[:, None])
+        stages = np.zeros(len(self._places), dtype=np.int64)
+        alive = [np.ones((len(a), len(self._places)), dtype=bool) for a in trial.approaches]
+        left = np.arange(len(self._places))
+        for sweep, points in zip(_EXTREMES, unrolled, strict=True):
+            for grip, arm in enumerate(trial.arms):
+                if self._has_to_stop():
+                    return stages
+                rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
+                asked = _Asked(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
+                found = self._found(asked, trial, points[grip], trial.approaches[grip][rows], left)
+                alive[grip][np.ix_(rows, left)] &= found
+                left = left[alive[grip][:, left].any(axis=0)]
+                if not len(left):
+                    return stages
+            stages[left] += 1
+        return stages
+
+    def _found(
+        self,
+        asked: _Asked,
+        trial: FoldTrial,
+        point: FloatArray,
+        approaches: NDArray[np.int64],
+        places: NDArray[np.int64],
+    ) -> BoolArray:
+        """In which approaches one tool point of the unrolled plane can be reached at which places, shape (k, n).
+
+        Many trials share one of their points, so answers are kept.
+        """
+        if asked not in self._answers:
+            shape = (2, len(self._context.reach.approaches), len(self._places))
+            self._answers[asked] = np.zeros(shape, dtype=bool)
+        is_known, is_found = self._answers[asked]
+        missing = ~is_known[np.ix_(approaches, places)]
+        if missing.any():
+            block = np.ix_(approaches[missing.any(axis=1)], places[missing.any(axis=0)])
+            raised = point + np.column_stack([self._places[block[1][0]], np.full(block[1].size, REST_HEIGHT_M)])
+            tools = raised if asked.is_held_out else trial.path.over_edge(raised, trial.path.top)
+            is_found[block] = self._from_anywhere(asked.station, asked.arm, tools, block[0][:, 0])
+            is_known[block] = True
+        return np.asarray(is_found[np.ix_(approaches, places)])
+
+    def _from_anywhere(self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]) -> BoolArray:
+        """In which approaches points are in comfort from somewhere along the base's x axis, shape (k, n)."""
+        context = self._context
+        points = context.in_base(station, tools)
+        steps = np.floor(points[:, 0] / BACK_OFF_STEP_M + LENGTH_M)
+        phases = np.column_stack([points[:, 0] - steps * BACK_OFF_STEP_M, points[:, 1:]])
+        _, first, group = np.unique(np.round(phases / LENGTH_M), axis=0, return_index=True, return_inverse=True)
+        lowest, highest = int(steps.min()), int(steps.max()) + context.back_offs
+        found = np.zeros((len(approaches), len(first)), dtype=bool)
+        for start in range(lowest, highest, _BITS):
+            if self._has_to_stop():
+                break
+            lines = phases[first] + np.array([start * BACK_OFF_STEP_M, 0.0, 0.0])
+            count = min(_BITS, highest - start)
+            found |= context.reach.from_anywhere(arm, lines, approaches, count, BACK_OFF_STEP_M)
+        return found[:, group.ravel()]
+
+    def _can_follow(self, state: State, fold: int, trial: FoldTrial) -> bool:
+        """Whether nothing speaks against a fold in a state and its whole path can be followed."""
+        context = self._context
+        obstacle = geometric_obstacle(context, state, fold)
+        if obstacle is not None:
+            context.obstacles.note(obstacle)
+            return False
+        return can_follow(context, state.station, trial)
+
+
+def _key(point: FloatArray) -> tuple[int, ...]:
+    return tuple(grid_key(float(c)) for c in point)
+
+
+def drag_offsets(context: Context) -> FloatArray:
+    """Where drags can carry the article as long as a part of it can lie on the table, shape (n, 2), m.
+
+    The count stops when there are more than the relaxation looks at.
+    """
+    table, size = context.scene.table, context.sequence.garment.pattern.bounds
+    corners = context.placement.to_outer(np.array([(size[i], size[j]) for i in (0, 2) for j in (1, 3)]))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    half = np.array([table.depth_m / 2, table.width_m / 2])
+    (x0, y0), (x1, y1) = (-half - high).tolist(), (half - low).tolist()
+    steps = [dragged(context, (0.0, 0.0), station, 1) for station in range(len(context.scene.stations))]
+    found: dict[tuple[int, int], Point2] = {(0, 0): (0.0, 0.0)}
+    front = [(0.0, 0.0)]
+    while front and len(found) <= _OFFSETS_MAX:
+        x, y = front.pop()
+        for dx, dy in steps:
+            after = (x + dx, y + dy)
+            key = (grid_key(after[0]), grid_key(after[1]))
+            if key not in found and x0 < after[0] < x1 and y0 < after[1] < y1:
+                found[key] = after
+                front.append(after)
+    return np.array(list(found.values()))

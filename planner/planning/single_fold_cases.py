@@ -1,0 +1,105 @@
+"""With what in the hands a fold may be begun, wherever drags have carried the article."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+
+from planner.cloth.grips import Cover
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.context import Context
+from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
+from planner.primitives.fold_trial import grips_obstacle, held_covers
+from planner.primitives.state import Held, State
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A set of folds done, and what is held for the next (nothing: free hands).
+
+    Attributes:
+        done: the folds done, as a bit mask.
+        held: what is held.
+        station: where the drag was made that left it held, and hands that hold on stay; None: at any station.
+    """
+
+    done: int
+    held: tuple[Held, ...] = ()
+    station: int | None = None
+
+    def state(self, station: int, offset: FloatArray) -> State:
+        """The same with the robot at a station and the article dragged so far (m)."""
+        place = (float(offset[0]), float(offset[1]))
+        return State(self.done, place, station, 0, self.held, dragged=1 if self.held else 0)
+
+
+class Cases:
+    """Finds the cases of one planning problem."""
+
+    def __init__(self, context: Context, station: int, offsets: FloatArray, should_stop: Callable[[], bool]) -> None:
+        """Begun at a station, drags can carry the article by such offsets, shape (n, 2), m; it may be told to stop."""
+        self._context = context
+        self._station = station
+        self._offsets = offsets
+        self._should_stop = should_stop
+
+    def of(self, done: int, fold: int) -> Iterator[Case]:
+        """Free hands, then whatever a drag that starts anywhere may leave held."""
+        obstacle = grips_obstacle(self._context, State(done, (0.0, 0.0), self._station, 0), fold)
+        if obstacle is None:
+            yield Case(done)
+        else:
+            self._context.obstacles.note(obstacle)
+        seen: set[tuple[object, ...]] = set()
+        for offset in self._offsets_that_matter(done, fold):
+            for station in range(len(self._context.scene.stations)):
+                for cover in self._covers(done, offset, station):
+                    key = (station, *(Held(0, point).key for point in cover))
+                    if key not in seen:
+                        seen.add(key)
+                        yield from (Case(done, held, station) for held in self._serving(fold, cover))
+
+    def _offsets_that_matter(self, done: int, fold: int) -> Iterator[Point2]:
+        """The offsets from which a drag may leave held what serves a fold and no other offset does.
+
+        While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
+        gripped, so what must be held in the fold has to be within a grip's radius of the table.
+        """
+        context = self._context
+        silhouette = context.sequence.cloth(done).silhouette
+        is_whole_seen = False
+        for offset in ((float(x), float(y)) for x, y in self._offsets):
+            if self._should_stop():
+                return
+            is_whole = context.table_in_article(offset).contains(silhouette)
+            if (is_whole and is_whole_seen) or not (is_whole or self._is_near(fold, offset)):
+                continue
+            is_whole_seen |= is_whole
+            yield offset
+
+    def _covers(self, done: int, offset: Point2, station: int) -> tuple[Cover, ...]:
+        """The grips with which the article may be dragged."""
+        context = self._context
+        towards = towards_robot(context, station)
+        if hangs_ahead(context, done, offset, towards):
+            return ()
+        return tuple(cover for cover in drag_covers(context, done, offset, towards).covers if cover)
+
+    def _serving(self, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
+        """What arms may hold with some grips, if they hold what a fold needs."""
+        context = self._context
+        held = tuple(Held(arm, point) for arm, point in enumerate(cover))
+        if held_covers(context, fold, held):
+            for arms in permutations(range(len(context.reach.arm_names)), len(cover)):
+                yield tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
+
+    def _is_near(self, fold: int, offset: Point2) -> bool:
+        """Whether all that must be held in a fold lies within a grip's radius of the table."""
+        context = self._context
+        arms = len(context.reach.arm_names)
+        vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
+        radius = context.sequence.folds[fold].grip_radius_m + LENGTH_M
+        edges = context.table_in_article(offset).edges
+        return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)

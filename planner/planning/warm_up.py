@@ -1,0 +1,76 @@
+"""Compile all that is compiled, or load it from the cache, so that no user's search is charged for it."""
+
+import gc
+import math
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.cloth.garment import Garment
+from planner.geometry.pose import BoolArray, FloatArray, Point3
+from planner.motion.timeline import Timeline
+from planner.planning.budget import Budget
+from planner.planning.driving_bound import DrivingBound
+from planner.planning.plan_search import PlanSearch
+from planner.planning.problem import Problem
+from planner.primitives.base_legs import travel
+from planner.robot.tool_path import ToolPath
+from planner.task.task import Task
+
+_NAPKIN = {
+    "name": "napkin",
+    "outline": [[0.0, 0.0], [0.3, 0.0], [0.3, 0.3], [0.0, 0.3]],
+    "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0.15], "end": [0.0, 0.15]}],
+    "placement": {"x_m": -0.75, "y_m": 0.15, "yaw_rad": -1.5707963267948966},
+}
+
+_FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
+
+_LEFT_M, _RIGHT_M = (0.6, 0.2, 0.9), (0.6, -0.2, 0.9)
+
+
+class _InTheWay:
+    """Arms that never pass each other, though there seems to be room at every pose."""
+
+    def arms_apart(self, joints: FloatArray) -> BoolArray:
+        """Nowhere."""
+        return np.zeros(len(joints), dtype=bool)
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        """All."""
+        return np.ones((len(left), len(right)), dtype=bool)
+
+
+@cache
+def compile_kernels() -> None:
+    """Compile what is compiled, or load it from the cache, once a process; planning sees to it too.
+
+    A napkin is planned and played, it is asked why places are out of reach, and arms are led past each other: that
+    touches all. What is there by then, modules above all, the garbage collector does not look at any more.
+    """
+    gc.freeze()  # modules are no garbage, and to look through them stops everything for some hundredths of a second
+    problem = Problem.of(Task.of(Garment.from_dict(_NAPKIN), comfort_radius_m=0.0))
+    endless = Budget.of(math.inf, math.inf)
+    found = PlanSearch(problem, "arm_time", endless, problem.task.limits.max_expanded).plan()
+    Timeline.of(found.plan).at(0.0)
+    reach = problem.context.reach
+    for point in (_FAR, _EDGE):
+        reach.shortfall(0, point, np.array([0]))
+        reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
+        reach.shortfall_together(0, point[None, None], np.array([0]))
+        reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
+    travel(np.ones((1, 2), dtype=np.uint32), 2)
+    DrivingBound(problem.context, problem.start)
+    robot, torso_m = problem.robot, problem.context.scene.torso_m
+    left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
+    robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
+    gc.freeze()  # nor is what has been compiled
+
+
+def _staying(place: Point3) -> ToolPath:
+    return ToolPath(np.array([place, place]), np.array([np.eye(3), np.eye(3)]), np.array([np.inf]), (0, 2))
+
+
+def _anywhere(_poses: NDArray[np.int64], joints: FloatArray, _is_certain: bool) -> BoolArray:
+    return np.ones(len(joints), dtype=bool)

@@ -1,0 +1,159 @@
+"""Which reasons are given, and in which order: those that each alone, mended, would lead further."""
+
+import numpy as np
+import pytest
+
+from planner import Scene, load_garment, make_plan
+from planner.explain.reasons import reasons
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
+from planner.message import Message
+from planner.planning import plan_search as planning
+from planner.primitives.obstacle import Obstacle, situation
+from planner.primitives.state import State
+from planner.task.reason import Code
+from tests.builders import fold, garment, rectangle_points
+from tests.planning.found import found_plan
+from tests.planning.provoked import (
+    BACK,
+    COMFORT_M,
+    FRONT,
+    FURTHEST_X,
+    HAMMER_SCENE,
+    HOUSE,
+    LEVEL_M,
+    fixed,
+    hammer,
+    is_gone,
+    met,
+    refused,
+    strip,
+)
+
+START = State(0, (0.0, 0.0), 0, 0)
+
+
+def test_causes_of_one_fold_come_with_the_smallest_repair_first():
+    # A strip of 0.621 m whose far end is 0.05 m out of reach at the start. Dragged by 0.1 m it is in reach, but then
+    # folded at 0.3 m from its far end 0.08 + 0.059 m of it hang and 0.621 - 0.139 lie: that takes a friction of 0.288,
+    # and there is 0.25. Without the fold 0.08 hang and 0.541 lie: that holds.
+    far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
+    cloth = strip(far_x, far_x - near_x, 0.3)
+    hanging = (-0.8 - (near_x - 0.1)) + (-0.8 - (far_x - 0.1 - 0.6))
+    needed = hanging / (far_x - near_x - hanging)
+    assert needed == pytest.approx(0.288, abs=0.002)
+    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M), friction=0.25)
+    slip, reach = (
+        next(r for r in refused(cloth, scene).reasons if r.code is code) for code in (Code.SLIPS, Code.OUT_OF_REACH)
+    )
+    assert slip.set != reach.set
+    assert slip.needed_friction == pytest.approx(needed, abs=1e-3)
+    assert reach.short_by_m == pytest.approx(0.05, abs=0.0015)
+    assert "the cloth dragged by (-0.10, 0.00) m" in slip.message and "dragged" not in reach.message
+
+
+def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first():
+    # The same strip, folded at 0.1 m from its far end, which is 0.05 m out of reach as it lies. Dragged by 0.1 m it is
+    # within reach, but the arm has no room; dragged by 0.2 m, 0.18 m of the strip hang and 0.441 lie.
+    far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
+    cloth = strip(far_x, far_x - near_x, 0.1)
+    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M), friction=0.12)
+    reach, slip = refused(cloth, scene).reasons
+    assert [(reach.code, reach.set), (slip.code, slip.set)] == [(Code.OUT_OF_REACH, 0), (Code.SLIPS, 1)]
+    assert slip.needed_friction == pytest.approx(0.18 / (far_x - near_x - 0.18), rel=1e-3)
+    assert reach.short_by_m < slip.needed_friction - scene.friction
+
+
+def test_what_does_not_stand_alone_in_the_way_is_no_reason():
+    # Dragged by 0.3 m the hammer's line is beside the table; but then its head would be loose too, or it would slip.
+    answer = met(hammer(), HAMMER_SCENE)
+    assert set(answer.problem.context.obstacles.codes(0)) >= {Code.NOT_A_G_STATE, Code.SLIPS, Code.LINE_OFF_TABLE}
+    assert [r.code for r in answer.plan.reasons if r.code is not Code.COLLISION] == [Code.NOT_A_G_STATE, Code.SLIPS]
+
+
+def test_where_two_things_stand_in_every_way_both_are_named():
+    # At -1.4 m the robot is too far from the far edge, and after the fold 2 x 0.1 m would hang and 2 x 0.05 m lie.
+    towel = garment(rectangle_points(0.4, 0.3), fold((0.0, 0.15), (0.4, 0.15)), placement=Pose2(-0.9, 0.2, BACK))
+    scene = Scene(stations=(("front", Pose2(-1.4, 0.0, 0.0)),), back_off_max_m=0.0)
+    both = [reason for reason in refused(towel, scene).reasons if reason.code is not Code.COLLISION]
+    assert {r.code for r in both} == {Code.SLIPS, Code.OUT_OF_REACH}
+    rough = Scene(stations=scene.stations, back_off_max_m=0.0, friction=2.0)
+    assert [r.code for r in refused(towel, rough).reasons][:1] == [Code.OUT_OF_REACH]
+    assert all(r.code is not Code.SLIPS for r in refused(towel, rough).reasons)
+
+
+def test_folds_that_wait_come_last_and_name_what_they_wait_for():
+    found = refused(load_garment("tie-halved")).reasons
+    assert [(r.fold, r.code) for r in found] == [
+        (0, Code.OUT_OF_REACH),
+        (1, Code.WAITS_FOR_FOLD),
+        (2, Code.WAITS_FOR_FOLD),
+    ]
+    assert found[1].message == "fold 1 'half again': waits for fold 0 'half', which cannot be done"
+    # The last waits for the middle one, but what has to be mended is the first.
+    assert found[2].message == "fold 2 'and again': waits for fold 0 'half', which cannot be done"
+
+
+def test_a_fold_that_waits_is_possible_once_the_other_is():
+    # The scarf, begun with the quarter instead of the half, can be folded.
+    waiting = refused(load_garment("scarf-halved")).reasons[1]
+    assert (waiting.fold, waiting.code) == (1, Code.WAITS_FOR_FOLD)
+    assert is_gone(waiting, make_plan(load_garment("scarf"), time_limit_s=60.0))
+
+
+def test_only_what_depends_on_a_blocked_fold_waits():
+    # Of the T-shirt's folds 0 -> 2 -> 4 <- 3 <- 1 the left side and the last wait for the left sleeve.
+    context = found_plan(load_garment("t-shirt"), max_expanded=1).problem.context
+    found = reasons(context, (), [0])
+    assert [(r.fold, r.code) for r in found if r.fold != 0] == [(2, Code.WAITS_FOR_FOLD), (4, Code.WAITS_FOR_FOLD)]
+
+
+def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch):
+    # Flap 0 is out of reach from where the robot begins, but not from the other side. Roof 1 needs three hands. The
+    # search ends with its first expansion, when only that much is known.
+    monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
+    flap = fold((0.0, 0.25), (0.4, 0.25), name="flap")
+    roof = fold((0.4, 0.0), (0.0, 0.0), name="roof", radius_m=0.08)
+    cloth = garment(HOUSE, flap, roof, placement=Pose2(0.2, 0.2, BACK))
+    answer = refused(cloth)
+    assert answer.statistics.expanded == 1
+    assert [(r.fold, r.code) for r in answer.reasons] == [(1, Code.TOO_MANY_GRIPS)]
+
+
+def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach():
+    context = met(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).problem.context
+    context.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, None, 1.0, START))
+    found = reasons(context, {situation(START)}, ())
+    assert [r.code for r in found] == [Code.OUT_OF_REACH]
+
+
+def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
+    # Neither of two flaps waits for the other, and each was done, but never both.
+    flaps = fold((0.1, 0.0), (0.1, 0.3), name="left"), fold((0.3, 0.3), (0.3, 0.0), name="right")
+    context = found_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).problem.context
+    after = [State(done, (0.0, 0.0), 0, 0) for done in (0b01, 0b10)]
+    for state, other in zip(after, (1, 0), strict=True):
+        context.obstacles.note(
+            Obstacle(other, Code.SLIPS, Message("slips", f"fold {other} slips after {state.done}"), 0.1, state)
+        )
+    of_no_importance = Message("afterwards", "nothing is done yet")
+    context.obstacles.note(Obstacle(1, Code.NOT_A_G_STATE, of_no_importance, 0.01, START))
+    found = reasons(context, {situation(START), *map(situation, after)}, ())
+    assert [(r.fold, r.code) for r in found] == [(0, Code.SLIPS), (1, Code.SLIPS)]
+
+
+def test_every_reason_is_json_with_plain_numbers():
+    for reason in refused(load_garment("scarf-halved")).to_dict()["reasons"]:
+        assert isinstance(reason["code"], str) and isinstance(reason["message"], str)
+        numbers = [reason[name] for name in ("short_by_m", "back_off_m", "shift_m") if reason[name] is not None]
+        assert all(type(number) is float and np.isfinite(number) for number in numbers)
+        assert all(reason[name] is None or len(reason[name]) == 3 for name in ("point", "towards", "shift_towards"))
+        assert type(reason["is_at_least"]) is bool
+        is_of_reach = reason["code"] == "out_of_reach"
+        assert (reason["offset_m"] is not None) == (reason["approach"] is not None) == is_of_reach
+        if is_of_reach:
+            assert [type(length) for length in reason["offset_m"]] == [float, float]
+            assert {name: type(angle) for name, angle in reason["approach"].items()} == {
+                "heading_rad": float,
+                "pitch_rad": float,
+            }

@@ -1,0 +1,63 @@
+"""What is looked at before arms are led: whether they can be where a run begins, ends, and goes."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.table import Table
+from planner.motion.moments import moments_of
+from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.tries import QUICK
+from planner.robot.pr2 import Pr2
+from tests.replay.planned import planned
+
+
+@pytest.mark.parametrize("name", ["t-shirt", "tie", "letter-towel", "big-towel"])
+def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
+    found = planned(name).found
+    for act in (act for act in found.acts if act.run is not None):
+        whole = found.problem.maker.candidate(act.steps).moments
+        phases = [phase for step in act.steps for phase in step.extremes()]
+        ends = moments_of(phases, found.plan.scene.table.height_m)
+        for moment in (0, -1):
+            np.testing.assert_allclose(ends.bases[moment], whole.bases[moment], atol=1e-9)
+            np.testing.assert_allclose(ends.positions[:, moment], whole.positions[:, moment], atol=1e-9)
+            np.testing.assert_allclose(ends.rotations[:, moment], whole.rotations[:, moment], atol=1e-9)
+
+
+def test_what_was_made_real_is_a_candidate():
+    found = planned("t-shirt").found
+    runs = [act.steps for act in found.acts if act.run is not None]
+    assert [candidate.steps for candidate in found.problem.maker.candidates(runs)] == runs
+
+
+class UnderCeiling(Pr2):
+    """A PR2 whose hands must stay below a height over the table (m)."""
+
+    def __init__(self, height_m: float) -> None:
+        super().__init__()
+        self._height_m = height_m
+
+    def collisions(self, table: Table, torso_m: float, *args: Any, **options: Any) -> Any:
+        real = super().collisions(table, torso_m, *args, **options)
+        anywhere, most_m = real.arm_free, table.height_m + self._height_m
+
+        def arm_free(arm: int, bases: Any, joints: FloatArray, **how: bool) -> BoolArray:
+            is_low = [self.tool_pose(arm, one, torso_m)[0][2] < most_m for one in joints]
+            return anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool)
+
+        real.arm_free = arm_free
+        return real
+
+
+def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
+    # The vest's last fold lifts its hem 0.3 m and more; it begins and ends on the table.
+    found = planned("vest").found
+    steps = found.acts[-1].steps
+    maker = TransferPlanner(found.problem.context, UnderCeiling(0.25))
+    assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
+    assert maker.real(steps, replace(QUICK, ways=1)) is None
+    assert list(maker.candidates([steps])) == []

@@ -1,0 +1,44 @@
+"""The drawn cloth is cloth: bent and cut, never stretched."""
+
+import numpy as np
+import pytest
+
+from planner import Plan, make_plan
+from planner.geometry.pose import Pose2
+from planner.motion.sample import ClothSurface
+from planner.motion.timeline import Timeline
+from tests.builders import fold, garment, rectangle_points
+from tests.replay.planned import planned
+
+LOOKS = 40
+"""Moments of a plan at which its cloth is measured."""
+
+
+def area_m2(surface: ClothSurface) -> float:
+    a, b, c = (surface.vertices[surface.triangles[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def require_unstretched(plan: Plan) -> None:
+    """The summed area of all layers is that of the pattern, at every moment."""
+    timeline = Timeline.of(plan)
+    whole = area_m2(timeline.at(0.0).cloth)
+    for t in np.linspace(0.0, timeline.duration_s, LOOKS):
+        assert area_m2(timeline.at(float(t)).cloth) == pytest.approx(whole, rel=1e-3), f"at {t:.2f} s"
+
+
+@pytest.mark.parametrize("name", ["hand-towel", "big-towel", "letter-towel"])
+def test_the_cloth_keeps_its_area_while_it_is_folded_dragged_and_let_hang(name: str):
+    require_unstretched(planned(name).answer)
+
+
+def test_a_narrow_flap_stands_as_high_as_it_is_deep():
+    # The flap is 5 cm deep; the tools over it, at their apex, are 2 cm higher than its edge.
+    strip = garment(rectangle_points(0.3, 0.2), fold((0.3, 0.05), (0.0, 0.05)), placement=Pose2(-0.6, 0.15, -np.pi / 2))
+    plan = make_plan(strip, time_limit_s=60.0)
+    (primitive,) = (p for p in plan.primitives if p.kind == "fold")
+    assert [grip.apex[2] for grip in primitive.grips] == pytest.approx([0.07, 0.07])
+    require_unstretched(plan)
+    start, end = primitive.start_s, primitive.start_s + primitive.duration_s
+    heights = [Timeline.of(plan).at(t).cloth.vertices[:, 2].max() for t in np.arange(start, end, 0.02)]
+    assert max(heights) == pytest.approx(0.05, abs=0.002)

@@ -1,0 +1,108 @@
+"""How long moments last: laws of the pace, and a few paces worked out by hand."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from planner.motion.pacing import eased, needed_s, paced_s
+
+EASINGS = st.floats(0.01, 0.5)
+
+
+def steps(low: float, high: float, count: int = 12) -> st.SearchStrategy[np.ndarray]:
+    return hnp.arrays(float, count, elements=st.floats(low, high))
+
+
+def test_a_step_needs_the_time_of_its_slowest_joint():
+    speeds = np.array([2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 4.0])
+    joints = np.zeros((3, 7))
+    # First the pan turns by 1 rad at 2 rad/s while the wrist rolls by 1 rad at 4 rad/s: 0.5 s and 0.25 s.
+    joints[1:, [0, 6]] = 1.0
+    # Then the lift goes back by 0.3 rad at 1 rad/s, and the wrist rolls by 2 rad at 4 rad/s: 0.3 s and 0.5 s.
+    joints[2, 1], joints[2, 6] = -0.3, 3.0
+    assert needed_s(joints, speeds) == pytest.approx([0.5, 0.5])
+
+
+def test_of_two_arms_the_slower_one_counts():
+    joints = np.zeros((2, 2, 7))
+    joints[1, 0, 2], joints[1, 1, 4] = 0.2, -0.6
+    # 0.2 / 1 = 0.2 s for the left arm, 0.6 / 2 = 0.3 s for the right one.
+    assert needed_s(joints, np.array([[1.0] * 7, [2.0] * 7])) == pytest.approx([0.3])
+
+
+def test_a_single_configuration_needs_no_time():
+    assert needed_s(np.zeros((1, 2, 7)), np.ones((2, 7))).tolist() == []
+
+
+def test_steps_that_are_no_shorter_than_they_must_be_keep_their_pace():
+    nominal = np.array([1.0, 2.0, 0.5])
+    assert paced_s(nominal, np.array([0.9, 2.0, 0.0])).tolist() == nominal.tolist()
+
+
+def test_what_a_slow_step_takes_is_taken_evenly_from_the_others():
+    # Of 4 s one step needs 2 and the others next to nothing: 2 / 3 s are left for each of them.
+    assert paced_s(np.ones(4), np.array([2.0, 0.0, 0.5, 0.1])) == pytest.approx([2.0, 2 / 3, 2 / 3, 2 / 3])
+
+
+def test_a_step_that_cannot_give_its_share_gives_what_it_can():
+    # The third needs 0.9 of its second: 4 - 2 - 0.9 = 1.1 s are left for two.
+    assert paced_s(np.ones(4), np.array([2.0, 0.0, 0.9, 0.1])) == pytest.approx([2.0, 0.55, 0.9, 0.55])
+
+
+def test_longer_steps_keep_longer_shares():
+    # Of 1 + 1 + 3 s the first needs 3: 2 s are shared as 1 to 3.
+    assert paced_s(np.array([1.0, 1.0, 3.0]), np.array([3.0, 0.0, 0.0])) == pytest.approx([3.0, 0.5, 1.5])
+
+
+def test_steps_that_need_more_than_there_is_take_what_they_need():
+    assert paced_s(np.ones(3), np.array([2.0, 0.5, 1.0])).tolist() == [2.0, 0.5, 1.0]
+
+
+@given(steps(0.001, 1.0), steps(0.0, 1.5))
+def test_no_step_is_shorter_than_it_needs_and_together_they_last_no_longer_than_they_must(nominal, least):
+    found = paced_s(nominal, least)
+    assert (found >= least).all()
+    assert found.sum() == pytest.approx(max(nominal.sum(), least.sum()))
+
+
+@given(steps(0.001, 1.0), steps(0.0, 1.5))
+def test_all_steps_that_are_not_as_quick_as_can_be_have_one_pace(nominal, least):
+    found = paced_s(nominal, least)
+    if least.sum() < nominal.sum():
+        paces = (found / nominal)[found > least + 1e-9]
+        assert np.ptp(paces) < 1e-6
+        assert (found[found <= least + 1e-9] >= (paces.min() * nominal)[found <= least + 1e-9] - 1e-6).all()
+
+
+def test_an_eased_way_speeds_up_cruises_and_slows_down():
+    # A quarter of the time each to speed up and slow down, so the top speed is 1 / 0.75 = 4 / 3 of the mean. After a
+    # quarter half of 4 / 3 * 1 / 4 is done; after a half, half of the way; the rest is its mirror image.
+    assert eased(np.array([0.0, 0.25, 0.5, 0.75, 1.0]), 0.25) == pytest.approx([0.0, 1 / 6, 0.5, 5 / 6, 1.0])
+    # At half of that quarter the speed is half of the top speed: a quarter of 1 / 6 is done.
+    assert eased(np.array([0.125, 0.875]), 0.25) == pytest.approx([1 / 24, 23 / 24])
+
+
+def test_without_easing_the_pace_is_even():
+    shares = np.linspace(0.0, 1.0, 7)
+    assert eased(shares, 0.0).tolist() == shares.tolist()
+
+
+@given(EASINGS)
+def test_an_eased_way_never_turns_back_and_its_top_speed_is_what_is_said(easing):
+    shares = np.linspace(0.0, 1.0, 2001)
+    done = eased(shares, easing)
+    speeds = np.diff(done) / np.diff(shares)
+    assert (done[0], done[-1]) == (0.0, pytest.approx(1.0))
+    assert (speeds > 0.0).all()
+    assert speeds.max() <= 1.0 / (1.0 - easing) + 1e-9
+    # The steps about the middle are at top speed; with an easing of 0.5 that is a moment only.
+    assert speeds[999:1001].max() == pytest.approx(1.0 / (1.0 - easing), rel=2e-3)
+
+
+@given(steps(0.001, 1.0), steps(0.0, 1.5), st.floats(0.0, 2.0))
+def test_a_rest_is_taken_from_the_steps_as_long_as_they_can_give_it(nominal, least, rest_s):
+    found = paced_s(nominal, least, rest_s)
+    assert (found >= least).all()
+    assert found.sum() == pytest.approx(max(nominal.sum() - rest_s, least.sum()), abs=1e-9)

@@ -1,0 +1,207 @@
+"""Trajectories: joints clear of everything and without a gap, also between runs, where the base drives."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from planner import Scene, make_plan
+from planner.geometry.pose import FloatArray, Pose2
+from planner.motion.joint_track import CLOSED_M, OPEN_M, JointTrack
+from planner.motion.timeline import Timeline
+from planner.robot.pr2 import load_robot
+from planner.task.trajectory import Segment, Trajectory
+from tests.builders import fold, garment, rectangle_points
+from tests.replay.planned import planned
+
+RATE_HZ = 25.0
+ROBOT = load_robot("pr2")
+HOME = np.array([ROBOT.home(0), ROBOT.home(1)])
+NAMES = ("hand-towel", "t-shirt", "jeans")
+
+each_name = pytest.mark.parametrize("name", NAMES)
+
+
+def trajectory_of(name: str) -> Trajectory:
+    found = planned(name).answer.trajectory
+    assert found is not None
+    return found
+
+
+def joints_at(trajectory: Trajectory, t_s: float) -> FloatArray:
+    """All arms' joints at a time, shape (arms, 7)."""
+    return trajectory.arms.at(t_s).reshape(len(HOME), -1)
+
+
+def is_holding(segment: Segment, arm: int) -> bool:
+    hand = segment.phase.hands[arm]
+    return hand is not None and not hand.is_reaching
+
+
+@pytest.mark.parametrize("name", NAMES[1:])
+def test_between_some_runs_the_base_drives(name: str):
+    # Else the tests that follow say little.
+    phases = [segment.phase for segment in trajectory_of(name).segments]
+    assert any(phase.motion is None and phase.base[0] != phase.base[1] for phase in phases)
+
+
+@each_name
+def test_the_arms_touch_nothing_all_through(name: str):
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    collisions = ROBOT.collisions(plan.scene.table, plan.scene.torso_m)
+    times = np.arange(0.0, plan.cost_s, 1.0 / RATE_HZ)
+    bases = [trajectory.segment_at(t).base_at(t) for t in times]
+    joints = np.array([joints_at(trajectory, t) for t in times])
+    start = 0
+    for end in range(1, len(times) + 1):
+        if end == len(times) or bases[end] != bases[start]:
+            is_free = collisions.free(bases[start], joints[start:end])
+            assert is_free.all(), f"at {times[start + int(np.argmin(is_free))]:.2f} s"
+            start = end
+
+
+@each_name
+def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(name: str):
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    assert trajectory.duration_s == plan.cost_s
+    assert trajectory.segments[0].start_s == 0.0
+    for segment, after in pairwise(trajectory.segments):
+        assert after.start_s == pytest.approx(segment.start_s + segment.duration_s)
+        assert after.step >= segment.step
+        one, other = segment.base_at(after.start_s), after.base_at(after.start_s)
+        assert (one.x_m, one.y_m) == pytest.approx((other.x_m, other.y_m), abs=1e-6)
+        one, other = segment.placement_at(after.start_s), after.placement_at(after.start_s)
+        assert (one.x_m, one.y_m, one.yaw_rad) == pytest.approx((other.x_m, other.y_m, other.yaw_rad), abs=1e-6)
+    last = trajectory.segments[-1]
+    assert last.start_s + last.duration_s == pytest.approx(plan.cost_s)
+    assert trajectory.arms.times_s[-1] <= plan.cost_s + 1e-9
+
+
+@each_name
+def test_a_steps_segments_lead_from_the_world_before_it_to_the_world_after_it(name: str):
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    for number, step in enumerate(plan.steps):
+        last = trajectory.of_step(number)[-1]
+        base, cloth = last.phase.base[1], last.phase.cloth
+        for there, wanted in ((base, step.after.base.pose), (cloth.end, step.after.placement)):
+            assert (there.x_m, there.y_m) == pytest.approx((wanted.x_m, wanted.y_m), abs=1e-6)
+        is_folded = cloth.fold is not None and cloth.sweep[1] == 2.0
+        assert cloth.done | (1 << cloth.fold if is_folded else 0) == step.after.done
+        assert last.start_s + last.duration_s <= step.end_s + 1e-6
+
+
+@each_name
+def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name: str):
+    arms = trajectory_of(name).arms
+    limits = np.array([arm.speeds_rad_s for arm in ROBOT.card.arms]).ravel()
+    speeds = np.abs(np.diff(arms.positions, axis=0)) / np.diff(arms.times_s)[:, None]
+    assert (speeds / limits).max() <= 1.0 + 1e-6
+
+
+@each_name
+def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_end(name: str):
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    assert [track.arm for track in trajectory.grippers] == [arm.name for arm in ROBOT.card.arms]
+    for track in trajectory.grippers:
+        assert [track.opening_at(t) for t in (0.0, plan.cost_s)] == pytest.approx([OPEN_M, OPEN_M])
+    held = 0
+    for segment, after in pairwise((*trajectory.segments, None)):
+        for arm, track in enumerate(trajectory.grippers):
+            if is_holding(segment, arm):
+                held += 1
+                is_last = after is None or not is_holding(after, arm)
+                lasts = segment.duration_s - plan.scene.grip_dwell_s if is_last else segment.duration_s
+                for t in np.linspace(segment.start_s, segment.start_s + lasts, 5):
+                    assert track.opening_at(t) == pytest.approx(CLOSED_M)
+    assert held >= len(plan.garment.folds)
+
+
+@each_name
+def test_arms_begin_at_home(name: str):
+    assert joints_at(trajectory_of(name), 0.0) == pytest.approx(HOME)
+
+
+@each_name
+def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str):
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    assert trajectory.torso_m == plan.scene.torso_m
+    frames = list(Timeline.of(plan).samples(10.0))
+    assert {frozenset(frame.joints) for frame in frames} == {frozenset(frame.velocities) for frame in frames}
+    assert len({frozenset(frame.joints) for frame in frames}) == 1
+    card = ROBOT.card
+    named = {name for arm in card.arms for name in (*arm.joint_names, arm.gripper.joint_name)}
+    assert {*named, card.lift_joint, *dict(card.resting)} == set(frames[0].joints)
+    assert all(frame.velocities[name] == 0.0 for frame in frames for name in (card.lift_joint, *dict(card.resting)))
+
+
+@each_name
+def test_velocities_are_those_with_which_the_joints_go_on(name: str):
+    # Between two keyframes a joint goes evenly, so a millisecond later it is where its velocity takes it.
+    plan, trajectory = planned(name).answer, trajectory_of(name)
+    knots = np.unique([*trajectory.arms.times_s, *(t for track in trajectory.grippers for t in track.times_s)])
+    step_s = 1e-3
+    for t in knots[:-1][np.diff(knots) > 2 * step_s]:
+        here, there = (trajectory.joints_at(float(t) + lead) for lead in (0.25 * step_s, 1.25 * step_s))
+        going = trajectory.velocities_at(float(t) + 0.25 * step_s)
+        for joint, velocity in going.items():
+            assert there[joint] - here[joint] == pytest.approx(velocity * step_s, abs=1e-9)
+    assert set(trajectory.velocities_at(plan.cost_s + 1.0).values()) == {0.0}
+
+
+def test_a_track_goes_evenly_from_keyframe_to_keyframe_and_rests_at_its_ends():
+    track = JointTrack.at_rest(HOME)
+    track.add(np.array([1.0, 2.0]), np.array([HOME + 0.4, HOME]))
+    assert track.joints_at(0.25) == pytest.approx(HOME + 0.1)
+    assert track.joints_at(1.5) == pytest.approx(HOME + 0.2)
+    assert track.joints_at(-1.0) == pytest.approx(HOME) and track.joints_at(9.0) == pytest.approx(HOME)
+
+
+def test_keyframes_that_come_too_late_are_left_out():
+    track = JointTrack.at_rest(HOME)
+    track.add(np.array([1.0, 1.0, 0.5]), np.array([HOME + 0.4, HOME + 0.8, HOME]))
+    assert track.times_s == [0.0, 1.0]
+    assert track.joints_at(1.0) == pytest.approx(HOME + 0.4)
+
+
+def test_fingers_close_and_open_evenly_and_when_they_are_told():
+    track = JointTrack.at_rest(HOME)
+    track.close(1, 1.5, 2.0)
+    track.open(1, 3.0, 3.5)
+    assert track.openings(1) == ([0.0, 1.5, 2.0, 3.0, 3.5], [OPEN_M, OPEN_M, CLOSED_M, CLOSED_M, OPEN_M])
+    assert track.openings(0) == ([0.0], [OPEN_M])
+
+
+def test_fingers_are_led_along_their_links_while_they_close_and_open():
+    # The opening goes evenly; the joint, which swings, is at each keyframe where that opening has it.
+    plan = planned("hand-towel").answer
+    assert plan.trajectory is not None
+    for arm, track in zip(ROBOT.card.arms, plan.trajectory.grippers, strict=True):
+        assert min(track.openings_m) == CLOSED_M and max(track.openings_m) == OPEN_M
+        assert list(track.positions) == [arm.gripper.angle(opening) for opening in track.openings_m]
+        for t in np.arange(0.0, plan.cost_s, 0.02):
+            assert track.position_at(t) == pytest.approx(arm.gripper.angle(track.opening_at(t)), abs=0.002)
+
+
+def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
+    plan = planned("hand-towel").answer
+    timeline = Timeline.of(plan)
+    moving = [primitive.start_s + 0.5 * primitive.duration_s for primitive in plan.primitives]
+    still = timeline.at(0.0).cloth
+    assert timeline.at(0.1).cloth is still
+    surfaces = [timeline.at(t_s).cloth for t_s in moving]
+    assert len({id(surface) for surface in [still, *surfaces]}) == len(moving) + 1
+
+
+def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none():
+    # The grips lie nearer to the fold line than the far corner does, so they rest while the cloth begins to rise; and
+    # between two stands of the base that takes no time in a way that is tried, slower as a whole than 1 ms.
+    towel = garment(
+        rectangle_points(0.2, 0.4),
+        fold((0.0, 0.39604646049498443), (0.2, 0.3877103804729817)),
+        placement=Pose2(0.162323971451364, -0.025457994644062065, np.pi / 2),
+    )
+    plan = make_plan(towel, Scene(approach_cone_rad=0.0, arm_motion_s=0.001, base_speed_m_s=1000.0), time_limit_s=60.0)
+    assert plan.is_solved
+    last = plan.trajectory.segments[-1]
+    assert last.start_s + last.duration_s == pytest.approx(plan.cost_s)
+    assert [frame.t_s for frame in Timeline.of(plan).samples(50.0)][-1] == plan.cost_s

@@ -1,0 +1,45 @@
+"""What a maker of runs remembers: nothing is worked out twice, and everything is counted all the same."""
+
+import math
+
+from planner import Task
+from planner.geometry.pose import Pose2
+from planner.motion.transfer_planner import TransferPlanner, ways_of
+from planner.motion.tries import QUICK
+from planner.planning.problem import Problem
+from planner.primitives.primitive import Step
+from planner.primitives.primitive_set import PRIMITIVES
+from tests.builders import fold, garment, rectangle_points
+
+
+def some_fold() -> tuple[TransferPlanner, tuple[Step, ...], tuple[Step, ...]]:
+    """A maker, and a fold of a napkin as it is found by two searches, the one as good as the other."""
+    placement = Pose2(-0.6, 0.15, -math.pi / 2)
+    cloth = garment(rectangle_points(0.3, 0.3), fold((0.3, 0.15), (0.0, 0.15), name="half"), placement=placement)
+    problem = Problem.of(Task.of(cloth))
+    first, again = (
+        next(
+            step
+            for kind in PRIMITIVES
+            for step in kind(problem.context).successors(problem.start)
+            if step.kind == "fold"
+        )
+        for _ in range(2)
+    )
+    return problem.maker, (first,), (again,)
+
+
+def test_what_was_made_real_once_is_not_made_again_but_counted():
+    maker, first, again = some_fold()
+    assert first[0] is not again[0] and first[0].motion == again[0].motion
+    run = maker.real(first)
+    assert run is not None and maker.tries > 0
+    tries, glances = maker.tries, maker.glances
+    assert maker.real(again) is run
+    assert (maker.tries, maker.glances) == (2 * tries, 2 * glances)
+
+
+def test_no_two_ways_of_a_fold_have_the_same_motion():
+    _, first, _ = some_fold()
+    ways = [tuple(step.motion for step in way) for way in ways_of(first, QUICK)]
+    assert len(ways) == QUICK.variants == len(set(ways))

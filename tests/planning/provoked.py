@@ -1,0 +1,102 @@
+"""Small problems that have no plan, and what it takes to see that a reason is gone."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Unpack
+
+from planner import Scene, make_plan
+from planner.cloth.garment import Garment
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
+from planner.planning.found_plan import FoundPlan
+from planner.primitives.g_fold import GFold
+from planner.primitives.state import State
+from planner.task.plan import Plan
+from planner.task.reason import Code, Reason
+from planner.task.task import TaskOptions
+from tests.builders import fold, garment, rectangle_points
+from tests.planning.found import found_plan
+
+BACK = -math.pi / 2
+"""The yaw that lays a drawing's y along the table's x, away from `front`, and its x to the right."""
+
+FRONT = (("front", Pose2(-0.95, 0.0, 0.0)),)
+
+LEVEL_M = 0.051 + 0.739675 + 0.29 - 0.02 - 0.18
+"""The table height at which a tool that points straight down at rest, 2 cm up, has its wrist level with the shoulders:
+base_link + torso + raised by - rest - tool (m)."""
+
+
+COMFORT_M = 0.03
+
+FURTHEST_X = -0.95 - 0.05 + 0.1 + 0.4 + 0.321
+"""How far ahead of `front` the far end of a strip can be at a table of that height (m). It is pinched from beyond it,
+which only a hand that points straight down can; its wrist is level with the shoulder, which is 5 cm behind the base's
+middle, and at most 0.1 + 0.4 + 0.321 m from the shoulder's pan axis."""
+
+HOUSE = ((0.4, 0.3), (0.0, 0.3), (0.0, -0.1), (0.2, -0.2), (0.4, -0.1))
+"""A house upside down: its roof's tip hangs 0.1 m below its eaves, which are 0.1 m below the line at y = 0."""
+
+HAMMER_SCENE = Scene(stations=(("front", Pose2(-0.8, 0.0, 0.0)),))
+
+
+def fixed(height_m: float = LEVEL_M, **fields: object) -> Scene:
+    """A scene in which the robot stands still before the table: so nothing is dragged, and what is near is near."""
+    return Scene(stations=FRONT, back_off_max_m=0.0, table=Table(height_m=height_m), **fields)
+
+
+def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -> Garment:
+    """A strip 0.1 m wide along the table's x, its far end to be folded back over a line `depth_m` from it.
+
+    One grip in the middle of the far end holds both its corners, 0.05 m away. The strip's middle is before the left
+    shoulder, so what counts for the left arm is the distance ahead.
+    """
+    line = length_m - depth_m
+    far_end = fold((0.0, line), (0.1, line), name="far end")
+    return garment(rectangle_points(0.1, length_m), far_end, placement=Pose2(far_x_m - length_m, y_m + 0.05, BACK))
+
+
+def refused(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Plan:
+    """The answer where there is no plan."""
+    return met(cloth, scene, **options).plan
+
+
+def met(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> FoundPlan:
+    """The answer where there is no plan, and all that was met before that was known."""
+    answer = found_plan(cloth, scene, time_limit_s=60.0, **options)
+    assert answer.plan.status == "infeasible"
+    return answer
+
+
+def but_for_collisions(answer: Plan) -> Reason:
+    """The only reason of an answer, if nothing else has to be mended with it but what the arms touch then."""
+    reason, *others = answer.reasons
+    assert all((other.code, other.set) == (Code.COLLISION, reason.set) for other in others)
+    return reason
+
+
+def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
+    """The plan of a request once a change has been put into it, as a client would."""
+    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
+    options = {name: parts.get(name, float)(value) for name, value in change.items()}
+    request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 60.0, **options}
+    return make_plan(request.pop("garment"), request.pop("scene"), **request)
+
+
+def is_gone(reason: Reason, answer: Plan) -> bool:
+    """Whether a plan is solved, or at least a reason of this kind is no longer among its reasons."""
+    kind = (reason.fold, reason.code, reason.cause, reason.arm, reason.station)
+    return all((r.fold, r.code, r.cause, r.arm, r.station) != kind for r in answer.reasons)
+
+
+def is_in_reach(answer: FoundPlan, number: int) -> bool:
+    """Whether a fold could be done at the start by arms that nothing is in the way of."""
+    state = State(0, (0.0, 0.0), 0, 0)
+    return any(step.after.done >> number & 1 for step in GFold(answer.problem.context).successors(state))
+
+
+def hammer() -> Garment:
+    """A hammer whose head, at y = 0.4 to 0.5, points away from the robot, to be folded back over y = 0.1."""
+    outline = ((0, 0), (0.3, 0), (0.3, 0.2), (0.2, 0.2), (0.2, 0.4), (0.3, 0.4))
+    outline += ((0.3, 0.5), (0, 0.5), (0, 0.4), (0.1, 0.4), (0.1, 0.2), (0, 0.2))
+    return garment(outline, fold((0.0, 0.1), (0.3, 0.1), name="hammer"), placement=Pose2(-0.65, 0.15, BACK))

@@ -1,0 +1,72 @@
+"""A search ends by the work it has done, so that its answer does not depend on how busy the machine is."""
+
+import math
+import time
+
+import pytest
+
+from planner import Plan, Task, find_plan, load_garment, make_plan
+from planner.planning import plan_search
+from planner.planning.budget import Budget
+from planner.planning.found_plan import FoundPlan
+from planner.planning.problem import Problem
+
+PAUSE_S = 0.002
+SEARCH_S = 0.08
+"""Work for some of the T-shirt's search, whatever it takes on the clock."""
+
+
+def busy() -> bool:
+    """Asked whether to stop, a machine that is slow to answer."""
+    time.sleep(PAUSE_S)
+    return False
+
+
+def what_matters(plan: Plan) -> tuple[object, ...]:
+    found = plan.statistics
+    steps = [(p.kind, p.duration_s) for p in plan.primitives]
+    return plan.status, plan.cost_s, steps, found.expanded, found.explored, found.ik_queries, found.bound_s, found.ways
+
+
+@pytest.mark.parametrize("work_s", [SEARCH_S, 10.0])
+def test_on_a_slow_machine_the_same_request_has_the_same_answer(work_s: float):
+    quick = make_plan(load_garment("t-shirt"), work_limit_s=work_s, time_limit_s=60.0)
+    slow = make_plan(load_garment("t-shirt"), work_limit_s=work_s, time_limit_s=60.0, should_stop=busy)
+    assert what_matters(slow) == what_matters(quick)
+    assert (quick.status == "solved") == (work_s > SEARCH_S)
+
+
+def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.5 * SEARCH_S)
+    answers = []
+    task = Task.of(load_garment("t-shirt"), work_limit_s=4.0 * SEARCH_S, time_limit_s=60.0)
+    for should_stop in (None, busy):
+        found: list[FoundPlan] = []
+        answers.append((find_plan(task, on_found=found.append, should_stop=should_stop).plan, found))
+    (quick, quickly_found), (slow, slowly_found) = answers
+    assert what_matters(slow) == what_matters(quick)
+    assert [found.plan.cost_s for found in slowly_found] == [found.plan.cost_s for found in quickly_found] != []
+
+
+def test_the_clock_ends_a_search_that_has_work_left():
+    answer = make_plan(load_garment("t-shirt"), work_limit_s=60.0, time_limit_s=0.01)
+    assert answer.status == "budget_exceeded"
+
+
+def test_more_work_is_looked_at_more_ways():
+    few, more = (make_plan(load_garment("tie"), work_limit_s=share * SEARCH_S) for share in (0.5, 1.0))
+    assert few.status == more.status == "budget_exceeded"
+    assert 0 < few.statistics.ways < more.statistics.ways
+    assert few.statistics.bound_s <= more.statistics.bound_s
+
+
+def test_what_is_asked_of_every_problem_watched_is_counted():
+    problem = Problem.of(Task.of(load_garment("vest")))
+    budget = Budget.of(math.inf, 60.0, lambda: False)
+    assert budget.spent_s == 0.0
+    budget.watch(problem)
+    problem.maker.tries += 1
+    tried = budget.spent_s
+    budget.looks += 1
+    assert 0.0 < tried < budget.spent_s
+    assert budget.ways == 1

@@ -1,0 +1,68 @@
+"""What leaves a state in the search: all that can be done, but for what is no cheaper than from a state left before."""
+
+import pytest
+
+from planner.planning.edges import Edges
+from planner.planning.heuristic import arm_time
+from planner.primitives.context import Context
+from planner.primitives.primitive import Step
+from planner.primitives.state import State
+from planner.search.a_star import Edge, Outcome, a_star
+from tests.replay.planned import planned
+
+EXPANDED_MAX = 100_000
+
+
+def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
+    """What the model allows, whether arms can follow it or not."""
+    return Edges(context, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: are_spares_wanted)
+
+
+@pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
+def test_what_is_left_out_makes_no_plan_dearer(name: str):
+    case = planned(name).found
+    start, goal, bound = case.problem.start, case.problem.is_goal, arm_time(case.problem.context)
+    edges, whole, left_out = edges_of(case.problem.context), edges_of(case.problem.context, are_spares_wanted=True), []
+
+    def everything(state: State, _cost_s: float):
+        whole.begin()
+        return list(whole.leaving(state, 0.0))
+
+    def some(state: State, cost_s: float):
+        found = list(edges.leaving(state, cost_s))
+        left_out.append(len(everything(state, 0.0)) - len(found))
+        return found
+
+    lean = a_star(start, some, goal, bound, EXPANDED_MAX, lambda: False)
+    full = a_star(start, everything, goal, bound, EXPANDED_MAX, lambda: False)
+    assert lean.outcome is full.outcome is Outcome.SOLVED
+    assert lean.cost == pytest.approx(full.cost, abs=1e-9)
+    assert max(left_out) > 0, "else nothing is tested"
+
+
+def test_from_a_back_off_passed_on_the_way_only_the_base_moves_on():
+    case = planned("tie").found
+    context = case.problem.context
+    edges = edges_of(context)
+    near, far = State(0, (0.0, 0.0), 0, 0), State(0, (0.0, 0.0), 0, 4)
+    first = kinds_of(edges.leaving(near, 10.0))
+    assert kinds_of(edges.leaving(far, 10.0 + context.drive_s(4))) == {"move"}
+    edges.begin()
+    edges.leaving(near, 10.0)
+    assert kinds_of(edges.leaving(far, 10.0 + context.drive_s(4) - 0.01)) == first
+    edges.begin()
+    assert kinds_of(edges.leaving(far, 10.0 + context.drive_s(4))) == first, "a new search begins"
+
+
+def kinds_of(found) -> set[str]:
+    """The kinds of all steps, those worked out that have time."""
+    kinds: set[str] = set()
+    waiting = list(found)
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, Edge):
+            step: Step = one.action
+            kinds.add(step.kind)
+        else:
+            waiting += one.redeem()
+    return kinds

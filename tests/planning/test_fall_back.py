@@ -1,0 +1,53 @@
+"""A search that takes long falls back on a plan found greedily, and tells of it while it goes on."""
+
+import pytest
+
+from planner import Task, find_plan, load_garment, make_plan
+from planner.planning import plan_search
+from planner.planning.found_plan import FoundPlan
+from tests.replay.planned import planned
+
+TOO_FEW = 10
+"""Not enough states to find the T-shirt's quickest plan."""
+
+
+@pytest.fixture
+def found(monkeypatch: pytest.MonkeyPatch) -> list[FoundPlan]:
+    """What searches that fall back at once tell of."""
+    monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.0)
+    return []
+
+
+def test_when_its_budget_runs_out_a_search_has_a_plan_though_maybe_not_the_quickest(found: list[FoundPlan]):
+    answer = find_plan(Task.of(load_garment("t-shirt"), max_expanded=TOO_FEW), on_found=found.append).plan
+    assert answer.is_solved and not answer.is_proven
+    assert answer.statistics.bound_s < answer.cost_s == found[0].plan.cost_s
+    assert answer.cost_s >= planned("t-shirt").answer.cost_s - 1e-9
+
+
+def test_without_that_it_has_none():
+    assert make_plan(load_garment("t-shirt"), max_expanded=TOO_FEW).status == "budget_exceeded"
+
+
+def test_the_quickest_plan_takes_its_place_once_it_is_found(found: list[FoundPlan]):
+    answer = find_plan(Task.of(load_garment("t-shirt")), on_found=found.append).plan
+    assert answer.cost_s == pytest.approx(planned("t-shirt").answer.cost_s) and answer.is_proven
+    assert [one.plan.cost_s > answer.cost_s for one in found] == [True]
+
+
+def test_what_is_the_quickest_already_is_proven_to_be(found: list[FoundPlan]):
+    answer = find_plan(Task.of(load_garment("vest")), on_found=found.append).plan
+    assert [one.plan.cost_s for one in found] == [answer.cost_s] and answer.is_proven
+
+
+def test_a_plan_that_is_known_needs_nothing_to_fall_back_on(found: list[FoundPlan]):
+    known = planned("jeans").found
+    answer = find_plan(Task.of(load_garment("jeans")), known=known, on_found=found.append).plan
+    assert answer.is_proven and answer.task == Task.of(load_garment("jeans"))
+    assert found == []
+
+
+def test_where_there_is_no_plan_there_is_nothing_to_fall_back_on(found: list[FoundPlan]):
+    answer = find_plan(Task.of(load_garment("tie-halved")), on_found=found.append)
+    assert answer.plan.status == "infeasible"
+    assert found == []

@@ -1,0 +1,39 @@
+"""Plans found at one go: they can be done, though others may be quicker."""
+
+import pytest
+
+from planner import Scene, Task, load_garment, quick_plan
+from planner.planning import greedy
+from tests.replay.checker import check
+from tests.replay.planned import SOLVABLE, planned
+
+_FOUND_SOON = sorted({*SOLVABLE} - {"tie", "shirt"})
+
+
+@pytest.mark.parametrize("name", _FOUND_SOON)
+def test_what_is_found_at_one_go_can_be_done_and_none_is_quicker_than_the_quickest(name: str):
+    cloth = load_garment(name)
+    found = quick_plan(Task.of(cloth), like=[])
+    assert found is not None
+    plan = found.plan
+    assert plan.cost_s >= planned(name).answer.cost_s - 1e-6
+    assert plan.statistics.bound_s <= plan.cost_s
+
+
+@pytest.mark.parametrize("name", ["hand-towel", "jeans", "letter-towel"])
+def test_what_is_found_at_one_go_replays(name: str):
+    cloth = load_garment(name)
+    check(cloth.to_dict(), Scene().to_dict(), quick_plan(Task.of(cloth), like=[]).plan.to_dict())
+
+
+def test_it_gives_up_where_the_arms_fail_too_often(monkeypatch: pytest.MonkeyPatch):
+    assert quick_plan(Task.of(load_garment("scarf")), like=[]) is not None, "after a run that was not real"
+    monkeypatch.setattr(greedy, "_FAILURES_MAX", 1)
+    assert quick_plan(Task.of(load_garment("scarf")), like=[]) is None
+
+
+def test_it_gives_up_where_too_many_states_would_have_to_be_looked_at(monkeypatch: pytest.MonkeyPatch):
+    assert quick_plan(Task.of(load_garment("vest")), like=[]) is not None
+    monkeypatch.setattr(greedy, "_EXPANDED_MAX", 1)
+    monkeypatch.setattr(greedy, "_EXPANDED_PER_FOLD", 0)
+    assert quick_plan(Task.of(load_garment("vest")), like=[]) is None

@@ -1,0 +1,55 @@
+"""The heuristic is consistent, and A* with it costs what the search without one costs."""
+
+import pytest
+
+from planner.cloth.garment_files import load_garment
+from planner.planning.heuristic import arm_time, zero
+from planner.plans import make_plan
+from planner.primitives.base_move import BaseMove
+from planner.primitives.context import Context
+from planner.primitives.g_drag import GDrag
+from planner.primitives.g_fold import GFold
+from planner.primitives.state import Held, State
+from planner.search.a_star import Edge, Outcome, a_star
+from tests.builders import context, fold, garment, rectangle_points
+from tests.replay.planned import planned
+
+NINE = ("t-shirt", "jeans", "shirt", "tie", "scarf", "vest", "skirt", "big-towel", "hand-towel")
+
+
+def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dragged():
+    blue, red = fold((0.4, 0.12), (0.0, 0.12)), fold((0.0, 0.2), (0.4, 0.2), "red")
+    towel = garment(rectangle_points(0.4, 0.3), blue, red)
+    bound = arm_time(context(towel))
+    assert bound(State(0b00, (0.0, 0.0), 0, 0)) == 9.0 + 6.0
+    assert bound(State(0b00, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.0)),), dragged=1)) == 6.0 + 6.0
+    assert bound(State(0b01, (0.0, 0.0), 0, 0, (Held(0, (0.0, 0.24)),))) == 6.0
+    assert bound(State(0b11, (0.0, 0.0), 0, 0)) == 0.0
+    assert zero(context(towel))(State(0, (0.0, 0.0), 0, 0)) == 0.0
+
+
+@pytest.mark.parametrize("name", NINE)
+def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
+    case = planned(name)
+    problem: Context = case.found.problem.context
+    kinds = [GFold(problem), GDrag(problem), BaseMove(problem)]
+    bound, goal = arm_time(problem), (1 << len(problem.sequence.folds)) - 1
+    start = State(0, (0.0, 0.0), 0, 0)
+
+    def successors(state: State, _cost_s: float):
+        for kind in kinds:
+            for step in kind.successors(state):
+                assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
+                yield Edge(step, step.duration_s, step.after)
+
+    found = a_star(start, successors, lambda s: s.done == goal, bound, 100_000, lambda: False)
+    assert found.outcome is Outcome.SOLVED
+    assert found.cost <= case.answer.cost_s + 1e-6, "joint paths only ever take longer"
+
+
+@pytest.mark.parametrize("name", NINE)
+def test_without_a_heuristic_the_plan_costs_the_same(name: str):
+    blind = make_plan(load_garment(name), heuristic="zero", time_limit_s=60.0)
+    assert blind.status == "solved"
+    assert blind.cost_s == pytest.approx(planned(name).answer.cost_s, abs=1e-6)
+    assert blind.statistics.expanded >= planned(name).answer.statistics.expanded

@@ -1,0 +1,246 @@
+"""Joint paths made lazily: the plan costs what a search finds that makes every run real at once, and no way is real
+that something stands in."""
+
+import heapq
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import count
+from typing import Any
+
+import numpy as np
+import pytest
+
+from planner import Garment, Plan, Scene, make_plan
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.table import Table
+from planner.motion.robot_port import Clearance, Collisions
+from planner.motion.transfer_planner import TransferPlanner
+from planner.planning import motion_validator as validator
+from planner.planning import plan_search, problem
+from planner.primitives.context import Context
+from planner.primitives.primitive import Step
+from planner.primitives.primitive_set import PRIMITIVES
+from planner.primitives.state import State
+from planner.robot.collision.contact import Contact
+from planner.robot.pr2 import Pr2, load_robot
+from planner.task.reason import Code
+from tests.builders import fold, garment, rectangle_points
+from tests.planning.found import found_plan
+
+BACK = -math.pi / 2
+STATIONS = (("front", Pose2(-0.95, 0.0, 0.0)), ("side", Pose2(-0.45, 0.64, BACK)))
+
+HALF = fold((0.3, 0.15), (0.0, 0.15), name="half")
+QUARTER = fold((0.15, 0.15), (0.15, 0.3), name="quarter")
+OVER, BACK_OVER = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
+IDLE_S = 3.0
+"""The time of an arm motion in which the joints have time enough."""
+
+HURRIED_S = 0.3
+"""And one in which they have not: runs take longer than they seem, and what seems quickest is not always so."""
+
+ROOM_TO_TURN_M = 0.35
+"""A back-off that lets the base drive round the table, and the cloth be dragged."""
+
+
+def napkin(*folds, x_m: float = -0.6) -> Garment:
+    """A napkin of 0.3 x 0.3 m, its near edge at x = `x_m`."""
+    return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(x_m, 0.15, BACK))
+
+
+def scene(arm_motion_s: float, back_off_max_m: float = 0.05) -> Scene:
+    return Scene(stations=STATIONS, back_off_max_m=back_off_max_m, arm_motion_s=arm_motion_s)
+
+
+def planned(cloth: Garment, where: Scene) -> Plan:
+    return make_plan(cloth, where, time_limit_s=60.0)
+
+
+class Eager:
+    """The plain way: Dijkstra's search over states with free hands, every run between them made real at once."""
+
+    def __init__(self, context: Context) -> None:
+        self._kinds = [kind(context) for kind in PRIMITIVES]
+        self._maker = TransferPlanner(context, load_robot("pr2"))
+        self._goal = (1 << len(context.sequence.folds)) - 1
+
+    def cost_s(self, start: State) -> float:
+        numbers, closed = count(), set()
+        queue = [(0.0, next(numbers), start)]
+        while queue:
+            cost, _, state = heapq.heappop(queue)
+            if state.done == self._goal:
+                return cost
+            if state in closed:
+                continue
+            closed.add(state)
+            for run in self._runs(state, ()):
+                heapq.heappush(queue, (cost + self._duration_s(run), next(numbers), run[-1].after))
+        return math.inf
+
+    def _runs(self, state: State, so_far: tuple[Step, ...]) -> Iterator[tuple[Step, ...]]:
+        """All that can be done in a state until the hands are free again."""
+        for kind in self._kinds:
+            for step in kind.successors(state):
+                run = (*so_far, step)
+                yield from self._runs(step.after, run) if step.after.held else (run,)
+
+    def _duration_s(self, run: tuple[Step, ...]) -> float:
+        if not any(step.grips for step in run):
+            return sum(step.duration_s for step in run)
+        real = self._maker.real(run)
+        return math.inf if real is None else sum(real.durations_at_most_s())
+
+
+@pytest.mark.parametrize("arm_motion_s", [IDLE_S, HURRIED_S])
+@pytest.mark.parametrize(
+    ("folds", "back_off_max_m"),
+    [((HALF,), 0.05), ((HALF,), ROOM_TO_TURN_M), ((HALF, QUARTER), 0.05), ((OVER, BACK_OVER), 0.05)],
+)
+def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
+    monkeypatch, folds, back_off_max_m, arm_motion_s
+):
+    # Both try the same ways for each run: tighter tasks, in which others come first that may be quicker, are left out.
+    for name in ("with_more_comfort", "with_narrower_cones"):
+        monkeypatch.setattr(plan_search, name, lambda problem: ())
+    found = found_plan(napkin(*folds), scene(arm_motion_s, back_off_max_m), time_limit_s=60.0)
+    plan, seeming_s = found.plan, sum(step.duration_s for act in found.acts for step in act.steps)
+    assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
+    assert plan.cost_s == pytest.approx(Eager(found.problem.context).cost_s(found.problem.start), abs=1e-6)
+
+
+IsBarred = Callable[[int, Pose2], bool]
+"""Whether an arm, by its number, collides whatever it does while the base stands somewhere."""
+
+
+class BarredCollisions:
+    """What is in whose way, and more."""
+
+    def __init__(self, real: Collisions, is_barred: IsBarred) -> None:
+        self._real = real
+        self._is_barred = is_barred
+
+    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        return self._real.are_all_free(bases, joints)
+
+    def arm_free(
+        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+    ) -> BoolArray:
+        stands = [bases] * len(joints) if isinstance(bases, Pose2) else [Pose2(*base) for base in bases]
+        is_open = np.array([not self._is_barred(arm, stand) for stand in stands], dtype=bool)
+        return is_open & self._real.arm_free(arm, bases, joints, is_certain=is_certain)
+
+    def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        return self._real.arms_apart(joints, is_certain=is_certain)
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        return self._real.postures_apart(left, right)
+
+    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
+        return self._real.are_some_apart(left, right)
+
+    def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
+        return self._real.over_cloth(pieces, over_m)
+
+    def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
+        return self._real.deepest_contact(base_in_table, joints)
+
+
+class BarredRobot(Pr2):
+    """A PR2 with something in its way that reach knows nothing of."""
+
+    def __init__(self, is_barred: IsBarred) -> None:
+        super().__init__()
+        self._is_barred = is_barred
+
+    def collisions(self, table: Table, torso_m: float, *args: float, **options: float) -> BarredCollisions:
+        return BarredCollisions(super().collisions(table, torso_m, *args, **options), self._is_barred)
+
+
+def barred(monkeypatch: pytest.MonkeyPatch, is_barred: IsBarred) -> None:
+    robot = BarredRobot(is_barred)
+    monkeypatch.setattr(problem, "load_robot", lambda name: robot)
+
+
+def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch):
+    # To turn, the base must be 0.47 m away from the table; it stands 0.15 m from it.
+    open_way = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
+    assert {p.base.station for p in open_way.primitives} == {"front"}
+    barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
+    plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
+    assert plan.is_solved and plan.cost_s > open_way.cost_s
+    (folding,) = (p for p in plan.primitives if p.kind == "fold")
+    assert folding.base.station == "side"
+
+
+def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(monkeypatch):
+    # Barred at the station itself only: it backs off by a step of 0.05 m, at 0.25 m/s.
+    barred(monkeypatch, lambda arm, base: abs(base.x_m + 0.95) < 0.01 and base.y_m == 0.0)
+    plan = planned(napkin(HALF), scene(IDLE_S))
+    assert plan.cost_s == pytest.approx(9.0 + 0.05 / 0.25)
+    (folding,) = plan.primitives
+    assert folding.base.back_off_m == pytest.approx(0.05)
+
+
+def test_what_one_arm_cannot_do_the_other_does(monkeypatch):
+    # One grip holds a corner, at x = -0.3, y = -0.15, 0.65 m ahead of the base.
+    corner = fold((0.2, 0.3), (0.3, 0.2), name="corner")
+    cloth = napkin(corner)
+    (first,) = (p for p in planned(cloth, scene(IDLE_S)).primitives if p.kind == "fold")
+    (grip,) = first.grips
+    number = ("left", "right").index(grip.arm)
+    barred(monkeypatch, lambda arm, base: arm == number)
+    plan = planned(cloth, scene(IDLE_S))
+    assert plan.is_solved
+    assert {g.arm for p in plan.primitives for g in p.grips} == {"left", "right"} - {grip.arm}
+
+
+@pytest.mark.parametrize("back_off_max_m", [0.0, 0.1])
+def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch, back_off_max_m):
+    barred(monkeypatch, lambda arm, base: arm == 0)
+    plan = planned(napkin(HALF, QUARTER), scene(IDLE_S, back_off_max_m))
+    assert plan.status == "infeasible"
+    assert (plan.reasons[0].fold, plan.reasons[0].code) == (0, Code.COLLISION)
+    assert "cannot get them there" in plan.reasons[0].message
+
+
+def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
+    for name in ("QUICK", "THOROUGH"):
+        monkeypatch.setattr(plan_search, name, replace(getattr(plan_search, name), failures=failures))
+
+
+def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
+    realizers = []
+
+    class Seen(validator.MotionValidator):
+        def __init__(self, *given: Any) -> None:
+            super().__init__(*given)
+            realizers.append(self)
+
+    monkeypatch.setattr(plan_search, "MotionValidator", Seen)
+    barred(monkeypatch, lambda arm, base: arm == 0)
+    searches = []
+    for failures_max in (1, 1_000):
+        give_up_after(monkeypatch, failures_max)
+        begun = len(realizers)
+        plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
+        assert plan.status == "infeasible" and plan.reasons[0].code == Code.COLLISION
+        searches.append(realizers[begun])  # others follow, which try the reasons
+    few, many = (Counter(run[-1].task for run in seen.rejected) for seen in searches)
+    assert set(few.values()) == {1}, "after one failure they do not try with the cloth elsewhere"
+    assert max(many.values()) > 1
+
+
+def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch):
+    give_up_after(monkeypatch, 1)
+    barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
+    assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
+
+
+def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(monkeypatch):
+    barred(monkeypatch, lambda arm, base: True)
+    plan = planned(napkin(OVER, BACK_OVER), scene(IDLE_S))
+    assert plan.status == "infeasible"
+    assert [(r.fold, r.code) for r in plan.reasons] == [(0, Code.COLLISION), (1, Code.WAITS_FOR_FOLD)]

@@ -1,0 +1,42 @@
+"""Tasks with less room, in which ways come first that are among many others where there is more."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from planner import Scene, Task, load_garment
+from planner.planning.problem import Problem
+from planner.planning.tightened import with_more_comfort, with_narrower_cones
+
+
+def problem_of(comfort_m: float, cone_rad: float) -> Problem:
+    scene = Scene(approach_cone_rad=cone_rad, friction=0.4)
+    return Problem.of(Task.of(load_garment("vest"), scene, start_station="left", comfort_radius_m=comfort_m))
+
+
+@pytest.mark.parametrize(("comfort_m", "more"), [(0.0, [0.01, 0.02, 0.03]), (0.02, [0.03]), (0.03, []), (0.1, [])])
+def test_more_comfort_is_asked_for_where_there_is_less_than_the_default(comfort_m: float, more: list[float]):
+    found = list(with_more_comfort(problem_of(comfort_m, 1.3)))
+    assert [(one.context.reach.comfort_m, one.context.scene.approach_cone_rad) for one in found] == [
+        (m, 1.3) for m in more
+    ]
+
+
+@pytest.mark.parametrize(("cone_rad", "narrower"), [(math.pi, [0.0, 0.5, 1.0]), (0.7, [0.0, 0.5]), (0.0, [])])
+def test_cones_are_narrower_and_comfort_is_as_it_was(cone_rad: float, narrower: list[float]):
+    found = list(with_narrower_cones(problem_of(0.01, cone_rad)))
+    assert [(one.context.reach.comfort_m, one.context.scene.approach_cone_rad) for one in found] == [
+        (0.01, cone) for cone in narrower
+    ]
+
+
+def test_all_else_is_the_same_in_a_tighter_task():
+    problem = problem_of(0.0, 1.3)
+    for one in (*with_more_comfort(problem), *with_narrower_cones(problem)):
+        alike = replace(one.context.scene, approach_cone_rad=1.3)
+        assert (alike, one.start, one.context.placement) == (
+            problem.context.scene,
+            problem.start,
+            problem.context.placement,
+        )
