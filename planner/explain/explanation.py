@@ -42,3 +42,13 @@ class Explanation:
             return try_folds(relaxed.searched, relaxed.may_collide, folds)
 
         return corrected(Relaxed.of(problem), met, ask, is_enough)
+
+
+class FirstExplanation(Explanation):
+    """Says what was met, and tries none of it: for who will try changes anyway."""
+
+    def tried(
+        self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
+    ) -> tuple[Reason, ...]:
+        """Return the reasons that were met."""
+        return met.measured()

@@ -1,6 +1,6 @@
 """The work that a search for suggestions may do, and how much of it one trial may take."""
 
-from planner.explain.explanation import Explanation
+from planner.explain.explanation import FirstExplanation
 from planner.planning.budget import Budget
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
@@ -42,13 +42,17 @@ class TrialBudget:
         return self.spent_s >= share * self._whole.work_limit_s or self.is_late
 
     def plan(self, task: Task, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
-        """Plan a task with so much work, or what is left if that is less; else with a fraction of what is left."""
+        """Plan a task with so much work, or what is left if that is less; else with a fraction of what is left.
+
+        Only where reasons are asked for more ways are tried before there is said to be no plan.
+        """
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
         part = self._whole.part(min(wanted_s, left_s))
         self.spent_s += _SETTING_UP_S
-        explainer = Explanation() if with_reasons else None
+        explainer = FirstExplanation() if with_reasons else None
         heuristic, most = task.limits.heuristic, task.limits.max_expanded
-        plan = PlanSearch(Problem.of(task), heuristic, part, most, explainer=explainer).plan().plan
+        search = PlanSearch(Problem.of(task), heuristic, part, most, explainer=explainer, is_patient=with_reasons)
+        plan = search.plan().plan
         self.spent_s += part.spent_s
         return plan

@@ -64,6 +64,8 @@ class PlanSearch:
         like: Sequence[FoundPlan] = (),
         on_found: Callable[[FoundPlan], None] | None = None,
         explainer: Explainer | None = None,
+        *,
+        is_patient: bool = True,
     ) -> None:
         """A search that has not begun; its time runs.
 
@@ -77,8 +79,9 @@ class PlanSearch:
             on_found: told of a plan that was found meanwhile, while the search for the quickest goes on; where there is
                 none, of the reasons that were met, while they are tried.
             explainer: says why there is no plan; None: nobody asks, and to find out takes more plans.
+            is_patient: whether more ways are tried for each step where the first few gave no plan.
         """
-        self._explainer = explainer
+        self._explainer, self._is_patient = explainer, is_patient
         self._problem = problem
         self._context = problem.context
         self._heuristic = heuristic
@@ -116,7 +119,8 @@ class PlanSearch:
             return self._answer(Outcome.INFEASIBLE, (), self._tried(self._unrestful(unrest)), is_cut_short=False)
         result, _ = self._real_path(self._problem.start)
         is_cut_short = result.outcome is Outcome.BUDGET_EXCEEDED and not self._blocking
-        if not is_cut_short and not self._blocking and self._is_in_doubt:
+        is_worth_more = self._is_patient or bool(self._found)
+        if not is_cut_short and not self._blocking and self._is_in_doubt and is_worth_more:
             is_cut_short = self._is_cut_short_trying_more()
         if self._found:
             return self._answer(Outcome.SOLVED, self._found, (), is_cut_short)

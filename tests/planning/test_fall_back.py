@@ -47,7 +47,9 @@ def test_a_plan_that_is_known_needs_nothing_to_fall_back_on(found: list[FoundPla
     assert found == []
 
 
-def test_where_there_is_no_plan_there_is_nothing_to_fall_back_on(found: list[FoundPlan]):
-    answer = find_plan(Task.of(load_garment("tie-halved")), on_found=found.append)
-    assert answer.plan.status == "infeasible"
-    assert found == []
+def test_where_there_is_no_plan_that_is_told_before_its_reasons_are_tried(found: list[FoundPlan]):
+    answer = find_plan(Task.of(load_garment("scarf-halved")), on_found=found.append)
+    (first,) = (one.plan for one in found)
+    assert answer.plan.status == first.status == "infeasible"
+    assert {reason.set for reason in first.reasons} == {None}
+    assert any(reason.set is not None for reason in answer.plan.reasons)
