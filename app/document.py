@@ -119,7 +119,8 @@ class Document:
         def change(state: DocumentState) -> DocumentState:
             belongs_to = state.version if state.task == task else version
             is_late = state.answer is not None and belongs_to < state.answer.version
-            if is_late:
+            is_from_elsewhere = version == state.version and state.task not in (None, task)
+            if is_late or is_from_elsewhere:  # meanwhile another start of the same drawing was asked for
                 return state
             answer = Answer(belongs_to, task, plan, plan_id, is_final)
             answered = state.answered(answer)
@@ -165,7 +166,11 @@ class Document:
         def change(state: DocumentState) -> DocumentState:
             if state.answer is None or not state.is_answered or not state.answer.plan.is_solved:
                 raise RequestError("step", "there is no plan of the drawing as it is now")
-            return state.started_at(state.answer.plan.state_after(step), self._clock())
+            try:
+                start = state.answer.plan.state_after(step)
+            except RequestError as error:
+                raise RequestError("step", error.message) from None
+            return state.started_at(start, self._clock())
 
         self._change(change)
 

@@ -166,6 +166,8 @@ class DocumentState:
         after = replace(self, version=version, draft=draft, start=None, failure=None, is_thorough=False)
         if draft.drawing.name != self.drawing.name:
             after = replace(after, answer=None, committed=None, before=None)
+        elif self.start is not None:  # what is left of a plan is nothing to compare whole plans with
+            after = replace(after, committed=None, before=None)
         answer, task = after.answer, after.task
         if task is None or answer is None:
             return replace(after, film=None, playback=self.playback.lasting(now_s, 0.0))

@@ -20,7 +20,7 @@ from app.document_state import DocumentState
 from app.files.crease_reading import Creases
 from app.files.exports import EXPORTS, Export, UnavailableFileError, find_export
 from app.files.import_errors import UnitsNeededError
-from app.files.import_file import LARGEST_FILE, Imported
+from app.files.import_file import Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
@@ -80,13 +80,15 @@ class FileEntry(BaseModel):
 async def post_import(
     request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0, creases: Lines = None
 ) -> Response:
-    """The garment in a file that is sent as it is: a garment file, SVG or DXF, told by the ending of its name.
+    """The garment in a file that is sent as it is: a garment or plan file, SVG or DXF, told by the ending of its name.
+
+    Of a plan file the garment is taken, placed as at the plan's start.
 
     Where the file does not say how long a unit is, or says what cannot be, the problem is about the field `units` and
     has `sizes`: how large the garment would be in each. Fold lines are read on that cloth on which more of them are
     legal, unless `creases` says which.
     """
-    data = await read_bytes(request, LARGEST_FILE)
+    data = await read_bytes(request, largest(filename))
     work = partial(_read, filename, data, units, scale, creases)
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))

@@ -88,7 +88,7 @@ class _Telling:
         document = (state.version, state.draft)
         if document != self._document:
             told.append(document_message(self._opened.id, state))
-        plan = (state.version, state.answer, state.checks, state.failure)
+        plan = (state.version, state.answer, state.checks, state.failure, state.start)
         if plan != self._plan:
             told.append(plan_message(state))
         playback = (state.playback, state.film)

@@ -47,7 +47,10 @@ class ChecksAnswer(BaseModel):
 
 
 class PlanMessage(BaseModel):
-    """The answer to the drawing; while that is being planned, `plan` is the one before."""
+    """The answer to the drawing; while that is being planned, `plan` is the one before.
+
+    `start` is the state from which the drawing is planned, null where that is before all folds, as drawn.
+    """
 
     kind: Literal["plan"]
     version: int

@@ -15,6 +15,7 @@ from app.api.body import read_model, read_object
 from app.api.described import problems, takes
 from app.api.messages import DagRequest, PlanRequest
 from app.api.waiting import answer_of, quick_answer
+from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
 from app.workspace import Workspace
@@ -24,9 +25,6 @@ from planner.errors import UnsolvedPlanError
 router = APIRouter(prefix="/api", tags=["plans"])
 
 PLAN_FILE_TYPE = "application/vnd.pleat.plan+json"
-
-LARGEST_PLAN_FILE = 8 << 20
-"""A plan file has some 400 kB; with all folds that a garment may have, a few MB."""
 
 _PLAN_FILE_BODY = {
     "requestBody": {

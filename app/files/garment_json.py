@@ -1,17 +1,23 @@
-"""Reads a garment file, strictly."""
+"""Reads garment files and plan files, strictly."""
+
+from dataclasses import replace
 
 from pydantic_core import from_json
 
 from app.files.import_errors import broken
 from planner.cloth.garment import Garment
+from planner.message import Message
+from planner.task.plan import Plan
+from planner.task.plan_files import VERSION_FIELD
 
 
-def read_garment_json(data: bytes) -> Garment:
-    """The garment in a garment file.
+def read_garment_json(data: bytes) -> tuple[Garment, tuple[Message, ...]]:
+    """Return the garment in a garment file or in a plan file, and what is to be said about it.
 
     Raises:
         ImportedFileError: it is no JSON object.
         GarmentError: it is no garment; names the field.
+        RequestError: it is no plan; names the field.
     """
     try:
         values = from_json(data.removeprefix(b"\xef\xbb\xbf"), allow_inf_nan=False)
@@ -19,4 +25,18 @@ def read_garment_json(data: bytes) -> Garment:
         raise broken(f"it is not JSON: {error}") from None
     if not isinstance(values, dict):
         raise broken("it is not a JSON object")
-    return Garment.from_dict(values)
+    if VERSION_FIELD in values:
+        return _garment_of(Plan.from_dict(values))
+    return Garment.from_dict(values), ()
+
+
+def _garment_of(plan: Plan) -> tuple[Garment, tuple[Message, ...]]:
+    """Return the garment of a plan, as it lies at the plan's start, and that it is one."""
+    done = len(plan.task.start.folds_done)
+    from_middle = f" after {done} of its folds" if done else ""
+    text = (
+        f"the file is a plan{from_middle}: its garment was taken, where it lies at the plan's start, "
+        "and is planned anew with this document's table, stations and costs"
+    )
+    note = Message("garment_of_plan", text, {"folds_done": done})
+    return replace(plan.task.garment, placement=plan.task.start.placement), (note,)

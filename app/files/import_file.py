@@ -13,9 +13,13 @@ from app.files.sketch_garment import UNITS_M, Sizes, garment_of
 from app.files.svg_sketch import read_svg
 from planner.cloth.garment import Garment
 from planner.message import Message
+from planner.task.plan_files import ENDING
 
 LARGEST_FILE = 2 << 20
-"""No file may have more bytes."""
+"""No drawing and no garment may have more bytes."""
+
+LARGEST_PLAN_FILE = 8 << 20
+"""A plan file has some 400 kB; with all folds that a garment may have, a few MB."""
 
 SCALES = (1e-3, 1e3)
 
@@ -42,6 +46,11 @@ class Imported:
     sizes: Sizes | None = None
 
 
+def largest(filename: str) -> int:
+    """Return how many bytes a file of a name may have at most."""
+    return LARGEST_PLAN_FILE if filename.lower().endswith(ENDING) else LARGEST_FILE
+
+
 def import_file(
     filename: str, data: bytes, units: str | None = None, scale: float = 1.0, creases: Creases | None = None
 ) -> Imported:
@@ -58,6 +67,7 @@ def import_file(
         ImportedFileError: the file is no garment; the field is ``file``, ``filename``, ``units`` or ``scale``.
         UnitsNeededError: nobody says how long a unit of the drawing is, or what the file says cannot be.
         GarmentError: what is in it is no garment; the field is that of a garment file.
+        RequestError: what is in it is no plan, though it says so; the field is that of a plan file.
     """
     path = PurePath(filename.replace("\\", "/"))
     ending = path.suffix[1:].lower()
@@ -66,7 +76,7 @@ def import_file(
     if not SCALES[0] <= scale <= SCALES[1]:
         raise ImportedFileError("scale", f"{scale} is not between {SCALES[0]:g} and {SCALES[1]:g}")
     if ending == _JSON:
-        return Imported(_JSON, read_garment_json(data), ())
+        return Imported(_JSON, *read_garment_json(data))
     if ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES))
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")

@@ -9,6 +9,8 @@ from planner.errors import RequestError
 from planner.task.plan import Plan
 
 ENDING = ".plan.json"
+VERSION_FIELD = "pleat_plan"
+"""By this field, the version, a plan file is told from a garment file."""
 
 
 def write_plan(plan: Plan, path: Path) -> None:
@@ -34,6 +36,6 @@ def load(source: str) -> Garment | Plan:
     path = Path(source)
     if path.is_file():
         data = read_json(path)
-        if isinstance(data, dict) and "pleat_plan" in data:
+        if isinstance(data, dict) and VERSION_FIELD in data:
             return Plan.from_dict(data)
     return load_garment(source)

@@ -179,7 +179,7 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         saved = exported(page, tmp_path)
         outline = [corner["point"] for corner in whole["drawing"]["outline"]]
         assert json.loads(saved.pop("untitled.json"))["outline"] == outline
-        plan = json.loads(saved.pop("untitled-plan.json"))
+        plan = json.loads(saved.pop("untitled.plan.json"))
         assert plan["status"] == "solved"
         order = [done["fold"] for done in plan["primitives"] if done["kind"] == "fold"]
         assert order in ([0, 1, 2], [1, 0, 2])  # the sides wait for nothing

@@ -34,6 +34,7 @@ export type Command = Schemas["LiveCommand"];
 export type PlanMessage = Schemas["PlanMessage"];
 export type Playback = Schemas["PlaybackAnswer"];
 export type Plan = Schemas["PlanOnShow"];
+export type PlanStart = Schemas["WorldState"];
 export type PlanBefore = Schemas["PlanBefore"];
 export type Primitive = Plan["primitives"][number];
 export type Reason = Schemas["ReasonAnswer"];

@@ -51,6 +51,10 @@ const SECTIONS = {
     ["Tab", "From corner to corner, from fold to fold"],
     [",  .", "Turn the garment on the table"],
   ],
+  Plan: [
+    ["Click", "Go to where a step begins"],
+    ["Right-click", "Plan from there; so do a long press, Shift + F10 and the menu key"],
+  ],
   View: [
     ["Wheel", "Zoom at the cursor"],
     ["Space + drag", "Pan; so does the middle button"],

@@ -1,4 +1,4 @@
-/** `Import`: a garment file, an SVG or a DXF, chosen or dropped on the page. */
+/** `Import`: a garment file, a plan file, an SVG or a DXF, chosen or dropped on the page. */
 
 import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
@@ -64,8 +64,8 @@ function ask(store, body, problem = "") {
     element(
       "p",
       "dialog-text",
-      "A garment of Pleat (.json), a drawing (.svg) or a pattern (.dxf). In drawings the closed path is the outline, " +
-        "and blue and red lines are folds.",
+      "A garment or a plan of Pleat (.json), a drawing (.svg) or a pattern (.dxf). In drawings the closed path is the " +
+        "outline, and blue and red lines are folds.",
     ),
     said,
   );

@@ -8,6 +8,7 @@ import { Outcome } from "./outcome.js";
 import { Planning } from "./planning.js";
 import { seeWhy } from "./see_why.js";
 import { ShownPlan } from "./shown_plan.js";
+import { StepMenu } from "./step_menu.js";
 import { TimeSlider } from "./time_slider.js";
 import { Transport } from "./transport.js";
 
@@ -23,6 +24,9 @@ export function mountDock(store) {
   timeline.setAttribute("aria-label", "Timeline");
   const folds = new Folds(store, clock, shown);
   const outcome = new Outcome(store, clock, shown, (t_s) => slider.seek(t_s));
+  const steps = new StepMenu(store, shown, () => outcome.start.takeFocus());
+  steps.serve(lanes.root, ".block");
+  steps.serve(outcome.list.root, ".plan-row");
   const planning = new Planning(store);
   planning.addEventListener("change", () => {
     root.classList.toggle("is-planning", planning.wait === "noticed" || planning.wait === "long");

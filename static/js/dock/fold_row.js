@@ -11,6 +11,7 @@ import { COLOURS, foldName, MOVED } from "./words.js";
 /** @import { Fold } from "pleat" */
 
 const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits", none: "" };
+const DONE_BEFORE = "done before the plan starts";
 
 /**
  * @typedef {object} Verbs
@@ -29,6 +30,7 @@ const STATES = { done: "done", current: "being folded", available: "can be folde
  * @property {number} index
  * @property {number} count of folds
  * @property {number} articleRadius metres
+ * @property {boolean} isDoneBefore whether it is done before the plan starts
  * @property {boolean} isAssumed whether its own radius is taken to be more than that
  * @property {{index: number, name: string}[]} waits what it waits for
  * @property {string} problem what is wrong with it, or nothing
@@ -57,6 +59,8 @@ export class FoldRow {
     this.fold = null;
     this.index = 0;
     this.problem = "";
+    /** Whether it is done before the plan starts. */
+    this.isDoneBefore = false;
     /** The names of what it waits for. */
     this.waiting = "";
     /** @type {keyof typeof STATES} */
@@ -69,7 +73,7 @@ export class FoldRow {
    * @param {Fold} fold of the drawing
    * @param {Now} now
    */
-  show(fold, { index, count, articleRadius, isAssumed, waits, problem }) {
+  show(fold, { index, count, articleRadius, isDoneBefore, isAssumed, waits, problem }) {
     this.fold = fold;
     this.index = index;
     const called = foldName(fold, index);
@@ -86,6 +90,8 @@ export class FoldRow {
     this.waits.title = waits.length ? `After ${waits.map((other) => other.name).join(", ")}` : "";
     this.waiting = waits.map((other) => other.name).join(" and ");
     this.problem = problem;
+    this.isDoneBefore = isDoneBefore;
+    this.mark.title = isDoneBefore ? DONE_BEFORE : "";
     this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, articleRadius });
     relabel(this.eye, `Show the cloth before ${called}`);
     this.showState(this.state, true);
@@ -104,7 +110,7 @@ export class FoldRow {
     const told = [
       `${this.index + 1}`,
       this.fold && `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
-      this.problem || STATES[state],
+      this.problem || (this.isDoneBefore ? DONE_BEFORE : STATES[state]),
       this.waiting && `after ${this.waiting}`,
     ];
     this.name.setAttribute("aria-description", told.filter(Boolean).join(", "));

@@ -9,11 +9,12 @@ const INSTANT_S = 1e-9;
 /**
  * @param {Plan|null} plan
  * @param {number} t_s
+ * @param {number[]} before the folds that are done before the plan starts
  * @returns {FoldState[]} one for each fold of the plan; without a plan none
  */
-export function foldStates(plan, t_s) {
+export function foldStates(plan, t_s, before = []) {
   if (!plan) return [];
-  const done = new Set();
+  const done = new Set(before);
   let current = -1;
   for (const primitive of plan.primitives) {
     if (primitive.kind !== "fold") continue;

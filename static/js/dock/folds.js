@@ -50,6 +50,12 @@ export class Folds {
     return this.shown.fits ? this.shown.plan : null;
   }
 
+  /** The folds that are done before the plan starts. */
+  get done() {
+    const { fits, plan, start } = this.shown;
+    return (fits || !plan) && start ? start.folds_done : [];
+  }
+
   show() {
     const { state } = this.store;
     if (!state || this.order.isDragging) return;
@@ -61,6 +67,7 @@ export class Folds {
         index,
         count: folds.length,
         articleRadius,
+        isDoneBefore: this.done.includes(index),
         isAssumed: isWide(state.drawing, fold),
         waits: waitsFor(this.plan, index).map((other) => ({ index: other, name: foldName(folds[other], other) })),
         problem: state.problems.find((problem) => problem.fold === index)?.message ?? "",
@@ -111,8 +118,11 @@ export class Folds {
   }
 
   tick() {
-    const states = foldStates(this.plan, this.clock.now);
-    this.folds.forEach((fold, index) => this.rows.get(fold.id)?.showState(states[index] ?? "none"));
+    const { done } = this;
+    const states = foldStates(this.plan, this.clock.now, done);
+    this.folds.forEach((fold, index) => {
+      this.rows.get(fold.id)?.showState(states[index] ?? (done.includes(index) ? "done" : "none"));
+    });
     this.dag.showStates(states);
   }
 

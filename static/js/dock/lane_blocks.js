@@ -4,7 +4,7 @@ import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
 import { foldName, hands, seconds, where, whole } from "./words.js";
 
-/** @import { Fold, Plan, Primitive } from "pleat" */
+/** @import { Fold, Plan, PlanStart, Primitive } from "pleat" */
 
 /**
  * What an arm or the base does in a primitive: `name` and, where there is room, `rest`, or where there is little a
@@ -29,16 +29,19 @@ const MOVED_M = 0.001;
 /**
  * @param {Plan|null} plan
  * @param {Fold[]} folds the garment's
+ * @param {PlanStart|null} start from where the plan starts; null: as drawn
  * @returns {{base: Block[], left: Block[], right: Block[]}}
  */
-export function laneBlocks(plan, folds) {
+export function laneBlocks(plan, folds, start = null) {
   const primitives = plan?.primitives ?? [];
   /** @param {string} name */
   const arm = (name) =>
     primitives.flatMap((primitive, index) =>
       primitive.grips.some((grip) => grip.arm === name) ? [armBlock(primitive, index, folds)] : [],
     );
-  const base = primitives.flatMap((primitive, index) => baseBlock(primitive, index, primitives, folds) ?? []);
+  /** @param {number} index how far the base is backed off before a primitive (m) */
+  const backOff = (index) => (primitives[index - 1] ?? start)?.base.back_off_m ?? 0;
+  const base = primitives.flatMap((primitive, index) => baseBlock(primitive, index, backOff(index), folds) ?? []);
   return { base, left: arm("left"), right: arm("right") };
 }
 
@@ -54,13 +57,13 @@ function armBlock(primitive, index, folds) {
  * What the base does meanwhile; during a fold it may back off or come nearer.
  * @param {Primitive} primitive
  * @param {number} index
- * @param {Primitive[]} primitives
+ * @param {number} backOff before it (m)
  * @param {Fold[]} folds
  * @returns {Block|null}
  */
-function baseBlock(primitive, index, primitives, folds) {
+function baseBlock(primitive, index, backOff, folds) {
   if (primitive.kind === "move") return block(primitive, index, folds, { name: place(primitive.to), kind: "move" });
-  const further = primitive.base.back_off_m - (primitives[index - 1]?.base.back_off_m ?? 0);
+  const further = primitive.base.back_off_m - backOff;
   if (Math.abs(further) < MOVED_M) return null;
   const [name, rest] = [length(Math.abs(further)), further > 0 ? "back" : "ahead"];
   return block(primitive, index, folds, { name, rest, kind: "move", base: `the base drives ${name} ${rest}` });

@@ -3,6 +3,7 @@
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
+import { markStep } from "./step_menu.js";
 import { axisTicks } from "./time_axis.js";
 import { place } from "../messages/names.js";
 import { hands, seconds, whole } from "./words.js";
@@ -66,7 +67,7 @@ export class Lanes {
     if (wanted === this.shown) return;
     this.shown = wanted;
     this.duration = this.plan?.cost_s ?? 0;
-    for (const [name, blocks] of Object.entries(laneBlocks(this.plan, this.folds))) {
+    for (const [name, blocks] of Object.entries(laneBlocks(this.plan, this.folds, this.told.start))) {
       this.lanes.get(name)?.replaceChildren(...blocks.map((block) => this.block(block)));
     }
     this.stopAt(this.root.querySelector(".block"));
@@ -103,7 +104,7 @@ export class Lanes {
     const name = element("span", "block-name", told.name, element("span", "block-rest", ` ${told.rest}`));
     const parts = told.number ? [element("span", "block-number", told.number), name] : [name];
     const made = button("block", (event) => event.detail === 0 && this.slider.seek(told.start_s), ...parts);
-    made.dataset.index = String(told.index);
+    markStep(made, told.index);
     made.dataset.kind = told.kind;
     if (told.colour) made.dataset.colour = told.colour;
     made.classList.toggle("is-holding", told.isHolding);

@@ -8,6 +8,7 @@ import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
 import { Refining } from "./refining.js";
+import { StartLine } from "./start_line.js";
 
 /** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
 
@@ -40,7 +41,9 @@ export class Outcome {
     const head = element("header", "dock-head", this.title, this.none.why, this.place.button, this.stop);
     const plan = element("div", "plan-scroll", this.place.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
-    this.root = element("section", "dock-outcome", head, this.solved, this.none.root);
+    this.title.tabIndex = -1;
+    this.start = new StartLine(store, () => this.title.focus());
+    this.root = element("section", "dock-outcome", head, this.start.root, this.solved, this.none.root);
     shown.addEventListener("change", () => this.show());
     this.show();
   }
@@ -97,8 +100,9 @@ export class Outcome {
     this.turn(false);
     this.list.show(plan, this.shown.folds);
     this.empty.hidden = plan.primitives.length > 0;
-    this.empty.textContent = "Nothing to do: there are no folds yet.";
-    this.place.button.hidden = plan.primitives.length === 0;
+    const { length } = this.shown.folds;
+    this.empty.textContent = length ? "Nothing is left to do." : "Nothing to do: there are no folds yet.";
+    this.place.button.hidden = plan.primitives.length === 0 || this.shown.start !== null;
     this.numbers.hidden = plan.primitives.length === 0;
     const [cost, ...rest] = numbers(plan, before);
     this.numbers.replaceChildren(cost, this.refined, this.longer, ...rest);

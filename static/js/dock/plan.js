@@ -5,6 +5,7 @@ import { button, element } from "../dom.js";
 import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
+import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
 
@@ -39,7 +40,7 @@ export class PlanList {
     if (wanted === this.shown) return;
     this.shown = wanted;
     this.plan = plan;
-    this.root.replaceChildren(...(plan?.primitives ?? []).map((primitive) => this.row(primitive, folds)));
+    this.root.replaceChildren(...(plan?.primitives ?? []).map((primitive, index) => this.row(primitive, index, folds)));
     this.current = -1;
     this.tick();
   }
@@ -78,8 +79,8 @@ export class PlanList {
     if (box.bottom > seen.bottom) frame.scrollTop += box.bottom - seen.bottom;
   }
 
-  /** @param {Primitive} primitive @param {Fold[]} folds */
-  row(primitive, folds) {
+  /** @param {Primitive} primitive @param {number} index @param {Fold[]} folds */
+  row(primitive, index, folds) {
     const name = element("span", "plan-name", briefly(primitive, folds));
     const by = hands(primitive);
     const at = primitive.kind === "move" ? "" : place(primitive.base.station);
@@ -92,6 +93,7 @@ export class PlanList {
       about,
       element("span", "plan-cost", seconds(primitive.duration_s)),
     );
+    markStep(shown, index);
     if (primitive.kind === "fold") shown.dataset.colour = folds[primitive.fold]?.kind ?? "";
     shown.title = told(primitive, folds);
     shown.setAttribute("aria-label", shown.title);

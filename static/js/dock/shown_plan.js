@@ -5,7 +5,7 @@
  * colours by then.
  */
 
-/** @import { Fold, Plan } from "pleat" */
+/** @import { Fold, Plan, PlanStart } from "pleat" */
 
 export class ShownPlan extends EventTarget {
   /** @param {import("../store.js").Store} store */
@@ -16,6 +16,8 @@ export class ShownPlan extends EventTarget {
     this.plan = null;
     /** @type {Fold[]} the folds of the drawing that it is a plan of */
     this.folds = [];
+    /** @type {PlanStart|null} the state of the world that it starts from; null: before all folds, as drawn */
+    this.start = null;
     for (const name of ["document", "plan"]) store.addEventListener(name, () => this.look());
     addEventListener("unit", () => this.look());
   }
@@ -28,8 +30,9 @@ export class ShownPlan extends EventTarget {
   }
 
   look() {
-    const plan = this.store.plan?.plan ?? null;
-    const { state } = this.store;
+    const { plan: message, state } = this.store;
+    const plan = message?.plan ?? null;
+    if (!plan?.is_stale) this.start = message?.start ?? null;
     const isNew = plan?.id !== this.plan?.id;
     if (state && (isNew || plan?.version === state.version)) this.folds = state.drawing.folds;
     this.plan = plan;

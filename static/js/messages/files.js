@@ -32,6 +32,9 @@ export const files = (inWords) => ({
   not_finished: ({ says, message }, folds) => `the drawing is not finished: ${inWords({ says, message }, folds)}`,
   no_plan: ({ says, message, fold }, folds) =>
     `there is no plan: ${fold === null ? "" : `${called(folds, fold)}: `}${inWords({ says, message }, folds)}`,
+  garment_of_plan: ({ folds_done: done }) =>
+    `the file is a plan${done ? ` after ${done} of its folds` : ""}: its garment was taken, where it lies at the ` +
+    "plan\u2019s start, and is planned anew with this document\u2019s table, stations and costs",
   short_lines: ({ shorter_m: shorter, lines }) => `fold lines shorter than ${length(shorter)} were left out: ${lines}`,
   unit_unlikely: ({ unit_m: one, longest_m: longest }) =>
     `the unit that it names, ${length(one)}, would make the garment ${length(longest)} long`,

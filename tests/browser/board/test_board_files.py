@@ -9,9 +9,13 @@ import ezdxf
 import pytest
 from playwright.sync_api import Page, expect
 
+from planner import make_plan
+from planner.cloth.garment import Garment
+from tests.app.samples import towel
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import REST, Garment, Sheet
+from tests.browser.conftest import REST, Sheet
+from tests.browser.conftest import Garment as GarmentGiven
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
@@ -197,6 +201,18 @@ def test_fold_lines_are_read_on_the_cloth_that_is_chosen(page: Page, shirt: Desk
     assert shirt.state["problems"] == []
 
 
+def test_of_a_plan_file_the_garment_is_opened(page: Page, shirt: Desk) -> None:
+    plan = make_plan(Garment.from_dict(towel()))
+    choose_file(page, "my-towel.plan.json", json.dumps(plan.to_dict()))
+    expect(page.get_by_role("dialog", name="Import").locator(".notes")).to_contain_text(
+        "The file is a plan: its garment"
+    )
+    page.get_by_role("button", name="Open here").click()
+    expect_step(page, "Import my-towel.plan.json")
+    expect(page.locator(".corner")).to_have_count(4)
+    assert shirt.drawing["placement"] == towel()["placement"]
+
+
 def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
     choose_file(page, "broken.svg", "<svg><path")
     expect(page.get_by_role("dialog").get_by_role("alert")).to_contain_text("broken.svg")
@@ -213,14 +229,15 @@ def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
         path = tmp_path / download.value.suggested_filename
         download.value.save_as(path)
         saved[path.name] = path.read_text()
-    assert sorted(saved) == ["t-shirt-plan.csv", "t-shirt-plan.json", "t-shirt.fold", "t-shirt.json", "t-shirt.svg"]
+    assert sorted(saved) == ["t-shirt-plan.csv", "t-shirt.fold", "t-shirt.json", "t-shirt.plan.json", "t-shirt.svg"]
     assert len(json.loads(saved["t-shirt.json"])["outline"]) == 10
-    assert json.loads(saved["t-shirt-plan.json"])["status"] == "solved"
+    plan = json.loads(saved["t-shirt.plan.json"])
+    assert (plan["pleat_plan"], plan["status"], len(plan["steps"])) == (1, "solved", len(plan["primitives"]))
     expect(page.get_by_role("button", name="Save Recording (HTML)")).to_be_enabled()
 
 
 def test_what_becomes_available_while_the_dialog_is_open_can_be_saved_there(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
+    page: Page, new_sheet: Callable[[GarmentGiven], Sheet]
 ) -> None:
     sheet = new_sheet(None)
     page.goto(sheet.page_url)

@@ -1,0 +1,67 @@
+/** The menu of a step of the plan: `Plan from here`. */
+
+import { Menu } from "../menu.js";
+import { MenuPress } from "../menu_press.js";
+
+export class StepMenu {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {import("./shown_plan.js").ShownPlan} shown
+   * @param {() => void} onChosen before the rest is planned
+   */
+  constructor(store, shown, onChosen) {
+    this.store = store;
+    this.shown = shown;
+    this.onChosen = onChosen;
+    this.menu = new Menu();
+    /** The plan that it was opened on, and whether planning could go on from it. */
+    this.about = "";
+    shown.addEventListener("change", () => this.follow());
+    store.addEventListener("connection", () => this.follow());
+  }
+
+  /**
+   * Give the steps in a part of the page their menu.
+   * @param {HTMLElement} root
+   * @param {string} selector of the steps below it: `data-index` is the primitive
+   */
+  serve(root, selector) {
+    new MenuPress(root, selector, (part, at) => this.open(part, at));
+  }
+
+  /** Whether the plan on show is the drawing's, so that planning can go on from a step of it. */
+  get isPlanned() {
+    const { isLive, plan: message, state } = this.store;
+    return isLive && message?.status === "solved" && message.plan?.version === state?.version;
+  }
+
+  /** @param {HTMLElement} part @param {{x: number, y: number}} at */
+  open(part, at) {
+    const step = Number(part.dataset.index);
+    const isLast = step + 1 === this.shown.plan?.primitives.length;
+    const isOff = isLast || !this.isPlanned;
+    const planned = isLast ? "nothing is left after this step" : "what is left after this step";
+    const hint = this.isPlanned ? planned : "once there is a plan of the drawing as it is now";
+    const choose = () => {
+      this.onChosen();
+      this.store.command({ do: "plan_from", step });
+    };
+    this.about = this.now;
+    this.menu.open(part.getAttribute("aria-label") ?? "Step", [{ text: "Plan from here", hint, isOff, choose }], part, at);
+  }
+
+  /** What a menu that is open is about; with another plan its steps are others. */
+  get now() {
+    return JSON.stringify([this.shown.plan?.id, this.isPlanned]);
+  }
+
+  follow() {
+    if (this.menu.isOpen && this.now !== this.about) this.menu.close(true);
+  }
+}
+
+/** Tell that a step has a menu. @param {HTMLElement} step @param {number} index of the primitive */
+export function markStep(step, index) {
+  step.dataset.index = String(index);
+  step.setAttribute("aria-haspopup", "menu");
+}

@@ -1,0 +1,144 @@
+"""Planning from the middle, as pages ask for it: the command `plan_from`, and what the `plan` message says of it."""
+
+import threading
+from dataclasses import replace
+from typing import Any
+
+import httpx
+import pytest
+
+from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.edit import Edit
+from app.drawing.garment_drawing import drawing_of
+from app.live_search import Begun, LiveSearch
+from planner import Plan, Task, load_garment, make_plan
+from planner.errors import RequestError
+from tests.app.document_requests import moved, put
+from tests.app.test_live import listening
+from tests.app.websocket import Listener
+
+T_SHIRT = load_garment("t-shirt")
+
+
+async def planned(client: httpx.AsyncClient) -> tuple[dict[str, Any], Listener, dict[str, Any]]:
+    """A T-shirt's document, a page on it, and its plan message."""
+    state: dict[str, Any] = (await client.post("/api/documents", json={"garment": "t-shirt"})).json()
+    page = listening(client, state["id"])
+    return state, page, await page.until_planned(state["version"])
+
+
+async def replanned(page: Listener, **wanted: object) -> dict[str, Any]:
+    """Wait for the plan that stays of a version with this start; its message."""
+    await page.until("plan", status="solved", **wanted)
+    return await page.until_planned(page.last["plan"]["version"])
+
+
+@pytest.mark.anyio
+async def test_what_is_left_after_a_step_is_planned_and_the_message_says_from_where(client: httpx.AsyncClient) -> None:
+    state, page, whole = await planned(client)
+    assert whole["start"] is None
+    task = Task.of(load_garment("t-shirt"))
+    after = make_plan(task).state_after(2).to_dict()
+    page.say({"do": "plan_from", "step": 2})
+    rest = await replanned(page, start=after)
+    folds = [step["fold"] for step in rest["plan"]["primitives"] if step["kind"] == "fold"]
+    assert sorted([*folds, *after["folds_done"]]) == [0, 1, 2, 3, 4]
+    last = whole["plan"]["primitives"][2]
+    left_s = whole["plan"]["cost_s"] - (last["start_s"] + last["duration_s"])
+    assert rest["plan"]["cost_s"] == pytest.approx(left_s)
+    assert (rest["before"], rest["version"]) == (None, state["version"])
+    await page.hang_up()
+
+
+@pytest.mark.anyio
+async def test_the_start_is_taken_back_by_a_command_and_by_an_edit(client: httpx.AsyncClient) -> None:
+    state, page, whole = await planned(client)
+    for take_back in ("command", "edit"):
+        page.say({"do": "plan_from", "step": 0})
+        while (await page.until("plan", status="solved"))["start"] is None:
+            page.last.pop("plan")
+        if take_back == "command":
+            page.say({"do": "plan_from", "step": None})
+            again = await replanned(page, start=None)
+            assert again["plan"]["cost_s"] == pytest.approx(whole["plan"]["cost_s"])
+        else:
+            told = (await put(client, state, moved(state, 0.001))).json()
+            again = await replanned(page, start=None, version=told["version"])
+            assert again["before"] is None  # what was left is nothing to compare the whole with
+        assert len(again["plan"]["primitives"]) == len(whole["plan"]["primitives"])
+    await page.hang_up()
+
+
+@pytest.mark.anyio
+async def test_a_page_hears_that_the_start_was_taken_back_before_anything_is_planned(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, page, _ = await planned(client)
+    may_plan = threading.Event()
+
+    def waiting(_: LiveSearch, task: Task, *__: object) -> Begun:
+        assert may_plan.wait(60.0)
+        return Begun(task, None, None, [])
+
+    monkeypatch.setattr(LiveSearch, "find_soon", waiting)
+    page.say({"do": "plan_from", "step": 0})
+    assert (await page.until("plan", status="planning"))["start"]["folds_done"] == [0]
+    page.say({"do": "plan_from", "step": None})
+    assert (await page.until("plan", start=None))["status"] == "planning"
+    may_plan.set()
+    await replanned(page, start=None)
+    await page.hang_up()
+
+
+@pytest.mark.anyio
+async def test_without_a_plan_of_the_drawing_and_beyond_its_steps_it_is_refused(client: httpx.AsyncClient) -> None:
+    blank = (await client.post("/api/documents", json={})).json()
+    page = listening(client, blank["id"])
+    page.say({"do": "plan_from", "step": 0})
+    refused = await page.until("problem")
+    assert refused["detail"] == "step: there is no plan of the drawing as it is now"
+    await page.hang_up()
+    _, page, whole = await planned(client)
+    page.say({"do": "plan_from", "step": len(whole["plan"]["primitives"])})
+    assert (await page.until("problem"))["detail"].startswith("step: 7 is not between -1 and 6")
+    page.last.pop("problem")
+    page.say({"do": "plan_from"})
+    assert "step" in (await page.until("problem"))["detail"]
+    assert page.last["plan"]["start"] is None
+    await page.hang_up()
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(T_SHIRT)
+
+
+def answered(plan: Plan) -> Document:
+    document = Document(draft_of(drawing_of(T_SHIRT)))
+    assert document.state.task is not None
+    document.settle(1, document.state.task, plan, "whole")
+    return document
+
+
+def test_the_plan_of_a_drawing_that_was_changed_since_is_none_to_go_on_from(plan: Plan) -> None:
+    document = answered(plan)
+    document.edit(Edit("Begin elsewhere", replace(document.state.drawing, start_station="left")))
+    assert document.state.answer is not None and not document.state.is_answered
+    with pytest.raises(RequestError, match="no plan of the drawing"):
+        document.plan_from(0)
+    assert document.state.start is None
+
+
+def test_an_answer_from_the_beginning_that_comes_late_is_none_to_what_is_left(plan: Plan) -> None:
+    document = answered(plan)
+    whole = document.state.task
+    assert whole is not None
+    document.plan_from(0)
+    document.settle(1, whole, plan, "late")
+    assert document.state.is_planning
+    assert document.state.film is None
+    rest = make_plan(replace(whole, start=plan.state_after(0)))
+    assert document.state.task is not None
+    document.settle(1, document.state.task, rest, "rest")
+    assert document.state.answer is not None and document.state.answer.plan is rest
