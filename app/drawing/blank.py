@@ -7,7 +7,7 @@ from planner.task.scene import Scene
 
 
 def blank_drawing() -> Drawing:
-    """No outline, no folds; the article frame's origin lies on the middle of the table."""
+    """Return a drawing without outline or folds, with the article frame's origin in the middle of the table."""
     return Drawing(
         name="untitled",
         title="Untitled",

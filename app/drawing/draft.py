@@ -1,6 +1,6 @@
-"""A drawing that is being worked on: what is drawn now, the steps that led there, the gesture that is going on.
+"""A draft: a drawing under edit, with its undo history and the gesture in progress.
 
-A value with one method for each thing that can happen to it. One that changes nothing gives back the same draft.
+A draft is an immutable value with one method for each event. An event that changes nothing returns the same draft.
 """
 
 from dataclasses import dataclass, field
@@ -14,11 +14,11 @@ from app.drawing.solve import solve
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Commits that follow each other at once and are one step.
+    """A series of commits in quick succession that count as one undo step.
 
     Attributes:
-        key: what they have in common.
-        at_s: when the last of them came (s).
+        key: the key that the commits share.
+        at_s: the time of the latest commit (s).
     """
 
     key: str
@@ -27,7 +27,13 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """A drawing and how it came about.
+    """A drawing under edit.
+
+    Attributes:
+        solution: the drawing, solved.
+        history: the undo and redo steps.
+        gesture: the gesture in progress, if any.
+        run: the series of commits that the next commit may join.
 
     Attributes:
         solution: the drawing, and what it comes to.
@@ -43,11 +49,11 @@ class Draft:
 
     @property
     def drawing(self) -> Drawing:
-        """What is drawn."""
+        """The current drawing."""
         return self.solution.drawing
 
     def edited(self, edit: Edit, now_s: float) -> "Draft":
-        """After a change that came at a time of the wall clock (s)."""
+        """Return the draft after an edit that arrived at a wall-clock time (s)."""
         if edit.phase is Phase.CANCEL or edit.drawing is None:
             return self._cancelled()
         is_another = self.gesture is not None and self.gesture.key != edit.gesture
@@ -57,19 +63,19 @@ class Draft:
         return here._committed(edit, edit.drawing, now_s)
 
     def undone(self) -> "Draft":
-        """The last step taken back; a gesture that is going on is a step."""
+        """Return the draft with the last step undone; a gesture in progress counts as a step."""
         here = self.closed()
         drawing, history = here.history.undone(here.drawing)
         return here if history is here.history else Draft(solve(drawing), history)
 
     def redone(self) -> "Draft":
-        """The step taken again that was undone last."""
+        """Return the draft with the last undone step redone."""
         here = self.closed()
         drawing, history = here.history.redone(here.drawing)
         return here if history is here.history else Draft(solve(drawing), history)
 
     def closed(self) -> "Draft":
-        """The gesture that is going on made a step, as it is."""
+        """Return the draft with the gesture in progress turned into a step."""
         if self.gesture is None:
             return self
         if self.gesture.before == self.drawing:
@@ -103,5 +109,5 @@ class Draft:
 
 
 def draft_of(drawing: Drawing) -> Draft:
-    """A drawing that nobody has worked on yet."""
+    """Return a draft of a drawing without history."""
     return Draft(solve(drawing))

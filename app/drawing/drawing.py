@@ -1,8 +1,8 @@
-"""What somebody draws: an outline, folds whose ends are tied to the cloth, where it lies, and in which scene.
+"""The drawing: outline, folds whose ends are tied to the cloth, placement on the table, and scene.
 
-A drawing may be wrong: an outline that crosses itself, a fold that ends off the cloth. It is a value like any other
-then, and what is wrong with it is found by solving it (`app.drawing.solve`). Corners and folds have names that
-stay the same while the drawing changes, so that a tie means the same corner when others come and go.
+A drawing may be invalid, e.g. its outline may cross itself or a fold may end off the cloth. It is still an ordinary
+value; solving it (`app.drawing.solve`) finds its problems. Corners and folds have ids that stay the same while the
+drawing changes, so that a tie keeps its corner when other corners are added or removed.
 """
 
 from collections.abc import Iterable
@@ -18,8 +18,8 @@ class Corner:
     """A corner of the outline.
 
     Attributes:
-        id: its name in this drawing.
-        point: where it is, article frame (m).
+        id: the corner's id in this drawing.
+        point: its position, article frame (m).
     """
 
     id: str
@@ -28,16 +28,16 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class CornerTie:
-    """Tied to a corner of the outline."""
+    """A tie to a corner of the outline."""
 
     corner: str
 
 
 @dataclass(frozen=True, slots=True)
 class EdgeTie:
-    """Tied to the outline from one corner on to another, at a fraction of the way.
+    """A tie to the outline between two corners, at a fraction of the way from the first to the second.
 
-    They are neighbours, until somebody puts a corner between them.
+    The corners are neighbours until a corner is inserted between them.
     """
 
     start: str
@@ -47,12 +47,12 @@ class EdgeTie:
 
 @dataclass(frozen=True, slots=True)
 class CreaseTie:
-    """Tied to the line of an earlier fold.
+    """A tie to the line of an earlier fold.
 
     Attributes:
-        fold: the earlier fold.
-        fraction: from its start.
-        carried: the folds before that one which had moved the layer that is meant.
+        fold: the id of the earlier fold.
+        fraction: the position along that fold's line, from its start.
+        carried: the ids of the folds before it that had moved the layer in question.
     """
 
     fold: str
@@ -62,7 +62,7 @@ class CreaseTie:
 
 @dataclass(frozen=True, slots=True)
 class ChordTie:
-    """Not tied to anything: the end is where the fold's line meets the boundary, nearest to its point."""
+    """No tie: the end is where the fold's line meets the boundary nearest to the end's point."""
 
 
 Tie: TypeAlias = CornerTie | EdgeTie | CreaseTie | ChordTie
@@ -73,8 +73,8 @@ class End:
     """An end of a fold.
 
     Attributes:
-        point: where it is, article frame, cloth as it is when the fold's turn comes (m).
-        tie: what it is tied to; None for an end just drawn, or one that nothing can be found for.
+        point: its position, article frame, on the cloth as the fold finds it (m).
+        tie: its tie; None for an end just drawn, or if no tie can be found.
     """
 
     point: Point2
@@ -83,16 +83,16 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Crease:
-    """A fold as it is drawn; what lies to the left of start -> end moves.
+    """A fold as drawn; the cloth to the left of start -> end moves.
 
     Attributes:
-        id: its name in this drawing.
-        name: what the user calls it.
+        id: the fold's id in this drawing.
+        name: the user's name for the fold.
         kind: "blue" or "red".
         start: the first end.
         end: the second end.
-        grip_radius_m: how far round itself one grip holds the cloth (m); None: as the article's.
-        twin: the fold that mirrors this one, if they are linked.
+        grip_radius_m: the radius of cloth that one grip holds (m); None for the article's.
+        twin: the id of the fold that mirrors this one, if they are linked.
     """
 
     id: str
@@ -105,30 +105,30 @@ class Crease:
 
     @property
     def is_red(self) -> bool:
-        """Whether it folds only the layers that the fold before it moved."""
+        """Whether the fold takes only the layers that the previous fold moved."""
         return self.kind == "red"
 
     @property
     def ends(self) -> tuple[End, End]:
-        """Both ends, the first first."""
+        """Both ends, start first."""
         return (self.start, self.end)
 
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A garment as it is drawn, and the circumstances under which it is to be folded.
+    """A garment as drawn, with the conditions for folding it.
 
     Attributes:
         name: the garment's name, also its file's.
-        title: what people call it.
-        outline: the corners; any number, in any places.
-        areal_density_kg_m2: the cloth's mass per area.
-        grip_radius_m: how far round itself one grip holds the cloth, unless a fold says otherwise (m).
+        title: the garment's displayed name.
+        outline: the corners, with no limits on number or position.
+        areal_density_kg_m2: the cloth's mass per area (kg/m2).
+        grip_radius_m: the radius of cloth that one grip holds, unless a fold has its own (m).
         folds: the folds in the user's order.
         placement: the article frame in the table frame.
         scene: table, stations and costs.
-        start_station: where the robot stands at the start; need not be one of the scene's.
-        comfort_radius_m: how much slack every reach has (m).
+        start_station: the station at which the robot starts; may be missing from the scene.
+        comfort_radius_m: the comfort radius (m).
     """
 
     name: str
@@ -144,12 +144,12 @@ class Drawing:
 
     @property
     def points(self) -> tuple[Point2, ...]:
-        """The outline's corners as points (m)."""
+        """The positions of the outline's corners (m)."""
         return tuple(corner.point for corner in self.outline)
 
 
 def fresh_ids(prefix: str, taken: Iterable[str | None], count: int) -> list[str]:
-    """So many names that are not taken yet: a letter and the smallest numbers."""
+    """Return `count` unused ids: the prefix followed by the smallest free numbers."""
     used = set(taken)
     found: list[str] = []
     number = 0

@@ -1,7 +1,7 @@
-"""A drawing as JSON: read strictly, written in full.
+"""Reads and writes a drawing as JSON: reads strictly, writes every field.
 
-What a person can draw is never refused here, however wrong: that is for solving to say. Refused is what is no
-drawing: unknown fields, numbers beyond all bounds, two corners of one name.
+Reading accepts anything that a person can draw, however wrong: finding its problems is the job of solving. It refuses
+what is not a drawing: unknown fields, numbers out of bounds, duplicate ids.
 """
 
 from collections.abc import Mapping, Sequence
@@ -36,18 +36,18 @@ Name = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}$")]
 
 
 class CornerTieModel(StrictModel):
-    """Tied to a corner."""
+    """A tie to a corner."""
 
     kind: Literal["vertex"]
     vertex: Id
 
     def value(self) -> Tie:
-        """The tie."""
+        """Return the tie."""
         return CornerTie(self.vertex)
 
 
 class EdgeTieModel(StrictModel):
-    """Tied to a fraction of the way along the outline from one corner on to another."""
+    """A tie to a fraction of the way along the outline from one corner to another."""
 
     kind: Literal["edge"]
     start: Id = Field(alias="from")
@@ -55,12 +55,12 @@ class EdgeTieModel(StrictModel):
     fraction: Fraction
 
     def value(self) -> Tie:
-        """The tie."""
+        """Return the tie."""
         return EdgeTie(self.start, self.end, self.fraction)
 
 
 class CreaseTieModel(StrictModel):
-    """Tied to a fraction of an earlier fold's line, in the layer that some folds had carried before it."""
+    """A tie to a fraction of an earlier fold's line, in the layer that the folds in `carried` had moved."""
 
     kind: Literal["crease"]
     fold: Id
@@ -68,22 +68,22 @@ class CreaseTieModel(StrictModel):
     carried: Annotated[list[Id], Field(max_length=FOLDS_MAX)] = Field(default_factory=list)
 
     def value(self) -> Tie:
-        """The tie."""
+        """Return the tie."""
         return CreaseTie(self.fold, self.fraction, tuple(self.carried))
 
 
 class ChordTieModel(StrictModel):
-    """Where the fold's line meets the boundary."""
+    """No tie: the end is where the fold's line meets the boundary."""
 
     kind: Literal["chord"]
 
     def value(self) -> Tie:
-        """The tie."""
+        """Return the tie."""
         return ChordTie()
 
 
 class EndModel(StrictModel):
-    """An end of a fold: where it is (m), and what it is tied to; without a tie one is looked for."""
+    """An end of a fold: its position (m) and its tie; solving looks for a missing tie."""
 
     point: PlanePoint
     on: Annotated[
@@ -91,19 +91,19 @@ class EndModel(StrictModel):
     ] = None
 
     def value(self) -> End:
-        """The end."""
+        """Return the end."""
         return End(self.point, None if self.on is None else self.on.value())
 
 
 class CornerModel(StrictModel):
-    """A corner of the outline (m); without a name it is given one."""
+    """A corner of the outline (m); reading assigns a missing id."""
 
     id: Id | None = None
     point: PlanePoint
 
 
 class CreaseModel(StrictModel):
-    """A fold; without a name of its own it is given one."""
+    """A fold; reading assigns a missing id."""
 
     id: Id | None = None
     name: Title = ""
@@ -129,7 +129,7 @@ class DrawingModel(StrictModel):
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
 
     def value(self) -> Drawing:
-        """The drawing; raises `FieldError` for two of one name and for a scene that is none."""
+        """Return the drawing; raise `FieldError` for duplicate ids or an invalid scene."""
         corners = _named("outline", "v", [corner.id for corner in self.outline])
         names = _named("folds", "f", [fold.id for fold in self.folds])
         return Drawing(
@@ -147,7 +147,7 @@ class DrawingModel(StrictModel):
 
 
 def drawing_from_dict(data: Mapping[str, Any]) -> Drawing:
-    """A drawing from JSON; raises `FieldError` naming the field."""
+    """Return the drawing read from JSON; raise `FieldError` naming the field."""
     try:
         return DrawingModel.model_validate(data).value()
     except ValidationError as error:
@@ -155,7 +155,7 @@ def drawing_from_dict(data: Mapping[str, Any]) -> Drawing:
 
 
 def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
-    """A drawing as JSON, every field filled in."""
+    """Return the drawing as JSON, with every field filled in."""
     return {
         "name": drawing.name,
         "title": drawing.title,
@@ -171,7 +171,7 @@ def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
 
 
 def end_to_dict(end: End) -> dict[str, Any]:
-    """An end as JSON."""
+    """Return the end as JSON."""
     return {"point": list(end.point), "on": None if end.tie is None else _tie_to_dict(end.tie)}
 
 
@@ -205,7 +205,7 @@ def _crease(name: str, fold: CreaseModel, names: Sequence[str]) -> Crease:
 
 
 def _named(field: str, prefix: str, given: Sequence[str | None]) -> list[str]:
-    """The given names, new ones where there are none; raises `RequestError` when two are the same."""
+    """Return the given ids, with new ones for those missing; raise `RequestError` for duplicates."""
     known = [name for name in given if name is not None]
     for index, name in enumerate(given):
         if name is not None and name in given[:index]:

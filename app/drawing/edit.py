@@ -1,4 +1,4 @@
-"""Changes to a drawing: the gestures, fields and nudges that come from a page."""
+"""Edits of a drawing: the gestures, field changes and nudges that come from a page."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,11 +7,11 @@ from app.drawing.drawing import Drawing
 from planner.errors import FoldingError
 
 COALESCE_S = 0.6
-"""Nudges that are not further apart are one step (s)."""
+"""Longest gap between nudges that count as one undo step (s)."""
 
 
 class Phase(StrEnum):
-    """Where in a gesture a change is."""
+    """The phase of a gesture that a change belongs to."""
 
     PREVIEW = "preview"
     COMMIT = "commit"
@@ -20,15 +20,15 @@ class Phase(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """A change that is wanted.
+    """A requested change.
 
     Attributes:
-        label: what is done, in words; the name of the step.
-        drawing: the drawing as it is to be; None only to cancel.
-        phase: a preview makes no step, a commit does, a cancel takes the previews back.
-        base_version: the version that was changed; None: whatever it is now.
-        coalesce: commits with the same key that follow at once are one step.
-        gesture: which gesture it belongs to.
+        label: the label of the undo step.
+        drawing: the drawing after the change; None only to cancel.
+        phase: a preview makes no step, a commit makes one, a cancel takes the previews back.
+        base_version: the version that was changed; None for the current one.
+        coalesce: commits with the same key in quick succession count as one step.
+        gesture: the key of the gesture that the change belongs to.
     """
 
     label: str
@@ -41,11 +41,11 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class Gesture:
-    """A gesture that is going on.
+    """A gesture in progress.
 
     Attributes:
-        key: which.
-        label: what is done, in words.
+        key: the gesture's key.
+        label: the label of its undo step.
         before: the drawing when it began.
     """
 
@@ -56,7 +56,7 @@ class Gesture:
 
 @dataclass
 class StaleVersionError(FoldingError):
-    """A change was made to a version that is no longer the current one."""
+    """A change was based on a version that is no longer current."""
 
     asked: int
     current: int

@@ -1,9 +1,9 @@
-"""Finds a fold's line on the cloth as it is when its turn comes, from what its ends are tied to.
+"""Finds a fold's line on the cloth as the fold finds it, from the ties of its ends.
 
-An end just drawn is put onto the boundary when it is near enough, as the planner does. An end that is tied goes where
-its tie takes it. Mostly that is on the boundary. When it is not, because cloth now lies beyond it or there is
-none left, the line is kept, and the end slides along it to the nearest place on the boundary. The same holds for both
-ends where folding has brought what they are tied to together.
+An end just drawn snaps to the boundary if it is near enough, as in the planner. A tied end goes where its tie takes it,
+usually to the boundary. If more cloth now lies beyond that place, or none is left there, the fold keeps its line and
+the end slides along it to the nearest point of the boundary. Both ends do so if folding has brought their ties to the
+same place.
 """
 
 import math
@@ -28,7 +28,12 @@ from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
 @dataclass(frozen=True)
 class FoundLine:
-    """A fold that is legal where it was found.
+    """A legal fold and its line.
+
+    Attributes:
+        crease: the fold with its current ends and ties.
+        line: its line, article frame.
+        folded: the result of folding.
 
     Attributes:
         crease: the fold with its ends where they are now, and what they are tied to.
@@ -43,13 +48,13 @@ class FoundLine:
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where an end should be.
+    """The intended position of an end.
 
     Attributes:
         end: the end.
-        point: where its tie takes it, or where it was.
-        is_held: whether a tie took it there.
-        is_free: whether it may slide along the line: all ends but those just drawn.
+        point: the position that its tie gives, or its previous position.
+        is_held: whether the tie gave the position.
+        is_free: whether the end may slide along the line; true unless it was just drawn.
     """
 
     end: End
@@ -58,19 +63,19 @@ class _Place:
     is_free: bool
 
     def is_on(self, silhouette: Region) -> bool:
-        """Whether it needs no help."""
+        """Return whether the position is on the boundary, so that the end need not slide."""
         return silhouette.boundary_distance(self.point) <= 2 * LENGTH_M
 
 
 def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m: float) -> FoundLine | Problem:
-    """The fold's line after the folds so far, or why there is none.
+    """Return the fold's line after the previous folds, or the problem that prevents it.
 
     Args:
-        crease: the fold as it is drawn.
+        crease: the fold as drawn.
         index: its place in the order.
-        replay: the folds before it, all legal.
-        names: what corners and folds are called.
-        radius_m: its grip radius (m).
+        replay: the previous folds, all legal.
+        names: the ids of corners and folds.
+        radius_m: the fold's grip radius (m).
     """
     places = tuple(_place(end, replay, names, is_red=crease.is_red) for end in crease.ends)
     if math.dist(places[0].point, places[1].point) <= LENGTH_M:
@@ -93,7 +98,7 @@ def _place(end: End, replay: Replay, names: Names, *, is_red: bool) -> _Place:
 
 
 def _candidates(start: _Place, end: _Place, replay: Replay, *, is_red: bool) -> Iterator[tuple[Point2, Point2]]:
-    """Lines to be tried, the one that is meant first."""
+    """Yield the lines to try, the intended one first."""
     silhouette = flap_silhouette(replay.cloths[-1], is_red=is_red)
     slides = [place.is_free and not place.is_on(silhouette) for place in (start, end)]
     if any(slides):
@@ -103,7 +108,7 @@ def _candidates(start: _Place, end: _Place, replay: Replay, *, is_red: bool) -> 
 
 
 def _slid(places: Sequence[_Place], slides: Sequence[bool], silhouette: Region) -> Iterator[tuple[Point2, Point2]]:
-    """The line with those ends that slide where it meets the boundary."""
+    """Yield the line whose sliding ends have moved to where it meets the boundary, if it does."""
     start, end = (place.point for place in places)
     chord = nearest_chord(silhouette, Segment(start, end)) if any(slides) and start != end else None
     if chord is not None:
@@ -131,10 +136,10 @@ def _tried(
 
 
 def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: Replay, names: Names) -> Crease:
-    """The fold where its line is.
+    """Return the fold moved to its line.
 
-    An end that has slid stays tied to the place it slid from, unless the line cannot be found again from there: the
-    other end, which nothing held, has slid as well.
+    An end that has slid keeps the tie it slid from. The exception is when the line could not be found again from there,
+    because the other end, which has no hold, has slid as well.
     """
     ends = (line.start, line.end)
     slid = [place for place, end in zip(places, ends, strict=True) if math.dist(place.point, end) > LENGTH_M]
@@ -148,12 +153,12 @@ def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: 
 
 
 def _kept(before: Point2, now: Point2) -> Point2:
-    """Where an end is now, unless it is where it was: rounding shall not move what nobody has moved."""
+    """Return an end's previous position if the new one equals it within tolerance: rounding must not move it."""
     return before if math.dist(before, now) <= LENGTH_M else now
 
 
 def _settled_tie(place: _Place, point: Point2, replay: Replay, names: Names, *, is_red: bool) -> Tie:
-    """What an end is tied to from now on: what it was tied to, if that is there, or what is found where it is."""
+    """Return the new tie of an end: its previous tie if that still exists, otherwise one found at its position."""
     if isinstance(place.end.tie, ChordTie):
         return place.end.tie
     if place.is_held and place.end.tie is not None:

@@ -1,4 +1,4 @@
-"""What could mend a fold that is not legal: another colour, another line, or none at all. None is tried out here."""
+"""Proposes quick fixes for an illegal fold: another colour, another line, or its removal. The caller tries them out."""
 
 import math
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from planner.message import Message
 
 
 def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
-    """Changes to the fold that a problem is about, what keeps most of it first."""
+    """Yield changes to the fold that a problem is about, the least intrusive first."""
     assert problem.fold is not None
     drawing, index = solution.drawing, problem.fold
     fold = drawing.folds[index]
@@ -36,7 +36,7 @@ def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
 
 
 def _lines(solution: Solution, problem: Problem, *, is_red: bool) -> Iterator[Segment]:
-    """Lines near the fold's own that end on the boundary: on the line itself, and between the nearest places."""
+    """Yield lines near the fold's own that end on the boundary: along it, and between the nearest boundary points."""
     if not problem.lines or (is_red and not solution.folded):
         return
     line = problem.lines[0]

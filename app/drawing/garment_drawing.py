@@ -1,4 +1,4 @@
-"""From a garment file to a drawing: its points get names, its folds are tied to the cloth when it is solved."""
+"""Turns a garment into a drawing: corners and folds get ids; solving ties the folds to the cloth."""
 
 from app.drawing.drawing import Corner, Crease, Drawing, End
 from planner.cloth.garment import Garment
@@ -9,7 +9,7 @@ COMFORT_RADIUS_M = 0.03
 
 
 def drawing_of(garment: Garment, scene: Scene | None = None) -> Drawing:
-    """A garment as a drawing, in a scene."""
+    """Return a garment as a drawing, in a scene."""
     where = scene or Scene()
     stations = [name for name, _ in where.stations]
     return Drawing(

@@ -1,4 +1,4 @@
-"""The garment file of a drawing, whether it is a good garment or not."""
+"""Writes a drawing as a garment file, even if it is not a valid garment."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from app.drawing.solve import radius_m
 
 
 def garment_to_dict(drawing: Drawing) -> dict[str, Any]:
-    """The contents of a garment file with the drawing's points; the folds' ends are where they are now."""
+    """Return the contents of a garment file, with the folds' ends at their current positions."""
     return {
         "name": drawing.name,
         "title": drawing.title,

@@ -1,6 +1,6 @@
-"""What was drawn before, step by step: undo and redo.
+"""The undo history of a drawing.
 
-A value: taking a step, undoing and redoing give new ones. Undo then redo gives back what was there.
+A history is an immutable value: taking a step, undoing and redoing return new ones. Undo followed by redo restores it.
 """
 
 from dataclasses import dataclass
@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from app.drawing.drawing import Drawing
 
 STEPS_MAX = 200
-"""So many steps can be undone; older ones are forgotten."""
+"""Largest number of steps kept for undo; older ones are dropped."""
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step, as it is kept to be undone or redone.
+    """A step kept for undo or redo.
 
     Attributes:
-        label: what was done, in words.
-        drawing: the drawing to go back to, or forward.
+        label: the step's label, in words.
+        drawing: the drawing to return to.
     """
 
     label: str
@@ -26,7 +26,11 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class History:
-    """The steps that can be undone and redone.
+    """The steps available for undo and redo.
+
+    Attributes:
+        past: the steps to undo, each with the drawing before it, the latest last.
+        future: the steps to redo, each with the drawing after it, the next last.
 
     Attributes:
         past: each with the drawing before it, the latest last.
@@ -38,32 +42,32 @@ class History:
 
     @property
     def can_undo(self) -> str | None:
-        """The label of the step that undo would take back."""
+        """The label of the step that undo would take back, or None."""
         return self.past[-1].label if self.past else None
 
     @property
     def can_redo(self) -> str | None:
-        """The label of the step that redo would take again."""
+        """The label of the step that redo would restore, or None."""
         return self.future[-1].label if self.future else None
 
     def stepped(self, label: str, before: Drawing) -> "History":
-        """One step further; what could be redone is gone."""
+        """Return the history after one more step, with nothing left to redo."""
         return History((*self.past, Step(label, before))[-STEPS_MAX:])
 
     def undone(self, now: Drawing) -> tuple[Drawing, "History"]:
-        """The drawing before the last step, and the history with that step to be redone; at the start, no change."""
+        """Return the drawing before the last step, and the history after undoing it; no change at the start."""
         if not self.past:
             return now, self
         *past, last = self.past
         return last.drawing, History(tuple(past), (*self.future, Step(last.label, now)))
 
     def redone(self, now: Drawing) -> tuple[Drawing, "History"]:
-        """The drawing after the step undone last, and the history with it to be undone; if there is none, no change."""
+        """Return the drawing after the step undone last, and the history after redoing it; no change without one."""
         if not self.future:
             return now, self
         *future, following = self.future
         return following.drawing, History((*self.past, Step(following.label, now)), tuple(future))
 
     def forgotten(self) -> "History":
-        """Without the last step, which came to nothing."""
+        """Return the history without its last step, which had no effect."""
         return History(self.past[:-1], self.future)

@@ -1,4 +1,4 @@
-"""A mend: a drawing in which one thing is no longer wrong, and what was done to it, in words."""
+"""A quick fix: a labelled change that removes one problem from a drawing."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -10,11 +10,11 @@ from planner.message import Message
 
 @dataclass(frozen=True, slots=True)
 class Mend:
-    """A change to a drawing that cannot be planned.
+    """A quick fix for a drawing that cannot be planned.
 
     Attributes:
-        says: what is done.
-        drawing: the drawing afterwards, as it would be committed.
+        says: the change as a message.
+        drawing: the drawing after the change, ready to commit.
     """
 
     says: Message
@@ -22,9 +22,9 @@ class Mend:
 
     @property
     def label(self) -> str:
-        """What is done, in words."""
+        """The change, in words."""
         return self.says.text
 
     def to_dict(self) -> dict[str, Any]:
-        """The mend as JSON."""
+        """Return the quick fix as JSON."""
         return {"label": self.label, "says": self.says.to_dict(), "drawing": drawing_to_dict(self.drawing)}

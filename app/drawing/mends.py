@@ -1,7 +1,7 @@
-"""What would mend a drawing: changes that take away what is wrong with it first, each tried out.
+"""Finds quick fixes: changes that remove the first problem of a drawing, each of them tried out.
 
-Whoever proposes a change need not know whether it helps. The changed drawing is solved, and told of is only what took
-the problem away; what leaves nothing wrong at all comes before what merely uncovers the next problem.
+Proposals come from code that need not know whether they help. Each changed drawing is solved, and only those without
+the problem are kept. Changes that leave no problem at all come before those that uncover the next one.
 """
 
 from collections.abc import Iterator
@@ -17,16 +17,16 @@ from app.drawing.solve import solve
 from planner.message import Message
 
 MENDS_MAX = 3
-"""More would not be read."""
+"""Largest number of quick fixes shown; people would not read more."""
 
 _OUTLINE = ("outline_unfinished", "edge_too_short", "outline_crosses", "outline_too_small")
-"""What is wrong with an outline hides what comes after it in this order, and every fold."""
+"""Codes of outline problems. Each hides those after it in this order, and every problem of a fold."""
 
 
 def mends(draft: Draft) -> tuple[Mend, ...]:
-    """What would take the first problem of a drawing away, the best first; empty where nothing is wrong.
+    """Return the changes that remove the first problem of a drawing, best first; empty if there is no problem.
 
-    Where nothing else helps, the last step can be taken back, if that led to it.
+    If no other change helps, propose undoing the last step, provided that this removes the problem.
     """
     if not draft.solution.problems:
         return ()
@@ -34,7 +34,7 @@ def mends(draft: Draft) -> tuple[Mend, ...]:
 
 
 def _tried(solution: Solution, proposed: Iterator[Mend]) -> tuple[Mend, ...]:
-    """Those that help, one of each label."""
+    """Return the proposals that help, one for each label."""
     problem = solution.problems[0]
     tried = [(mend, solve(mend.drawing)) for mend in proposed]
     good = [(mend, after) for mend, after in tried if _is_gone(problem, solution, after)]
@@ -69,7 +69,7 @@ def _last_step(draft: Draft) -> Iterator[Mend]:
 
 
 def _is_gone(problem: Problem, before: Solution, after: Solution) -> bool:
-    """Whether a problem is no longer there, and none has come that it would have been hidden by."""
+    """Return whether a problem has gone, and no problem that would hide it has appeared."""
     if problem.code == "unknown_station":
         return all(other.code != problem.code for other in after.problems)
     if problem.code in _OUTLINE:

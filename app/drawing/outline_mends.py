@@ -1,7 +1,7 @@
-"""What could mend an outline: corners merged, exchanged or left out. None is tried out here.
+"""Proposes quick fixes for an outline: corners merged, exchanged or deleted. The caller tries them out.
 
-Two edges that cross are uncrossed as in a tour of cities: the corners from one to the other are walked the other way
-round. Every such exchange makes the outline shorter, so they come to an end, and then nothing crosses.
+Crossing edges are uncrossed as by 2-opt for the travelling salesman problem: the corners between the two edges are
+visited in reverse. Every exchange shortens the outline, so the exchanges end with no crossing left.
 """
 
 import math
@@ -15,11 +15,11 @@ from planner.cloth.outline import EDGE_MIN_M, crossings
 from planner.message import Message
 
 EXCHANGES_MAX = 30
-"""An outline that is more entangled than this is not what anybody meant."""
+"""Largest number of exchanges; a more entangled outline is left alone."""
 
 
 def outline_mends(drawing: Drawing, problem: Problem) -> Iterator[Mend]:
-    """Changes to an outline that is none, what keeps most of it first."""
+    """Yield changes to an invalid outline, the least intrusive first."""
     if problem.code == "edge_too_short":
         yield _merged(drawing)
     elif problem.code == "outline_crosses":
@@ -28,7 +28,7 @@ def outline_mends(drawing: Drawing, problem: Problem) -> Iterator[Mend]:
 
 
 def _merged(drawing: Drawing) -> Mend:
-    """Each corner that is too near to the one before it becomes that one, and what was tied to it stays tied."""
+    """Merge each corner that is too near to its predecessor into it, and move its ties there."""
     kept, merged = [drawing.outline[0]], drawing
     for corner in drawing.outline[1:]:
         if _is_near(corner, kept[-1]):
@@ -48,7 +48,7 @@ def _is_near(one: Corner, other: Corner) -> bool:
 
 
 def _tied_over(drawing: Drawing, gone: str, kept: str) -> Drawing:
-    """The drawing with all that was tied to one corner tied to another."""
+    """Return the drawing with every tie to one corner moved to another."""
 
     def tie(old: Tie | None) -> Tie | None:
         match old:
@@ -67,10 +67,12 @@ def _tied_over(drawing: Drawing, gone: str, kept: str) -> Drawing:
 
 
 def _uncrossed(drawing: Drawing) -> Iterator[Mend]:
-    """Corners exchanged until no edges cross; nothing where that does not come to an end.
+    """Yield outlines with corners exchanged until no edges cross; stop after `EXCHANGES_MAX`.
 
-    Folds hang on corners and on the edges between them. So either the corners stay where they are and come in another
-    order, or they keep their order and change places, in the one stretch of the outline or in the other.
+    Folds are tied to corners and to the edges between them. So there are several results: the corners keep their
+    positions
+    and change their order, or keep their order and swap positions, along the shorter or the longer stretch of the
+    outline.
     """
     for are_many, is_order_kept in ((False, False), (False, True), (True, True)):
         outline = drawing.outline
@@ -94,9 +96,9 @@ def _first_crossing(outline: Sequence[Corner]) -> tuple[int, int] | None:
 
 
 def _exchanged(outline: tuple[Corner, ...], i: int, j: int, *, are_many: bool) -> tuple[tuple[Corner, ...], int]:
-    """The outline with the corners from one edge to another walked the other way round, and how many they are.
+    """Return the outline with the corners between two edges in reverse order, and their number.
 
-    Either the stretch between them that has fewer corners or the one that has more.
+    Reverse the stretch with fewer corners, or the one with more if `are_many`.
     """
     count = len(outline)
     first, turned = i + 1, j - i
@@ -108,7 +110,7 @@ def _exchanged(outline: tuple[Corner, ...], i: int, j: int, *, are_many: bool) -
 
 
 def _without_one(drawing: Drawing) -> Iterator[Mend]:
-    """Each corner at a crossing left out, first the one without which the outline is shortest."""
+    """Yield outlines without one of the corners at a crossing, the shortest outline first."""
     outline = drawing.outline
     at = {(edge + step) % len(outline) for i, j, _ in crossings(drawing.points) for edge in (i, j) for step in (0, 1)}
     left = [tuple(corner for corner in outline if corner is not outline[index]) for index in sorted(at)]

@@ -1,4 +1,4 @@
-"""What is wrong with an outline, all of it and where; the planner's own check stops at the first fault."""
+"""Finds all problems of an outline and their positions; the planner's own check stops at the first."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -11,11 +11,11 @@ from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
 
 TOLD_MAX = 20
-"""So many faults of one outline are told at most."""
+"""Largest number of problems reported for one outline."""
 
 
 def outline_problems(outline: Sequence[Point2]) -> tuple[Problem, ...]:
-    """Why an outline is none; empty for a good one."""
+    """Return the problems of an outline; empty if it is valid."""
     try:
         require_simple_outline(outline)
     except GarmentError as error:

@@ -1,8 +1,7 @@
-"""Where a fold would be: from a point of the cloth and where it is to land, or from a line drawn anywhere.
+"""Places a new fold, given a point of the cloth and its target, or a line drawn anywhere.
 
-A point lands on another when the cloth is folded over the perpendicular bisector of the two. The bisector may cross
-the cloth several times; the fold is along the chord, of those that part the point from where it shall land, that
-is nearest to the middle between them.
+Folding over the perpendicular bisector of two points takes one to the other. The bisector may cross the cloth several
+times. Of the chords that separate the point from its target, the fold takes the one nearest to the middle between them.
 """
 
 import math
@@ -29,13 +28,13 @@ from planner.message import Message
 
 @dataclass(frozen=True)
 class PlacedCrease:
-    """A legal fold that is not drawn yet.
+    """A legal fold that is not in the drawing yet.
 
     Attributes:
-        start: its first end; what lies to the left of start -> end moves.
+        start: its first end; the cloth to the left of start -> end moves.
         end: its second end.
-        line: the same as a segment, article frame.
-        folded: the fold done.
+        line: the segment from start to end, article frame.
+        folded: the result of folding.
     """
 
     start: End
@@ -44,7 +43,7 @@ class PlacedCrease:
     folded: Folded
 
     def to_dict(self) -> dict[str, Any]:
-        """The fold's ends as in a drawing, what moves and where it lands, as JSON."""
+        """Return as JSON the fold's ends as in a drawing, the moving cloth and where it lands."""
         moving = self.folded.moving
         return {
             "start": end_to_dict(self.start),
@@ -57,14 +56,14 @@ class PlacedCrease:
 def grab_and_drop(
     solution: Solution, after: int | None, grabbed: Point2, dropped: Point2, *, is_red: bool
 ) -> PlacedCrease:
-    """The fold that takes a point of the cloth to another place.
+    """Return the fold that takes a point of the cloth to another place.
 
     Args:
-        solution: the drawing.
-        after: so many of its folds are done before; None: all.
-        grabbed: the point, article frame, cloth as it is then (m).
-        dropped: where it is to land (m).
-        is_red: whether only the layers that the last fold moved are taken.
+        solution: the solved drawing.
+        after: the number of its folds done before; None for all.
+        grabbed: the point, article frame, on the cloth after those folds (m).
+        dropped: its target (m).
+        is_red: whether to take only the layers that the last fold moved.
 
     Raises:
         RequestError: there is no such fold; the field is one of ``after``, ``grab.from``, ``grab.to``.
@@ -89,7 +88,7 @@ def grab_and_drop(
 
 
 def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red: bool) -> PlacedCrease:
-    """The fold along a line, its ends on the boundary of the cloth nearest to the line's.
+    """Return the fold along a line, its ends at the points of the cloth's boundary nearest to the line's ends.
 
     Raises:
         RequestError: there is no such fold; the field is ``after`` or ``line``.
@@ -122,7 +121,7 @@ def _seen(replay: Replay, *, is_red: bool) -> Region:
 
 
 def _last_name(solution: Solution, replay: Replay) -> str:
-    """What the last of the folds done is called."""
+    """Return the user's name for the last fold done."""
     return solution.drawing.folds[len(replay.lines) - 1].name
 
 
@@ -131,7 +130,7 @@ def _is_on(region: Region, point: Point2) -> bool:
 
 
 def _parting_chord(silhouette: Region, grabbed: Point2, dropped: Point2) -> Segment | None:
-    """Of the chords on the bisector that have the point in the part to their left, the one nearest to its middle."""
+    """Return the chord on the bisector, nearest to its middle, that has the grabbed point on its left, or None."""
     (px, py), (qx, qy) = grabbed, dropped
     middle = ((px + qx) / 2, (py + qy) / 2)
     bisector = Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
@@ -143,7 +142,7 @@ def _parting_chord(silhouette: Region, grabbed: Point2, dropped: Point2) -> Segm
 
 
 def _distance(chord: Segment, bisector: Segment) -> float:
-    """How far a chord of the bisector is from where that begins (m)."""
+    """Return the distance from a chord of the bisector to the bisector's start (m)."""
     low, high = (math.dist(bisector.start, end) for end in (chord.start, chord.end))
     return 0.0 if abs(low + high - chord.length) <= LENGTH_M else min(low, high)
 

@@ -1,4 +1,4 @@
-"""What is wrong with a drawing: the field, a sentence, and the place where it can be shown."""
+"""A problem of a drawing: the field, a sentence, and the places to mark."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -10,16 +10,16 @@ from planner.message import Message
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing for which there can be no plan.
+    """A problem that prevents planning.
 
     Attributes:
-        code: what kind of thing, for programs.
-        field: the field it stands in, as in ``outline[3]`` or ``folds[0].start``.
-        message: what is wrong, with the numbers and their units.
+        code: the kind of problem, for programs.
+        field: the field at fault, as in ``outline[3]`` or ``folds[0].start``.
+        message: the problem in words, with numbers and units.
         fold: the fold's index, or None.
-        points: where, article frame (m).
-        lines: what is to be marked there (an edge, a fold's line), article frame (m).
-        says: the message as data, where it has numbers.
+        points: the points to mark, article frame (m).
+        lines: the lines to mark (an edge, a fold's line), article frame (m).
+        says: the message as data, if it has numbers.
     """
 
     code: str
@@ -32,11 +32,11 @@ class Problem:
 
     @property
     def text(self) -> str:
-        """Field and sentence."""
+        """The field and the message."""
         return f"{self.field}: {self.message}" if self.field else self.message
 
     def to_dict(self) -> dict[str, Any]:
-        """The problem as JSON."""
+        """Return the problem as JSON."""
         return {
             "code": self.code,
             "field": self.field,

@@ -1,4 +1,4 @@
-"""What a drawing comes to: where its folds are, the cloth before each of them, and what is wrong."""
+"""The solution of a drawing: the lines of its folds, the cloth before each of them, and the problems."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,15 +19,15 @@ Ring: TypeAlias = list[list[float]]
 
 @dataclass(frozen=True)
 class Solution:
-    """A drawing, solved.
+    """A solved drawing.
 
     Attributes:
-        drawing: the drawing with its folds' ends where they are.
-        problems: what is wrong; empty when it can be planned.
-        replay: the cloth before each fold that is legal, up to the first that is not; None without an outline.
-        folded: those folds done.
-        garment: what can be planned; None while there are problems.
-        spread: the garment with the folds that are legal, to be shown; None without an outline.
+        drawing: the drawing with the folds' ends at their current positions.
+        problems: the problems; empty if the drawing can be planned.
+        replay: the cloth before each legal fold, up to the first illegal one; None without a valid outline.
+        folded: the results of the legal folds.
+        garment: the garment to plan; None while there are problems.
+        spread: the garment with the legal folds, for display; None without a valid outline.
         steps: the cloth step by step, as JSON (see `steps_of`).
     """
 
@@ -45,14 +45,14 @@ class Solution:
         return self.replay.cloths if self.replay else ()
 
     def layers(self) -> list[dict[str, Any]]:
-        """As JSON, for the same moments the layers bottom to top, and whether the last fold moved them."""
+        """Return as JSON the layers of each of `cloths`, bottom to top, and whether the last fold moved them."""
         return [
             {"layers": [{**layer.to_dict(), "moved": layer in cloth.flap} for layer in cloth.layers]}
             for cloth in self.cloths
         ]
 
     def fold_states(self) -> list[dict[str, Any]]:
-        """As JSON, for each fold whether it is legal, and its ends (m)."""
+        """Return as JSON the status of each fold (legal, illegal or unchecked) and its ends (m)."""
         return [
             {"fold": fold.id, "status": self._status(i), "start": list(fold.start.point), "end": list(fold.end.point)}
             for i, fold in enumerate(self.drawing.folds)
@@ -65,7 +65,7 @@ class Solution:
 
 
 def steps_of(replay: Replay, folded: Sequence[Folded]) -> list[dict[str, Any]]:
-    """As JSON, for each fold what it sees, what it moves and where that lands; at the end what is left after all."""
+    """Return as JSON what each fold sees, what it moves and where that lands; then the final silhouette."""
     steps: list[dict[str, Any]] = []
     flap: list[Ring] = []
     for cloth, fold, line in zip(replay.cloths, folded, replay.lines, strict=False):
@@ -79,11 +79,11 @@ def steps_of(replay: Replay, folded: Sequence[Folded]) -> list[dict[str, Any]]:
 
 
 def rings(region: Region) -> list[Ring]:
-    """The outer corners of a region's parts, counter-clockwise, as JSON (m)."""
+    """Return the outer rings of a region's parts, counter-clockwise, as JSON (m)."""
     return [ring.tolist() for ring in region.rings]
 
 
 def landed_rings(moving: Region, line: Segment) -> list[Ring]:
-    """The same of where a region comes to lie when it is folded over a line."""
+    """Return the outer rings of a region reflected over a line, counter-clockwise, as JSON (m)."""
     over = Isometry.reflection(line)
     return [over.apply(ring)[::-1].tolist() for ring in moving.rings]

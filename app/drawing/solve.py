@@ -1,7 +1,6 @@
-"""Solves a drawing: replays its folds in their order, each on the cloth that the ones before it left.
+"""Solves a drawing: replays its folds in order, each on the cloth that the previous ones left.
 
-What is illegal is kept as it was drawn. The folds after an illegal one are not looked at: what they would lie on is
-not known.
+An illegal fold stays as drawn. Solving stops there, since the cloth that the later folds would find is unknown.
 """
 
 from dataclasses import replace
@@ -21,7 +20,7 @@ from planner.message import Message
 
 
 def solve(drawing: Drawing) -> Solution:
-    """Where the folds are, and what is wrong."""
+    """Return the drawing with its folds found on the cloth, and its problems."""
     problems = [*_scene_problems(drawing)]
     faults = outline_problems(drawing.points)
     if faults:
@@ -46,7 +45,7 @@ def solve(drawing: Drawing) -> Solution:
 
 
 def garment_of(drawing: Drawing) -> Garment:
-    """The garment that is drawn, its folds' ends as points; raises `GarmentError` if it is none."""
+    """Return the drawn garment, with the folds' ends as points; raise `GarmentError` if it is invalid."""
     return Garment(
         drawing.name,
         drawing.title,
@@ -62,7 +61,7 @@ def garment_of(drawing: Drawing) -> Garment:
 
 
 def radius_m(drawing: Drawing, crease: Crease) -> float:
-    """A fold's grip radius (m): its own, or the article's."""
+    """Return a fold's grip radius (m): its own, or the article's."""
     return drawing.grip_radius_m if crease.grip_radius_m is None else crease.grip_radius_m
 
 

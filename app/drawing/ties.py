@@ -1,4 +1,4 @@
-"""Between ties, which name corners and folds, and attachments, which number them."""
+"""Converts between ties, which refer to corners and folds by id, and attachments, which refer to them by index."""
 
 from dataclasses import dataclass
 
@@ -11,13 +11,13 @@ from planner.geometry.pose import Point2
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """What the corners and folds of a drawing are called, in their order.
+    """The ids of a drawing's corners and folds, in order.
 
     Attributes:
-        corners: the corners' names.
-        points: the corners (m).
-        folds: the folds' names.
-        titles: what people call the folds.
+        corners: the corners' ids.
+        points: the corners' positions (m).
+        folds: the folds' ids.
+        titles: the folds' displayed names.
     """
 
     corners: tuple[str, ...]
@@ -27,13 +27,13 @@ class Names:
 
     @staticmethod
     def of(drawing: Drawing) -> "Names":
-        """The names in a drawing."""
+        """Return the names in a drawing."""
         corners = tuple(corner.id for corner in drawing.outline)
         folds = drawing.folds
         return Names(corners, drawing.points, tuple(fold.id for fold in folds), tuple(fold.name for fold in folds))
 
     def attachment(self, tie: Tie | None) -> Attachment | None:
-        """What a tie means; None if it is to nothing, or to something that is not there."""
+        """Return the attachment that a tie refers to; None without a tie, or if its target does not exist."""
         match tie:
             case CornerTie(corner) if corner in self.corners:
                 return OnVertex(self.corners.index(corner))
@@ -44,7 +44,7 @@ class Names:
         return None
 
     def tie(self, attachment: Attachment) -> Tie:
-        """The tie that means an attachment."""
+        """Return the tie that refers to an attachment."""
         match attachment:
             case OnVertex(vertex):
                 return CornerTie(self.corners[vertex])
@@ -54,7 +54,7 @@ class Names:
                 return CreaseTie(self.folds[fold], fraction, tuple(self.folds[one] for one in carried))
 
     def _on_outline(self, start: int, end: int, fraction: float) -> OnEdge:
-        """The place at a fraction of the way along the outline, whichever way has fewer corners."""
+        """Return the point at a fraction of the way along the outline, in the direction with fewer corners."""
         count = len(self.corners)
         if (end - start) % count > count // 2:
             start, end, fraction = end, start, 1.0 - fraction

@@ -1,4 +1,4 @@
-"""The templates that there are, in the order in which they are shown."""
+"""The catalogue of templates, in the order shown."""
 
 from app.templates import round_cloth, scarf, shirt, skirt, t_shirt, tie, towel, trousers, vest
 from app.templates.template import Template
@@ -17,5 +17,5 @@ TEMPLATES: tuple[Template, ...] = (
 
 
 def find_template(name: str) -> Template | None:
-    """The template of a name; None if there is none."""
+    """Return the template with a name, or None."""
     return next((template for template in TEMPLATES if template.name == name), None)

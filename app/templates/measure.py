@@ -1,4 +1,4 @@
-"""Measures: the few numbers that make a garment of a template."""
+"""Measures: the few lengths from which a template makes a garment."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,21 +11,21 @@ from planner.strict_model import LARGEST_M
 
 
 class MeasureError(FieldError):
-    """A measure that is no length of a garment, or does not go with another; the field is its name."""
+    """A measure is out of range or does not fit another; the field is its name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """One number that a template asks for.
+    """A length that a template asks for.
 
     Attributes:
-        name: what it is called in a request.
-        label: what people call it.
-        text: from where to where it is taken.
-        default_m: what it is unless somebody says otherwise (m).
-        follows: the measures with the smaller of which it keeps its proportion unless somebody says otherwise.
-        min_m: the least that it may be (m).
-        max_m: the most (m).
+        name: its name in a request.
+        label: its displayed name.
+        text: the points between which it is taken.
+        default_m: its value by default (m).
+        follows: measures to scale with by default, by the smallest of their ratios to their own defaults.
+        min_m: its smallest value (m).
+        max_m: its largest value (m).
     """
 
     name: str
@@ -37,7 +37,7 @@ class Measure:
     max_m: float = LARGEST_M
 
     def require(self, value_m: float) -> None:
-        """Refuse a value out of range; raises `MeasureError`."""
+        """Raise `MeasureError` if a value is out of range."""
         if not self.min_m <= value_m <= self.max_m:
             text = f"{self.label.lower()} is {value_m:g} m, not between {self.min_m:g} and {self.max_m:g} m"
             values = {"label": self.label.lower(), "value_m": value_m, "least_m": self.min_m, "most_m": self.max_m}
@@ -48,7 +48,7 @@ class Measures:
     """All the measures of one garment."""
 
     def __init__(self, asked: tuple[Measure, ...], given: Mapping[str, float]) -> None:
-        """What was given, and the rest in proportion to what it follows.
+        """Take the given measures, and scale the others with those they follow.
 
         Raises:
             MeasureError: something is out of range, or was not asked for.
@@ -62,7 +62,7 @@ class Measures:
             measure.require(self._values[measure.name])
 
     def _value(self, name: str, given: Mapping[str, float], below: frozenset[str]) -> float:
-        """What a measure is; `below` are those that follow it, which it cannot follow in turn."""
+        """Return the value of a measure; it cannot follow those in `below`, which follow it."""
         if name in given:
             return given[name]
         measure = self._asked[name]
@@ -71,34 +71,34 @@ class Measures:
         return measure.default_m * min(shares, default=1.0)
 
     def __getitem__(self, name: str) -> float:
-        """One of them (m)."""
+        """Return a measure's value (m)."""
         return self._values[name]
 
     def to_dict(self) -> dict[str, float]:
-        """All of them by name, as JSON (m)."""
+        """Return all measures by name, as JSON (m)."""
         return dict(self._values)
 
     def require_less(self, name: str, than_m: float, what: str, by_m: float = 0.0) -> None:
-        """Refuse a measure that is not less than something else; raises `MeasureError`.
+        """Raise `MeasureError` if a measure is not less than a limit.
 
         Args:
             name: the measure.
-            than_m: what it must be less than (m).
-            what: that in words; ``{}`` stands for the length `by_m`.
-            by_m: a length that the words name (m).
+            than_m: the limit (m).
+            what: the limit in words; ``{}`` stands for the length `by_m`.
+            by_m: a length that the words mention (m).
         """
         if self._values[name] >= than_m:
             told = self._told("must be less than", name, than_m, what, by_m)
             raise MeasureError(name, Message("measure_not_less", *told))
 
     def require_at_least(self, name: str, least_m: float, what: str) -> None:
-        """Refuse a measure that is less than something else (m); raises `MeasureError`."""
+        """Raise `MeasureError` if a measure is less than a limit (m)."""
         if self._values[name] < least_m:
             told = self._told("must be at least", name, least_m, what, 0.0)
             raise MeasureError(name, Message("measure_too_small", *told))
 
     def _told(self, must: str, name: str, than_m: float, what: str, by_m: float) -> tuple[str, dict[str, Any]]:
-        """A sentence on a measure, and its values."""
+        """Return a sentence about a measure, and its values."""
         label, value_m = self._asked[name].label.lower(), self._values[name]
         text = f"{label} ({value_m:g} m) {must} {what.format(f'{by_m:g} m')} ({than_m:.4g} m)"
         return text, {"label": label, "value_m": value_m, "than_m": than_m, "what": what, "by_m": by_m}

@@ -1,16 +1,16 @@
-"""Garments of which the right half mirrors the left."""
+"""Completes garments whose right half mirrors the left."""
 
 from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import Point2
 
 
 def both_halves(left: tuple[Point2, ...], width_m: float) -> tuple[Point2, ...]:
-    """The outline that goes through these points on the left and their mirror images, the last of them first."""
+    """Return the outline through the points of the left half, then their mirror images in reverse order."""
     return (*left, *(_image(point, width_m) for point in reversed(left)))
 
 
 def both_folds(left: tuple[DrawnFold, ...], width_m: float) -> tuple[DrawnFold, ...]:
-    """Folds on the left, named so, and after them their mirror images on the right."""
+    """Return the folds on the left, then their mirror images, with "left" in their names replaced by "right"."""
     images = (
         DrawnFold(
             fold.name.replace("left", "right"),

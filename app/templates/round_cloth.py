@@ -1,7 +1,7 @@
-"""A round cloth: half, then a quarter.
+"""A round cloth, folded in half and then into a quarter.
 
-Every corner of its edge must be held. So one is folded by two hands only up to a diameter of about 0.34 m: half of a
-circle's edge of radius R lies within 0.77 R of two points on it, and a grip holds what is within 0.127 m.
+Two hands can fold it only up to a diameter of about 0.34 m, since they must hold every corner of the moving edge. Half
+of the edge of a circle of radius R lies within 0.77 R of two points on it, and a grip holds the cloth within 0.127 m.
 """
 
 import math
@@ -14,7 +14,7 @@ MEASURES = (Measure("diameter_m", "Diameter", "straight across", 0.32),)
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: the near half over, then the left half of that."""
+    """Return the pattern and its folds: the near half over, then the left half of that."""
     radius = given["diameter_m"] / 2
     turns = [math.tau * number / CORNERS for number in range(CORNERS)]
     outline = tuple((radius * math.cos(turn), radius * math.sin(turn)) for turn in turns)

@@ -1,10 +1,10 @@
-"""A scarf, or any strip: the near quarter over, then on at the half. The defaults are the shipped one's (Table 1)."""
+"""A scarf, or any strip: the near quarter over, then on at the half. Defaults: the shipped scarf (paper, Table 1)."""
 
 from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 INSIDE_M, BESIDE_M = 0.03, 0.2
-"""A strip lies to the left of the table's middle, where one arm does not have to reach across the other (m)."""
+"""Placement of a strip (m): left of the table's middle, where neither arm has to reach across the other."""
 
 MEASURES = (
     Measure("width_m", "Width", "across", 0.254),
@@ -13,7 +13,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: the near quarter over, and what lies double then over the middle."""
+    """Return the pattern and its folds: the near quarter over, then the doubled part over the middle."""
     width, length = given["width_m"], given["length_m"]
     outline = ((0.0, 0.0), (width, 0.0), (width, length), (0.0, length))
     folds = (

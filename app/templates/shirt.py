@@ -1,6 +1,6 @@
-"""A shirt with long sleeves: cuff, sleeve and side in, on either side, then bottom up.
+"""A shirt with long sleeves: cuff, sleeve and side in on either side, then bottom up.
 
-The defaults are those of the shipped one, a child's, from the paper's Table 1.
+Defaults: the shipped child's shirt (paper, Table 1).
 """
 
 import math
@@ -25,11 +25,11 @@ MEASURES = (
 )
 
 _STEEPEST = 0.7
-"""A sleeve falls by no more than this share of its length."""
+"""Largest fall of a sleeve, as a share of its length."""
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: on either side half the sleeve back, the sleeve along the body, the side; then the lower half up."""
+    """Return the pattern and its folds: on either side half the sleeve back, sleeve in, side in; then bottom up."""
     width, length, folded = given["width_m"], given["length_m"], given["folded_width_m"]
     given.require_less("armhole_m", length / 2, "half of the length")
     given.require_less("cuff_m", given["armhole_m"], "the armhole")
@@ -55,7 +55,7 @@ def cut(given: Measures) -> Cut:
 
 
 def _cuff(given: Measures) -> tuple[Point2, Point2]:
-    """The upper and the lower corner of the left cuff, which is square to the sleeve's upper edge."""
+    """Return the upper and the lower corner of the left cuff, which is square to the sleeve's upper edge."""
     fall = given["slope_m"] / given["sleeve_m"]
     out = math.sqrt(1.0 - fall**2)
     x, y = -out * given["sleeve_m"], given["length_m"] - given["slope_m"]
@@ -63,7 +63,7 @@ def _cuff(given: Measures) -> tuple[Point2, Point2]:
 
 
 def _half_back(armpit: Point2, lower: Point2, top: Segment) -> DrawnFold:
-    """The fold across the sleeve, from the middle of its underside square onto its upper edge."""
+    """Return the fold across the sleeve, from the middle of its underside, perpendicular to its upper edge."""
     middle = ((armpit[0] + lower[0]) / 2, (armpit[1] + lower[1]) / 2)
     foot = top.at(float(top.positions(np.array([middle]))[0]))
     return fold("left cuff", middle, foot)

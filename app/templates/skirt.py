@@ -1,6 +1,6 @@
 """A skirt laid sideways: along its axis, the far part back, waist to hem.
 
-The defaults are those of the shipped one, from the paper's Table 1.
+Defaults: the shipped skirt (paper, Table 1).
 """
 
 from app.templates.measure import Measure, Measures
@@ -14,7 +14,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: half onto half along its axis, half of that back, the waist onto the hem."""
+    """Return the pattern and its folds: half over half along its axis, half of that back, the waist onto the hem."""
     length, waist, hem = (given[name] for name in ("length_m", "waist_m", "hem_m"))
     given.require_less("waist_m", hem + 1e-3, "the hem and {} more", 1e-3)
     low, high, axis, back = (hem - waist) / 2, (hem + waist) / 2, hem / 2, 0.75 * hem

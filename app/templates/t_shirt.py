@@ -1,4 +1,4 @@
-"""A T-shirt: sleeves in, sides in, bottom up. The defaults are those of the shipped one, from the paper's Table 1."""
+"""A T-shirt: sleeves in, sides in, bottom up. Defaults: the shipped T-shirt (paper, Table 1)."""
 
 from app.templates.measure import Measure, Measures
 from app.templates.mirrored import both_folds, both_halves
@@ -16,7 +16,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: each sleeve along the body, each side, the lower half up."""
+    """Return the pattern and its folds: each sleeve along the body, each side, the lower half up."""
     width, length, folded = given["width_m"], given["length_m"], given["folded_width_m"]
     armpit = length - given["armhole_m"]
     given.require_less("armhole_m", length / 2, "half of the length")

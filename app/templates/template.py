@@ -1,4 +1,4 @@
-"""A template: a kind of garment that is made, with its folds, from a few measures."""
+"""A template: a kind of garment that a few measures define, with its folds."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -14,15 +14,15 @@ from planner.message import Message
 from planner.strict_model import LARGEST_M
 
 NEAR_EDGE_X_M = -Table().depth_m / 2
-"""Where the near edge of the default table is, table frame (m)."""
+"""The x of the default table's near edge, table frame (m)."""
 
 INSIDE_M = 0.05
-"""So far inside that edge the cloth is laid (m)."""
+"""Distance from that edge to the cloth (m)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """What a template makes of its measures.
+    """A pattern made from measures.
 
     Attributes:
         outline: the pattern's corners, article frame (m).
@@ -40,12 +40,12 @@ class Template:
     """A kind of garment.
 
     Attributes:
-        name: its name, and that of the garments made of it.
-        title: what people call it.
-        text: what is made of it, in a sentence.
-        areal_density_kg_m2: the cloth's mass per area.
+        name: its name, and that of the garments made from it.
+        title: its displayed name.
+        text: its shape and folds, in a sentence.
+        areal_density_kg_m2: the cloth's mass per area (kg/m2).
         measures: the measures, in the order in which to ask for them.
-        cut: makes the rest of the measures; raises `MeasureError` where they do not go together.
+        cut: makes the pattern from the measures; raises `MeasureError` if they do not fit each other.
     """
 
     name: str
@@ -56,16 +56,16 @@ class Template:
     cut: Callable[[Measures], Cut]
 
     def garment(self, given: Mapping[str, float], title: str | None = None) -> Garment:
-        """The garment with these measures, the others having their defaults.
+        """Return the garment with these measures, and defaults for the others.
 
         Raises:
-            MeasureError: a measure is out of range, or does not go with another.
-            GarmentError: they make no outline, or the title is too long.
+            MeasureError: a measure is out of range, or does not fit another.
+            GarmentError: the outline is invalid, or the title is too long.
         """
         return self.made(Measures(self.measures, given), title)
 
     def made(self, measures: Measures, title: str | None = None) -> Garment:
-        """The garment with all its measures; raises what `garment` does, out of range apart."""
+        """Return the garment with all its measures; raise as `garment` does, except for measures out of range."""
         cut = self.cut(measures)
         _require_within_bounds(cut.outline)
         return Garment(
@@ -79,7 +79,7 @@ class Template:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """The template as JSON, with what it makes of the defaults."""
+        """Return the template as JSON, with the garment that its defaults give."""
         garment = self.garment({})
         return {
             "name": self.name,
@@ -95,7 +95,7 @@ class Template:
 
 
 def _require_within_bounds(outline: tuple[Point2, ...]) -> None:
-    """Refuse an outline that reaches further than any file may have it; raises `GarmentError`."""
+    """Raise `GarmentError` if an outline exceeds the limits of a garment file."""
     far_m = max(abs(coordinate) for point in outline for coordinate in point)
     if far_m > LARGEST_M:
         text = f"reaches {far_m:.3g} m from where it begins, at most {LARGEST_M:g} m"
@@ -103,29 +103,32 @@ def _require_within_bounds(outline: tuple[Point2, ...]) -> None:
 
 
 def fold(name: str, start: Point2, end: Point2) -> DrawnFold:
-    """A fold of all layers; what lies to the left of start -> end moves."""
+    """Return a fold of all layers; the cloth to the left of start -> end moves."""
     return DrawnFold(name, "blue", start, end)
 
 
 def lying_across(outline: tuple[Point2, ...]) -> Pose2:
-    """The article's x along the table's, its lowest x nearest to the robot at the front, centred across the table."""
+    """Return the placement with the article's x along the table's, its lowest x nearest to the robot.
+
+    The article is centred across the table; the robot stands at the front.
+    """
     xs, ys = zip(*outline, strict=True)
     return Pose2(NEAR_EDGE_X_M + INSIDE_M - min(xs), -(min(ys) + max(ys)) / 2, 0.0)
 
 
 def lying_away(outline: tuple[Point2, ...], inside_m: float = INSIDE_M, beside_m: float = 0.0) -> Pose2:
-    """The article's y along the table's x, its lowest y nearest to the robot at the front.
+    """Return the placement with the article's y along the table's x, its lowest y nearest to the robot at the front.
 
     Args:
         outline: the pattern's corners (m).
-        inside_m: how far it lies inside the table's near edge (m).
-        beside_m: how far its middle is to the left of the table's (m).
+        inside_m: the distance from the table's near edge (m).
+        beside_m: the shift of its middle to the left of the table's (m).
     """
     xs, ys = zip(*outline, strict=True)
     return Pose2(NEAR_EDGE_X_M + inside_m - min(ys), beside_m + (min(xs) + max(xs)) / 2, -math.pi / 2)
 
 
 def lying_towards(outline: tuple[Point2, ...]) -> Pose2:
-    """The article's y against the table's x, its highest y nearest to the robot at the front, centred."""
+    """Return the placement with the article's y against the table's x, its highest y nearest to the robot, centred."""
     xs, ys = zip(*outline, strict=True)
     return Pose2(NEAR_EDGE_X_M + INSIDE_M + max(ys), -(min(xs) + max(xs)) / 2, math.pi / 2)

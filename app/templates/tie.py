@@ -1,4 +1,4 @@
-"""A tie: quarter by quarter towards the wide end. The defaults are the shipped one's, from the paper's Table 1."""
+"""A tie, folded quarter by quarter towards the wide end. Defaults: the shipped tie (paper, Table 1)."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: at each quarter of its length, from the narrow end on."""
+    """Return the pattern and its folds: at each quarter of its length, from the narrow end on."""
     length, wide, narrow = given["length_m"], given["wide_m"], given["narrow_m"]
     given.require_less("narrow_m", wide + 1e-3, "the wide end and {} more", 1e-3)
     given.require_less("narrow_tip_m", length, "the length")

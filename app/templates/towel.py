@@ -1,4 +1,4 @@
-"""A towel, or any rectangle: half, then either side in. The defaults are the shipped hand towel's (Table 1)."""
+"""A towel, or any rectangle: half over, then either side in. Defaults: the shipped hand towel (paper, Table 1)."""
 
 from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
@@ -11,7 +11,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: the near half over, the left and the right side in."""
+    """Return the pattern and its folds: the near half over, then the left and the right side in."""
     width, length, folded = given["width_m"], given["length_m"], given["folded_width_m"]
     given.require_less("folded_width_m", width - 0.02, "the width less {}", 0.02)
     given.require_at_least("folded_width_m", width / 3, "a third of the width, or the sides would stick out")

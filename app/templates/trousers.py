@@ -1,4 +1,4 @@
-"""Trousers: leg on leg, then hem onto waist. The defaults are those of the shipped jeans, from the paper's Table 1."""
+"""Trousers: leg on leg, then hem onto waist. Defaults: the shipped jeans (paper, Table 1)."""
 
 from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_towards
@@ -12,7 +12,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: the left leg onto the right, then the hems onto the waist."""
+    """Return the pattern and its folds: the left leg onto the right, then the hems onto the waist."""
     waist, length, inseam, hem = (given[name] for name in ("waist_m", "length_m", "inseam_m", "hem_m"))
     given.require_less("inseam_m", length - 0.05, "the length less {}", 0.05)
     given.require_less("hem_m", waist / 2 - 0.005, "half of the waist less {}", 0.005)

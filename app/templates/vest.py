@@ -1,6 +1,6 @@
 """A vest, or tank top: half over half, then the lower half up.
 
-The defaults are those of the shipped one, from the paper's Table 1.
+Defaults: the shipped vest (paper, Table 1).
 """
 
 from app.templates.measure import Measure, Measures
@@ -18,7 +18,7 @@ MEASURES = (
 
 
 def cut(given: Measures) -> Cut:
-    """Folds: the left half onto the right along the middle, then the lower half up."""
+    """Return the pattern and its folds: the left half onto the right along the middle, then the lower half up."""
     width, length, neck = given["width_m"], given["length_m"], given["length_m"] - given["neck_m"]
     inner = given["shoulder_m"] + given["strap_m"]
     given.require_less("armhole_m", length / 2, "half of the length")
