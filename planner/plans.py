@@ -1,14 +1,15 @@
-"""From a garment and its folds to the quickest sequence of primitives that the robot can perform.
+"""Plan the quickest sequence of primitives with which the robot folds a garment.
 
 The algorithm of the paper (section 5), from top to bottom:
 
-1. Replay the folds once in the user's order; that makes them legal and yields the Fold-DAG.
-2. Search with A* over states (folds done, placement, base, what is held). Its edges are primitives: any fold that
-   the DAG makes available, drags towards the robot, moves between stations.
-3. The path found is made real: joint paths for both arms, free of collision. Where that fails, or takes longer, the
-   search goes on with what is known now.
-4. What is real is the plan. If the states run out first, no plan exists, and the obstacles met say why. To know
-   that sooner, a search that takes longer looks at each fold alone, everything else relaxed: mostly one is to blame.
+1. Replay the folds once in the user's order. This checks that they are legal and yields the Fold-DAG.
+2. Search with A* over states (folds done, placement, base, what is held). The edges are primitives: any fold that the
+   DAG makes available, drags towards the robot, moves between stations.
+3. Validate the path found: look for joint paths of both arms that are free of collision. Where there are none, or they
+   take longer than assumed, the search continues with the costs known by then.
+4. A validated path is the plan. If the search exhausts all states first, no plan exists, and the obstacles that it met
+   say why. To find this out sooner, a search that takes long also checks each fold alone with everything else relaxed:
+   usually a single fold is to blame.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,17 +38,17 @@ def make_plan(
     """Plan how a robot folds a garment in the least time.
 
     Args:
-        what: the task; or a garment, whose task is then made of the other arguments.
-        scene: with a garment, the scene; None for the default one.
-        should_stop: asked while searching; true ends the search as out of budget.
-        options: with a garment, what `Task.of` takes.
+        what: the task, or a garment; the task for a garment is made from the other arguments.
+        scene: the scene for a garment; None for the default scene.
+        should_stop: polled during the search; the search ends as out of budget when it returns true.
+        options: the options of `Task.of`, for a garment.
 
     Returns:
-        The plan; that none exists, or none was found within the limits, is an answer too. Where time runs out it may be
-        one found greedily: `is_proven` says whether nothing is quicker.
+        The plan. Its status may also say that no plan exists, or that none was found within the limits. Where time runs
+        out, the plan may come from a greedy search: `is_proven` says whether nothing is quicker.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: an option is out of range.
     """
     task = what if isinstance(what, Task) else Task.of(what, scene, **options)
@@ -63,20 +64,24 @@ def find_plan(
     on_found: Callable[[FoundPlan], None] | None = None,
     with_reasons: bool = True,
 ) -> FoundPlan:
-    """Plan as `make_plan` does, with what is known from other plans, and keep what the plan was found with.
+    """Plan as `make_plan` does, starting from known plans, and keep the data that the plan was found with.
 
     Args:
-        task: what is to be planned.
-        should_stop: asked while searching; true ends the search as out of budget.
-        known: a solved plan for the same, as `quick_plan` gives; the answer is that unless a quicker one is found.
-        like: solved plans for garments like it, of use if the search takes long.
-        on_found: told, in a search that takes long, of a plan as `quick_plan` gives; the search for the quickest then
-            goes on. Where there is no plan, told so with the reasons that were met, while these are tried.
-        with_reasons: whether it is of interest why there is no plan, if there is none: that takes more plans.
+        task: the task to plan.
+        should_stop: polled during the search; the search ends as out of budget when it returns true.
+        known: a solved plan for the same task, as `quick_plan` returns it; it is the answer unless a quicker one is
+            found.
+        like: solved plans for similar garments, used as a fallback if the search takes long.
+        on_found: called during a long search with a plan as `quick_plan` returns it, while the search for the quickest
+            continues. Where there is no plan, called with the reasons that the search met, before they are tried.
+        with_reasons: whether to find out why there is no plan, if there is none; this takes further planning.
+
+    Returns:
+        The plan, its problem and its acts.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
-        RequestError: the task's start is none that its folds allow, or there is no such robot.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
+        RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels()
     problem, limits = Problem.of(task), task.limits
@@ -94,21 +99,23 @@ def find_plan(
 def quick_plan(
     task: Task, *, like: Sequence[FoundPlan], should_stop: Callable[[], bool] | None = None
 ) -> FoundPlan | None:
-    """Find some plan soon, for a garment that differs a little from others that have plans.
+    """Find some plan soon, for a garment that differs a little from garments that have plans.
 
     Args:
-        task: what is to be planned.
-        like: solved plans for garments like it. The first that can still be done is done, the same primitives one
-            after the other; where none can, what of one can, and the rest is found by a search that is greedy.
-        should_stop: asked again and again; true ends it without a plan.
+        task: the task to plan.
+        like: solved plans for similar garments. The first plan whose primitives can all be done again is used. Where
+            there is none, the plan of which most can be done again is used as far as possible, and a greedy search
+            finds the
+                rest.
+        should_stop: polled repeatedly; planning ends without a plan when it returns true.
 
     Returns:
-        A plan that the robot can perform, joint paths included; a quicker one may exist (`bound_s` is what the folds
-        alone take). None where none was found soon, which says nothing about whether there is one.
+        A plan that the robot can perform, joint paths included; a quicker one may exist (`bound_s` is the time for the
+        folds alone). None where no plan was found soon, which does not prove that there is none.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
-        RequestError: the task's start is none that its folds allow, or there is no such robot.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
+        RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels()
     return quickly_planned(Problem.of(task), like, should_stop or (lambda: False))

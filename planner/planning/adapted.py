@@ -1,8 +1,8 @@
-"""A plan for one garment adapted to another that differs a little: the same primitives, checked and made real anew.
+"""Adapt a plan for one garment to a similar one: repeat its primitives, and check and validate them anew.
 
-While a garment is being drawn each plan is for a drawing that differs from the one before by a vertex. What was the
-quickest then mostly can still be done, and mostly is still the quickest; to find out takes one step for each primitive
-instead of a search. So it can be shown at once, and the search may take its time.
+While a garment is being drawn, each drawing differs from the one before by a vertex. The primitives that were the
+quickest can usually be done again, and usually are still the quickest. Checking this takes one step per primitive
+instead of a search, so the page can show a plan at once while the search continues.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,19 +18,19 @@ from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
 _LOOKS_MAX = 12
-"""So many ways to do again what a run of primitives did are looked at."""
+"""Ways to repeat a transfer that are looked at."""
 
 _BEGUN = 4
-"""Of so many ways to begin one way to go on each is looked at before others."""
+"""First steps from which continuations are taken in turns, one each, before further first steps are tried."""
 
 _PATIENT = replace(QUICK, alone=2 * QUICK.alone, together=2 * QUICK.together, late=1)
-"""Twice as many as elsewhere are tried: one that does saves a search."""
+"""Tries for validating a repeated transfer: twice as many as elsewhere, since one that succeeds saves a search."""
 
 
 def adapted(plan: FoundPlan, problem: Problem, effort: Effort) -> tuple[Act, ...]:
-    """What a solved plan does, done in another problem as far as that can be; it may be all of it.
+    """Repeat the acts of a solved plan in another problem as far as possible, perhaps completely.
 
-    What is looked at is added to an effort.
+    The work done is added to the effort.
     """
     state = problem.start
     acts: list[Act] = []
@@ -55,10 +55,10 @@ def _act(act: Act, problem: Problem, state: State, effort: Effort) -> Act | None
 
 
 def _again(steps: Sequence[Step], problem: Problem, state: State, effort: Effort) -> Iterator[tuple[Step, ...]]:
-    """The same steps one after the other from a state, the likest first; hands hold on where they did.
+    """Yield sequences that repeat the steps from a state, the most similar first; hands keep holding where they held.
 
-    There is time to try only a few, so they are taken in turns from a few that begin in the likest ways: mostly it is
-    where they begin that one is real and another is not.
+    There is time to try only a few sequences. They are taken in turns from a few that begin in the most similar ways,
+    since whether a sequence can be validated depends mostly on where it begins.
     """
     if not steps:
         yield ()
@@ -83,7 +83,7 @@ def _in_turns(begun: Sequence[Iterator[tuple[Step, ...]]]) -> Iterator[tuple[Ste
 
 
 def _may_begin(step: Step, steps: Sequence[Step], problem: Problem) -> bool:
-    """Whether steps may begin with one like the first of them; what can follow it takes long to find out."""
+    """Return whether a sequence may begin with this step; checked first because finding what can follow takes long."""
     is_alike = bool(step.after.held) == bool(steps[0].after.held)
     return is_alike and (len(steps) == 1 or problem.maker.can_begin_and_end((step,)))
 

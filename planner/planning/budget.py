@@ -1,8 +1,8 @@
-"""What a search may spend: work, which is counted, and time, which is clocked.
+"""Limit what a search may spend: work, which is counted, and time, which is measured.
 
-How much can be done in a second depends on the machine and on what else it does. So that the same request has the same
-answer everywhere, a search mostly ends by the work it has done. What is done is counted, and weighed by what it took on
-the machine on which that was measured: the unit is a second of that machine. The clock is only the upper limit.
+How much a machine does in a second depends on the machine and its load. So that the same request has the same answer
+everywhere, a search usually ends by the work it has done. The work is counted and weighted by its measured duration;
+its unit is a second of the machine on which that was measured. The clock is only the upper limit.
 """
 
 import math
@@ -12,25 +12,26 @@ from dataclasses import dataclass, field
 
 from planner.planning.problem import Problem
 
+# Fitted to the CPU time of 25 requests on two busy cores of 2026: the articles here and there on the table, and cloth
+# with two dozen loose folds.
 _LOOK_S, _QUERY_S, _GLANCE_S, _TRY_S = 3.5e-4, 4e-7, 1e-3, 1.6e-2
-"""What it takes to look at a state or at what may leave it; to ask the exact kernel about a tool point; to look at the
-ends of a run; to lead the arms through one (s). Fitted to the CPU time of 25 requests on two busy cores of 2026: the
-articles here and there on the table, and cloth with two dozen loose folds."""
+"""Work for a look at a state or at what may leave it, for a query of the exact kernel about a tool point, for a look at
+the ends of a transfer, and for leading the arms through one (s)."""
 
 _FEW_FOLDS = 4
-"""Cloth with more folds than this takes longer to look at, in proportion."""
+"""Folds up to which a look costs `_LOOK_S`; with more folds it costs more, in proportion."""
 
 
 @dataclass(slots=True)
 class Budget:
-    """What is left of the work and the time for a search.
+    """The work and the time that a search has left.
 
     Attributes:
-        work_limit_s: the work, in seconds of the machine on which it was measured.
+        work_limit_s: the work allowed, in seconds of the machine on which it was measured.
         deadline_s: when the time is up, by `time.perf_counter` (s).
-        should_stop: asked as well; true ends the search.
-        looks: how many states, and promises of what leaves one, have been looked at.
-        beside_s: the work that was done with budgets of its own (s).
+        should_stop: polled as well; true ends the search.
+        looks: the number of states, and of deferred successors, looked at.
+        beside_s: the work done under separate budgets (s).
     """
 
     work_limit_s: float
@@ -42,16 +43,16 @@ class Budget:
 
     @staticmethod
     def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
-        """Return a budget whose time begins to run; without a limit of its own it has as much work as time."""
+        """Return a budget whose time starts now; without a work limit it allows as much work as time."""
         work_s = time_limit_s if work_limit_s is None else work_limit_s
         return Budget(work_s, time.perf_counter() + time_limit_s, should_stop or (lambda: False))
 
     def part(self, work_s: float) -> "Budget":
-        """Return a budget for some of the work, to be done while there is time for the whole."""
+        """Return a budget for a part of the work, with the deadline of the whole."""
         return Budget(work_s, self.deadline_s, self.should_stop)
 
     def watch(self, problem: Problem) -> Problem:
-        """Count from now on what is asked of a problem's reach, and the joint paths made for it; return it."""
+        """Start to count the reach queries and joint paths of a problem; return the problem."""
         self._problems.append(problem)
         return problem
 
@@ -72,17 +73,17 @@ class Budget:
 
     @property
     def ways(self) -> int:
-        """How many ways to go on were looked at, in the search and with the arms."""
+        """The number of ways to continue that were looked at, in the search and with the arms."""
         return self.looks + sum(problem.maker.glances for problem in self._problems)
 
     @property
     def is_over(self) -> bool:
-        """Whether there is nothing left, or somebody wants no more."""
+        """Whether the work or the time is used up, or the search was told to stop."""
         if math.isfinite(self.work_limit_s) and self.spent_s > self.work_limit_s:
             return True
         return self.is_late
 
     @property
     def is_late(self) -> bool:
-        """Whether the time is up, whatever work is left, or somebody wants no more."""
+        """Whether the time is up, whatever work is left, or the search was told to stop."""
         return time.perf_counter() > self.deadline_s or self.should_stop()

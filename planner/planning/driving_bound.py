@@ -1,13 +1,14 @@
-"""A lower bound that knows of driving, for many folds that wait for nothing.
+"""A lower bound that includes driving, for garments with many folds that depend on no others.
 
-The arms' time alone cannot tell in which order loose folds had better be done: before the last drag or move is paid
-for, every set of folds that can be done without it looks as good as any other, and of 40 folds there are 2^40 sets.
+The arms' time alone cannot tell in which order to do loose folds: until the last drag or move is paid for, every set of
+folds that can be done without it looks as good as any other, and 40 folds have 2^40 sets.
 
-So the time for driving, dragging and moving that the remaining folds still need is bounded as well, in a relaxed
-problem: folds are done from where they can be done at all (`FoldStands`), and drags and moves go wherever the table's
-size allows. For each fold alone, and for a few together that are far from each other, the least time to visit such
-places is found for every place within a horizon (`relaxed_sites`); beyond it nothing is left to be done. The bound is
-the largest of these times, and the arms' time. It is the exact cost of a relaxed problem, hence consistent.
+The bound therefore includes the time for driving, dragging and moving that the remaining folds still need, in a relaxed
+problem: a fold can be done from wherever it can be done at all (`FoldStands`), and drags and moves lead anywhere that
+the table's size allows. For each fold alone, and for a few folds together that are far from each other, the bound finds
+the least time to visit such places from every place within a horizon (`relaxed_sites`); beyond the horizon it assumes
+that nothing remains to be done. The bound is the largest of these times, plus the arms' time. It is the exact cost of a
+relaxed problem, hence consistent.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -26,26 +27,26 @@ from planner.primitives.site_map import Site, SiteMap
 from planner.primitives.state import ANYWHERE, State
 
 _HORIZON_S, _GROWTH = 8.0, 1.6
-"""How far the first horizon is (s), and by how much each next one is further."""
+"""The distance of the first horizon (s), and the factor from each horizon to the next."""
 
 _BEYOND_S = 3.0
-"""A horizon does when the bound is so much less (s): the search looks a little beyond what seems best."""
+"""Margin by which the bound must stay below the horizon (s): the search also looks a little beyond what seems best."""
 
 _SITES_MAX = 100
-"""A horizon is no further than there are so many sites within: to ask for a fold from one takes a millisecond."""
+"""Sites within a horizon at which it stops growing; checking a fold from one site takes a millisecond."""
 
 _FOLDS_MAX = 12
-"""Of more folds than this so many are asked for, far from each other."""
+"""Folds in the bound; of more folds, those far from each other are chosen."""
 
 _TOGETHER_MAX = 4
-"""So many folds are asked for together: each more doubles the time."""
+"""Folds bounded together; each further fold doubles the time."""
 
 
 class DrivingBound:
-    """The arms' time for the remaining folds, and the least driving, dragging and moving."""
+    """The arms' time for the remaining folds plus the least driving, dragging and moving."""
 
     def __init__(self, context: Context, start: State, is_over: Callable[[], bool] = lambda: False) -> None:
-        """Look round the start of a planning problem, until it is over with the time for that."""
+        """Explore the surroundings of a problem's start until `is_over` returns true."""
         self._context = context
         self._is_over = is_over
         self._start = start
@@ -67,7 +68,10 @@ class DrivingBound:
         return self._arms(state) + self._driving_s(state)
 
     def _driving_s(self, state: State) -> float:
-        """What is needed besides the arms' time (s); anywhere at a site, where the state says so."""
+        """Return the time needed besides the arms' time (s).
+
+        Where the state leaves the standoff open, this is the least over all standoffs.
+        """
         number = self._numbers.get((*state.place, state.station))
         if number is None:
             return 0.0
@@ -81,7 +85,7 @@ class DrivingBound:
         return float(least[FREE, number, state.back_off]) + self._context.scene.arm_motion_s
 
     def _left(self, done: int) -> FloatArray:
-        """The bound for the folds left, shape (2, sites, back-offs), s."""
+        """Return the bound for the folds left, shape (2, sites, standoffs), s."""
         is_over = not self._service.all_folds & ~done
         key = (done & self._mask, is_over)
         if key not in self._known:
@@ -92,7 +96,10 @@ class DrivingBound:
         return self._known[key]
 
     def _table(self, is_over: bool) -> FloatArray:
-        """The bound for each fold alone, shape (folds, 2, sites, back-offs); sees to that for some together."""
+        """Return the bound for each fold alone, shape (folds, 2, sites, standoffs).
+
+        This also computes the bound for folds together.
+        """
         if is_over not in self._joint:
             sites = self._map.sites(self._within, is_over)
             if is_over not in self._alone:
@@ -102,7 +109,7 @@ class DrivingBound:
         return self._alone[is_over]
 
     def _within_horizon(self) -> tuple[tuple[Site, ...], NDArray[np.int64], FloatArray]:
-        """The sites looked at, the steps that each fold takes at each, and the bound for each fold alone."""
+        """Return the sites, the steps of each fold at each site, and the bound for each fold alone."""
         horizon_s = _HORIZON_S
         while True:
             sites, are_all = self._map.within(horizon_s, _SITES_MAX)
@@ -120,14 +127,14 @@ class DrivingBound:
     def _without_the_impossible(
         self, within: tuple[Site, ...], steps: NDArray[np.int64], alone: FloatArray
     ) -> tuple[tuple[Site, ...], NDArray[np.int64], FloatArray]:
-        """The same without the folds that can be done from nowhere: why not is for the search to find out."""
+        """Drop the folds that cannot be done from anywhere; finding out why is left to the search."""
         is_possible = np.isfinite(alone[:, FREE, 0, self._start.back_off])
         self._folds = [fold for fold, is_kept in zip(self._folds, is_possible, strict=True) if is_kept]
         self._is_served = self._is_served[is_possible]
         return within, steps[is_possible], alone[is_possible]
 
     def _in_time(self, within: Sequence[Site]) -> Iterator[Site]:
-        """The first site, and those after it for which there is time."""
+        """Yield the first site, and the sites after it while there is time."""
         yield within[0]
         yield from takewhile(lambda _: not self._is_over(), within[1:])
 
@@ -135,7 +142,7 @@ class DrivingBound:
         return [self._stands.least(fold, site.offset, site.station) for fold in self._folds]
 
     def _served(self, within: Sequence[Site]) -> BoolArray:
-        """Whether grips left by a drag that ends at a site may serve a fold, shape (folds, sites)."""
+        """Return whether grips left by a drag that ends at a site may serve a fold, shape (folds, sites)."""
         return np.array([[self._service.may_serve(f, s.offset, s.station) for s in within] for f in self._folds])
 
     def _each_alone(self, sites: Sites, steps: NDArray[np.int64]) -> FloatArray:
@@ -143,7 +150,7 @@ class DrivingBound:
         return np.array([to_go(sites, of_fold[None], is_served[None])[1] for of_fold, is_served in rows])
 
     def _far_apart(self) -> list[int]:
-        """The folds that together need most from the start, one after the other the one that adds most."""
+        """Choose the folds that together need the most time from the start, greedily adding the fold that adds most."""
         sites = self._map.sites(self._within, is_service_over=False)
         start = self._start.back_off
         chosen: list[int] = []
@@ -160,7 +167,7 @@ class DrivingBound:
 
 
 def _spread(context: Context, most: int) -> list[int]:
-    """The blue folds, or so many of them whose lines are far from each other."""
+    """Return the blue folds, or at most `most` of them whose lines are far from each other."""
     blue = [fold.index for fold in context.sequence.folds if not fold.is_red]
     middles = np.array(
         [context.sequence.folds[fold].line.at(0.5 * context.sequence.folds[fold].line.length) for fold in blue]

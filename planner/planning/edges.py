@@ -1,4 +1,4 @@
-"""The edges of the graph that is searched: the primitives possible in each state, worked out once."""
+"""The edges of the search graph: the primitives possible in each state, computed once."""
 
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -12,19 +12,20 @@ from planner.primitives.state import ANYWHERE, State
 from planner.search.a_star import Edge, Promise, Successors
 
 Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
-"""Of the steps that leave a state those that are to be followed, each with what it costs (s)."""
+"""Selects the steps that the search may follow from a state, each with its cost (s)."""
 
 
 class Edges:
-    """What can be done in each state of one planning problem."""
+    """The successors of each state of one planning problem."""
 
     def __init__(self, context: Context, possible: Possible, is_wanted: Callable[[State], bool]) -> None:
-        """Nothing is worked out yet.
+        """Start with nothing computed.
 
         Args:
-            context: the problem.
-            possible: asked each time that edges are wanted.
-            is_wanted: whether spare steps to the grasp of a state are wanted by now; asked each time that there are.
+            context: the planning context.
+            possible: called each time that edges are wanted.
+            is_wanted: says whether spare steps to the grasp of a state are wanted by now; called each time that there
+                are any.
         """
         self._primitives = [kind(context) for kind in PRIMITIVES]
         self._context = context
@@ -37,18 +38,18 @@ class Edges:
 
     @property
     def expanded(self) -> int:
-        """How many states have been asked about, each counted once."""
+        """The number of distinct states expanded."""
         return len(self._asked)
 
     def begin(self) -> None:
-        """A search begins: no state has been left yet."""
+        """Begin a search: mark all states as not left yet."""
         self._left.clear()
 
     def leaving(self, state: State, cost_s: float) -> Successors[State, Step]:
-        """The edges that leave a state reached at a cost (s), and promises of those that have time.
+        """Yield the edges that leave a state reached at a cost (s), and the deferred successors.
 
-        Where the base could as well have driven there from a state that has been left before, what begins with driving
-        is left out: from there it took no longer.
+        Steps that begin with driving are left out where the base could have driven there from a state that was left
+        before: from there they took no longer.
         """
         self._asked.add(state)
         is_passed = not state.held and self._is_passed(state, cost_s)
@@ -59,7 +60,10 @@ class Edges:
         return self._of(state, self._steps[key])
 
     def _is_passed(self, state: State, cost_s: float) -> bool:
-        """Whether a state that differs in the back-off alone was left so much earlier; else this one is noted."""
+        """Return whether the base could have driven here in time from a state left before; otherwise note this one.
+
+        Only states that differ in nothing but the standoff are compared.
+        """
         left = self._left.setdefault((state.done, state.place, state.station), [])
         drive_s = self._context.drive_s
         if any(before_s + drive_s(abs(back_off - state.back_off)) <= cost_s + TIME_S for back_off, before_s in left):
@@ -85,5 +89,5 @@ class Edges:
 
 
 def _anywhere(state: State) -> State:
-    """A state that stands for all with as many folds done, hands holding on or not, wherever cloth and robot are."""
+    """Return a state that stands for all with these folds done and hands alike, wherever cloth and robot are."""
     return State(state.done, (0.0, 0.0), ANYWHERE, ANYWHERE, dragged=state.dragged)

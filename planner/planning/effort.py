@@ -1,4 +1,4 @@
-"""The work that goes into a plan, counted as it is done."""
+"""Count the work that goes into a plan."""
 
 import time
 from collections.abc import Iterator
@@ -25,7 +25,7 @@ class Effort:
 
     @contextmanager
     def on_joints(self) -> Iterator[None]:
-        """Count the time meanwhile as spent on joint paths."""
+        """Count the time inside the context as spent on joint paths."""
         begun = time.perf_counter()
         try:
             yield
@@ -33,7 +33,7 @@ class Effort:
             self._joint_time_s += time.perf_counter() - begun
 
     def statistics(self, reach: Reach, bound_s: float) -> Statistics:
-        """What has been done so far, for a plan that takes at least so long (s)."""
+        """Return the statistics so far, for a plan whose lower bound is `bound_s` (s)."""
         search_s = time.perf_counter() - self._started - self._joint_time_s
         return Statistics(
             self.expanded, self.explored, reach.queries, reach.query_time_s, search_s, self._joint_time_s, bound_s

@@ -1,4 +1,4 @@
-"""A plan together with what it was found with: of use for the next plan of a garment that differs a little."""
+"""A plan together with the data it was found with, for use in the next plan of a similar garment."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -18,12 +18,12 @@ from planner.task.world_state import HeldPoint, WorldState
 
 @dataclass(frozen=True, eq=False)
 class FoundPlan:
-    """A plan, and how it was found.
+    """A plan and how it was found.
 
     Attributes:
         plan: the plan, which is data alone.
-        problem: what was asked, ready for planning.
-        acts: the steps again, with the joint paths of those that belong together.
+        problem: the task, ready for planning.
+        acts: the steps, grouped into acts with their transfers.
     """
 
     plan: Plan
@@ -40,7 +40,7 @@ class FoundPlan:
         *,
         is_exhaustive: bool,
     ) -> "FoundPlan":
-        """Make a plan of what was found, act by act."""
+        """Make a plan of the acts that were found."""
         steps = tuple(_scheduled(problem, acts))
         plan = Plan(problem.task, status, steps, None, reasons, statistics, is_exhaustive)
         if plan.cost_s is not None:
@@ -49,7 +49,7 @@ class FoundPlan:
         return FoundPlan(plan, problem, acts)
 
     def or_quicker(self, other: "FoundPlan") -> "FoundPlan":
-        """Return this plan or another for the same task, whichever is quicker; the bound is what neither beats."""
+        """Return the quicker of this plan and another for the same task; its bound is one that neither beats."""
         better = other if _rank(other) < _rank(self) else self
         bounds = [one.plan.bound_s for one in (self, other) if one.plan.status != "infeasible"]
         known = [bound_s for bound_s in bounds if bound_s is not None]
@@ -59,13 +59,13 @@ class FoundPlan:
         return better.told_again(better.plan.task, statistics, is_exhaustive=is_exhaustive)
 
     def told_again(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
-        """Return the same plan as the answer to a task with other limits, after some more work."""
+        """Return this plan as the answer to a task with other limits, with new statistics."""
         plan = replace(self.plan, task=task, statistics=statistics, is_exhaustive=is_exhaustive)
         return FoundPlan(plan, self.problem, self.acts)
 
 
 def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
-    """Return by what plans are compared: any plan before none, then what it costs, and a limit reached before a no."""
+    """Return the sort key of a plan: any plan before none, then the cost, then a limit reached before "infeasible"."""
     cost_s = found.plan.cost_s
     return cost_s is None, 0.0 if cost_s is None else cost_s, found.plan.status == "infeasible"
 
@@ -102,5 +102,5 @@ def _world_after(context: Context, step: Step, before: WorldState) -> WorldState
 
 
 def held_points(context: Context, state: State) -> tuple[HeldPoint, ...]:
-    """Return what is held in a state of the search."""
+    """Return the points held in a state of the search."""
     return tuple(HeldPoint(context.reach.arm_names[held.arm], held.point) for held in state.held)

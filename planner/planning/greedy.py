@@ -1,8 +1,8 @@
-"""Some plan, found soon: a search that goes straight for the end.
+"""Find some plan soon with a search that goes straight for the goal.
 
-It is the search for the quickest plan with the time to come counted several times over (weighted A*, Pohl 1970), so
-that it prefers to finish what it has begun. What it finds can be done, but may be far from the quickest. It gives up
-early, since then it mostly is no quicker than the proper search.
+It is the search for the quickest plan with the remaining time weighted several times over (weighted A*, Pohl 1970), so
+that it prefers to finish what it has begun. Its plan can be performed, but may be far from the quickest. It gives up
+early, since after that it is usually no quicker than the optimal search.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -21,36 +21,36 @@ from planner.primitives.state import State, StateKey
 from planner.search.a_star import a_star
 
 WEIGHT = 10.0
-"""So many times the time to come counts more than the time so far."""
+"""Weight of the remaining time against the time so far."""
 
 _EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 2
-"""So many states are expanded, and so many more for each fold."""
+"""States that are expanded, and further states for each fold."""
 
 _LOOKS_PER_STATE = 12
-"""So many times as many states and promises of steps are looked at altogether."""
+"""States and deferred successors looked at, per state that may be expanded."""
 
 _FAILURES_MAX = 8
-"""So many runs may turn out not to be real."""
+"""Transfers that may fail before the search gives up."""
 
 _ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=1)
-"""What is tried with one hand, and with both, which mostly fail for good, and slowly."""
+"""Tries with one hand, and with both hands, whose failures are mostly final and slow to find."""
 
 
 def greedy(
     problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool], wanted: int | None = None
 ) -> tuple[Act, ...] | None:
-    """What is left to be done from a state on.
+    """Find acts that lead from a state to the goal.
 
     Args:
-        problem: what is to be planned.
-        start: the state.
-        effort: what is done is added to it.
-        is_over: asked again and again; true means that there is no time.
-        wanted: the folds to be done, as a bit mask, what they wait for among them; None for all.
+        problem: the problem to plan.
+        start: the state to start from.
+        effort: counters that the work is added to.
+        is_over: polled repeatedly; true means that there is no time left.
+        wanted: the folds to be done, as a bit mask that includes the folds they depend on; None for all.
 
     Returns:
-        What is done, act by act, the first beginning with primitive 0; None where no way was found soon that the arms
-        can follow.
+        The acts, the first beginning with primitive 0; None where the search soon found no way that the arms can
+            follow.
     """
     return _Greedy(problem, effort, is_over, wanted).acts(start)
 
@@ -95,7 +95,7 @@ class _Greedy:
         return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
 
     def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
-        """What steps are once they are real; where a run is not, its last step is tried no more."""
+        """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""
         acts = []
         for first, run in runs_of(steps):
             act = None if self._is_over() else self._act(first, run)

@@ -1,4 +1,4 @@
-"""Lower bounds on the time to a goal (paper, section 5.3)."""
+"""Lower bounds on the time to the goal (paper, section 5.3)."""
 
 from collections.abc import Callable
 from functools import cache
@@ -10,11 +10,11 @@ Heuristic = Callable[[State], float]
 
 
 def arm_time(context: Context, wanted: int = -1) -> Heuristic:
-    """The arms' time for those of the remaining folds that are wanted (a bit mask; -1: all), constraints ignored.
+    """Return the arms' time for the remaining folds among those wanted (bit mask; -1: all), constraints ignored.
 
-    Reach, apex, end for a blue fold; apex, end for a red one; the reach is saved while a drag's grips are held.
-    It is consistent: a fold lowers it by at most the arms' share of what the fold costs, holding on after a drag by
-    the one motion that the drag costs at least, and nothing else lowers it.
+    A blue fold takes three motions (to the grips, the apex, the end), a red fold two (the apex, the end); the first is
+    saved while the grips of a drag are held. The bound is consistent: a fold lowers it by at most the arms' share of
+    the fold's cost, holding on after a drag by the one motion that the drag costs at least, and nothing else lowers it.
     """
     motion = context.scene.arm_motion_s
     motions = [2 if fold.is_red else 3 for fold in context.sequence.folds]
@@ -30,7 +30,7 @@ def arm_time(context: Context, wanted: int = -1) -> Heuristic:
 
 
 def zero(_: Context) -> Heuristic:
-    """No bound at all: A* becomes Dijkstra's search."""
+    """Return no bound at all: A* becomes Dijkstra's search."""
     return lambda _state: 0.0
 
 

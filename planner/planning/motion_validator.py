@@ -1,16 +1,16 @@
-"""Making a plan real, lazily: joint paths only for what the search is about to accept.
+"""Validate motions lazily: look for joint paths only where the search is about to accept a path.
 
-The search works with what each primitive costs if the arms can follow; that is a lower bound. When it has found a path,
-the path's runs are made real one after the other. A step that cannot be is struck out, one that takes longer gets its
-true cost, and the search goes on with what is known now. Bounds only rise, so the first path that is real at the cost
-at which it was found is the quickest of all: the same that a search would find that made every step real at once.
+The search assumes for each primitive the cost that it has if the arms can follow, which is a lower bound. When it has
+found a path, the path's transfers are validated one after the other. A step that fails is rejected, a step that takes
+longer gets its true cost, and the search continues with these costs. Costs only rise, so the first path that is
+validated at the cost at which it was found is the quickest: the path that a search validating every step would find.
 
-The search knows but one way between two states. Where that cannot be made real, the same from elsewhere mostly cannot
-either, and to be told so one by one would take long. So a spread of other ways to do the same, begun and ended
-elsewhere, is looked at at once, and some of those that may do are tried; in every state in which the hands would do the
-same the first few that are real take the place of all that the search had, but for what has turned out to be real
-before. What the same arms have failed at several times from one station, wherever the cloth lay, and never succeeded
-in, is tried no more from there. So "infeasible" is no proof where steps were struck out.
+The search knows only one way between two states. Where that way fails, similar ways from elsewhere usually fail too,
+and finding this out one by one would take long. The validator therefore looks at once at a spread of other ways to do
+the same, begun and ended elsewhere, and tries some of the promising ones. In every state in which the hands would do
+the same, the first few that succeed replace all ways that the search had, except those validated before. A task at
+which the same arms failed several times from one station, wherever the cloth lay, and never succeeded, is not tried
+from there any more. "Infeasible" is therefore no proof where steps were rejected.
 """
 
 import math
@@ -28,15 +28,15 @@ from planner.primitives.state import State
 
 
 class OutOfTimeError(Exception):
-    """There was no time to look whether steps are real, or no more work was to be done."""
+    """No time was left to validate steps, or no more work was allowed."""
 
 
 class MotionValidator:
-    """Knows which steps of one planning problem are slower than they seem, or cannot be.
+    """The steps of one planning problem that are slower than assumed, or rejected.
 
     Attributes:
-        struck: the runs that could not be made real, each up to the step that could not.
-        slower: what the steps asked about last are, where they are real but take longer than they seemed to.
+        rejected: the transfers that failed, each up to the step that failed.
+        slower: the acts of the steps validated last, where they succeed but take longer than assumed.
     """
 
     def __init__(
@@ -46,13 +46,13 @@ class MotionValidator:
         tries: Tries = QUICK,
         runs_max: float = math.inf,
     ) -> None:
-        """Nothing is known yet.
+        """Start with nothing known.
 
         Args:
-            maker: makes runs real.
-            is_over: asked before each run and each look; true means that there is no time.
+            maker: plans the transfers.
+            is_over: polled before each transfer and each look; true means that there is no time left.
             tries: how much is tried.
-            runs_max: the arms are led through no more runs than this.
+            runs_max: the most transfers that the arms are led through.
         """
         self._maker = maker
         self._is_over = is_over
@@ -70,7 +70,7 @@ class MotionValidator:
         self.slower: tuple[Act, ...] = ()
 
     def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
+        """Yield the steps leaving a state that may succeed, each with the least known cost (s)."""
         if not (self._others or self._least_s):
             yield from ((step, step.duration_s) for step in steps)
             return
@@ -93,17 +93,17 @@ class MotionValidator:
 
     @property
     def has_doubts(self) -> bool:
-        """Whether some steps were rejected, or cost more than the search's bounds: what was left untried may do."""
+        """Whether some steps were rejected or cost more than the bounds; steps left untried may then succeed."""
         return bool(self._least_s)
 
     def is_in_doubt(self, held: State) -> bool:
-        """Whether ways to or from a grasp have turned out not to be real, or to take longer than they seemed."""
+        """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
         return held.grasp in self._doubted or held.station in self._given_up.values()
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
-        """What a plan's steps are once they are real; None if one was struck out, or some turned out to take longer.
+        """Validate a plan's steps; return None if a step was rejected, or if some take longer than assumed.
 
-        What takes longer can be done all the same: that is `slower` then.
+        In the second case the acts can still be performed: they are in `slower`.
 
         Raises:
             OutOfTimeError: there was no time to find out; what is known by then stays.
@@ -135,7 +135,7 @@ class MotionValidator:
         return self._made[key]
 
     def _reject(self, run: tuple[Step, ...]) -> None:
-        """Strike out the first step up to which a run cannot be made real; find other ways to do the same."""
+        """Reject the first step at which a transfer fails, and find other ways to do the same."""
         number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
         culprit, before = run[number], run[:number]
         self.rejected.append(run[: number + 1])
@@ -171,11 +171,11 @@ class MotionValidator:
             raise OutOfTimeError
 
     def _known_s(self, step: Step) -> float:
-        """The least that a step is known to take (s)."""
+        """Return the least time that a step is known to take (s)."""
         return max(step.duration_s, self._least_s.get(_key(step), 0.0))
 
     def _all_agree(self, runs: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
-        """Whether the steps of some runs take as long as was known; what they take is known now."""
+        """Return whether the steps of all transfers take as long as was known; note their true durations."""
         agreed = [self._agrees(run, made) for run, made in runs]
         return all(agreed)
 
@@ -193,7 +193,7 @@ class MotionValidator:
         return is_known
 
     def _doubt(self, run: tuple[Step, ...]) -> None:
-        """What seemed best about the grasps on the way may be no longer."""
+        """Mark the grasps on the way: the ways that seemed best for them may no longer be."""
         self._doubted.update(step.after.grasp for step in run if step.after.held)
 
 

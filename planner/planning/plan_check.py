@@ -1,7 +1,7 @@
-"""The check of a plan that came from elsewhere: can it be done, step by step, as it says?
+"""Check whether a plan read from elsewhere can be performed step by step as it says.
 
-Each step is held against the cloth model and against the grips that the primitives would take; the trajectory against
-the robot: the tools are where the cloth is held, no joint is faster than it can be, and nothing touches.
+Each step is compared with the cloth model and with the grips that the primitives would take. The trajectory is compared
+with the robot: the tools are where the cloth is held, no joint exceeds its greatest speed, and nothing touches.
 """
 
 import math
@@ -20,20 +20,20 @@ from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 TOOL_M = 0.005
-"""How far a tool may be from where the cloth is that it holds (m)."""
+"""Greatest distance between a tool and the point of the cloth that it holds (m)."""
 
 _SAMPLE_S = 0.05
-"""How far apart the moments are at which joints are looked at (s)."""
+"""Greatest time between the samples at which joints are checked (s)."""
 
 _SPEED = 1.001
-"""The share of its greatest speed that a joint may have; the rest is rounding."""
+"""Greatest speed of a joint, as a share of its limit; what exceeds 1 allows for rounding."""
 
 
 def require_replay(plan: Plan) -> None:
-    """Raise an error unless a solved plan can be done as it says.
+    """Raise an error unless a solved plan can be performed as it says.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: names the step, as ``steps[2].grips``, and says what is wrong with which number.
     """
     problem = Problem.of(plan.task)
@@ -79,7 +79,7 @@ def _moments(segment: Segment) -> Iterator[float]:
 
 
 def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State) -> None:
-    """Require that the cloth goes from the state before to the state after as a step of this kind takes it."""
+    """Require that the cloth changes from the state before to the state after as a step of this kind changes it."""
     context, fold = problem.context, step.fold
     wanted = step.before.folds_done if fold is None else (*step.before.folds_done, fold)
     if step.after.folds_done != wanted:
@@ -129,7 +129,7 @@ class _Tools:
         return all(math.dist(point, self._arms[arm]) <= LENGTH_M for arm, point in taken.items())
 
     def at(self, segment: Segment, t_s: float) -> dict[int, FloatArray]:
-        """Return where the tool of each arm must be that holds cloth at a time, table frame, shape (3,), m."""
+        """Return where each arm that holds cloth must have its tool at a time, table frame, shape (3,), m."""
         holding = [arm for arm, hand in enumerate(segment.phase.hands) if hand is not None and hand.is_closed]
         if self._trial is not None:
             first, last = segment.phase.cloth.sweep
@@ -165,5 +165,5 @@ def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: flo
 
 
 def _in_table(base: Pose2, tool: FloatArray, height_m: float) -> FloatArray:
-    """Return a tool's place in the table frame, given in the base frame, shape (3,), m."""
+    """Transform a tool's position from the base frame to the table frame, shape (3,), m."""
     return np.asarray(base.to_outer(tool) - np.array([0.0, 0.0, height_m]))

@@ -1,4 +1,4 @@
-"""The search for the quickest plan: A* over states, its path made real, the obstacles it met."""
+"""Search for the quickest plan: A* over states, lazy validation of its path, and the obstacles that it met."""
 
 import math
 import time
@@ -30,25 +30,28 @@ from planner.search.a_star import Outcome, SearchResult, a_star
 from planner.task.plan import Statistics
 from planner.task.reason import Reason
 
+# Most plans are found with fewer.
 LOOK_ALONE_AFTER = 180
-"""Most plans are found with so few looks at a state or at what may leave it; after them folds are looked at alone."""
+"""Looks at states, or at what may leave them, after which the search checks each fold alone."""
 
 GREEDY_AFTER_S = 1.0
-"""A search that has found nothing after so much work looks for some plan to fall back on (s, see `Budget`)."""
+"""Work without a plan after which the search looks for some plan to fall back on (s, see `Budget`)."""
 
 LESS_ROOM_AFTER_S = 1.0
-"""A search that has only found what takes longer than it seemed, after so much work, looks at tighter tasks (s)."""
+"""Work after which a search that found only plans slower than assumed looks at tightened tasks (s, see `Budget`)."""
 
+# A comfort radius below its default is rare, and a larger one then usually pays; a cone that could be narrower is in
+# every request.
 MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
-"""The work on each task with more comfort, and on all with narrower cones, as a share of what was done before. Comfort
-below its default is seldom asked for, and mostly pays; all requests have a cone that could be narrower."""
+"""Work on each task with a larger comfort radius, and on all with narrower cones, as a share of the work done before.
+"""
 
 TRIAL_EXPANDED_MAX, GLANCE_WORK_S, TRIAL_WORK_S, REASONS_WORK_S = 200, 0.4, 1.0, 4.0
-"""The budget of the searches that try whether a fold can be done once a cause is removed: in states, each; in work one
-that looks for no joint paths, one that does, and all of them for one plan (s, see `Budget`)."""
+"""Budget of the searches that try whether a fold can be done once a cause is removed: states expanded in each, work of
+one without joint paths, of one with them, and of all for one plan (s, see `Budget`)."""
 
 _COLLISIONS_MAX = 12
-"""Of so many motions that the arms could not follow it is looked at what was in their way."""
+"""Motions that the arms could not follow for which the blocking contact is looked up."""
 
 
 class PlanSearch:
@@ -67,19 +70,19 @@ class PlanSearch:
         *,
         is_patient: bool = True,
     ) -> None:
-        """A search that has not begun; its time runs.
+        """Prepare a search; its time starts now.
 
         Args:
-            problem: what is to be planned.
-            heuristic: the name of a consistent lower bound on the time to the end.
-            budget: the work and the time for it.
-            max_expanded: the budget in states.
-            known: a plan for the problem; only a quicker one is looked for.
-            like: plans for problems like it, for one to fall back on.
-            on_found: told of a plan that was found meanwhile, while the search for the quickest goes on; where there is
-                none, of the reasons that were met, while they are tried.
-            explainer: says why there is no plan; None: nobody asks, and to find out takes more plans.
-            is_patient: whether more ways are tried for each step where the first few gave no plan.
+            problem: the problem to plan.
+            heuristic: the name of a consistent lower bound on the remaining time.
+            budget: the work and the time for the search.
+            max_expanded: the most states to expand.
+            known: a plan for the problem; the search looks only for a quicker one.
+            like: plans for similar problems, to fall back on.
+            on_found: called with a plan found meanwhile, while the search for the quickest continues; where there is no
+                plan, with the reasons that the search met, before they are tried.
+            explainer: says why there is no plan; None if this is not wanted, since it takes further planning.
+            is_patient: whether to try more ways for each step where the first few gave no plan.
         """
         self._explainer, self._is_patient = explainer, is_patient
         self._problem = problem
@@ -108,7 +111,7 @@ class PlanSearch:
         self._is_looked_at_alone = self._has_tried_less = False
 
     def plan(self) -> FoundPlan:
-        """Return the quickest plan, or why there is none, if somebody asks."""
+        """Return the quickest plan, or none with the reasons for it if there is an explainer."""
         found = self._plan()
         self._context.forget()
         return found
@@ -132,13 +135,13 @@ class PlanSearch:
 
     @property
     def _is_in_doubt(self) -> bool:
-        """Whether something quicker than what is known may be among what was rejected and could be tried more."""
+        """Whether something quicker than the known plan may be among the rejected steps and is worth more tries."""
         return self._validator.has_doubts and self._limit_s > (self._bound_s or 0.0)
 
     def _is_cut_short_trying_more(self) -> bool:
-        """Search once more, with less room, and for want of a plan with more tries; whether the budget ran out.
+        """Search again in tightened tasks, and with more tries if there is no plan; return whether the budget ran out.
 
-        Reasons rest on the first round: what was in the way of the quickest ways.
+        The reasons keep to the first round: they say what was in the way of the quickest ways.
         """
         self._try_with_less_room()
         if math.isinf(self._limit_s):
@@ -149,9 +152,10 @@ class PlanSearch:
         return self._is_out_of_budget()
 
     def _try_with_less_room(self) -> None:
-        """Look for something quicker where less is allowed, once.
+        """Look once for a quicker plan in tightened tasks.
 
-        What can be done there can be done here. Of more ways the first few tried may all be worse ones.
+        A plan for a tightened task is also a plan for this one. With more room, the first few ways tried may all be
+        worse.
         """
         if self._has_tried_less:
             return
@@ -164,7 +168,10 @@ class PlanSearch:
             left_s -= self._try_tighter(problem, left_s)
 
     def _try_tighter(self, problem: Problem, work_s: float) -> float:
-        """Look for something quicker in a tighter task with so much work (s) if there may be any; return the work."""
+        """Look for a quicker plan in a tightened task with limited work (s); return the work done (s).
+
+        The search is left out where no quicker plan can exist.
+        """
         if work_s <= 0.0 or not self._is_in_doubt:
             return 0.0
         budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
@@ -178,11 +185,11 @@ class PlanSearch:
         return budget.spent_s - begun_s
 
     def trial(self, folds: int, *, may_collide: bool) -> Trial:
-        """Look whether some folds (a bit mask), and all they wait for, can be done; the quickest way matters not.
+        """Try whether some folds, and all folds that they depend on, can be done, not necessarily in the quickest way.
 
         Args:
-            folds: the folds.
-            may_collide: whether that is in reach is enough: joint paths are not looked for.
+            folds: the folds, as a bit mask.
+            may_collide: whether it is enough that the places are in reach; joint paths are then not looked for.
         """
         self._wanted, self._greedy_at_s = folds, math.inf
         self._is_trial = True
@@ -198,7 +205,7 @@ class PlanSearch:
         return Trial(self._context, states, bool(self._validator.rejected), self._measured)
 
     def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
-        """The quickest path that is real, and what it is then."""
+        """Return the search's result for the quickest validated path, and the acts of that path."""
         bound, is_over = self._bound(start), self._is_over
         question = (start, self._edges.leaving, self._is_goal, bound, self._max_expanded, is_over)
         while True:
@@ -225,19 +232,19 @@ class PlanSearch:
                 self._try_with_less_room()
 
     def _keep(self, acts: tuple[Act, ...]) -> None:
-        """Keep what can be done if it takes less than what is kept."""
+        """Keep acts that can be performed if they are quicker than those kept."""
         if acts and (not self._found or duration_s(acts) < duration_s(self._found)):
             self._found = acts
 
     def _some_path(self, start: State) -> SearchResult[State, Step]:
-        """A path that may not be the quickest, nor real."""
+        """Return a path that need be neither the quickest nor validated."""
         self._edges.begin()
         bound = self._bound(start)
         question = (start, self._edges.leaving, self._is_goal, lambda state: WEIGHT * bound(state))
         return a_star(*question, self._max_expanded, self._is_over, is_consistent=False)
 
     def _bound(self, start: State) -> Heuristic:
-        """The lower bound asked for; it knows of driving where there are too many orders of folds to search."""
+        """Return the requested lower bound; it includes driving where the folds have too many orders to search."""
         if self._is_trial:
             return arm_time(self._context, self._wanted)
         if self._heuristic == "arm_time" and self._context.sequence.dag.is_loose:
@@ -248,23 +255,23 @@ class PlanSearch:
         return state.done & self._wanted == self._wanted
 
     def _note_bound(self, result: SearchResult[State, Step]) -> None:
-        """Note what any plan takes at least: what the search says as long as no step was rejected or raised.
+        """Note the search's lower bound on any plan, as long as no step was rejected or made more expensive.
 
-        Later the search knows of steps only that nothing better was found for them, which is no proof.
+        After that, a raised cost only says that the tries found nothing better, which is no proof.
         """
         if not self._validator.has_doubts and self._bound_s is None:
             self._bound_s = min(result.bound, self._limit_s + TIME_S)
 
     @property
     def _limit_s(self) -> float:
-        """What takes as long is no quicker than what is known (s)."""
+        """The cost from which on a plan is no quicker than the known one (s)."""
         known_s = [math.inf] if self._known is None else [self._known.plan.cost_s or 0.0]
         if self._found:
             known_s.append(duration_s(self._found))
         return min(known_s) - TIME_S
 
     def _unrestful(self, unrest: Unrest) -> Trial:
-        """What became of a problem whose cloth does not stay where it lies at the start."""
+        """Return the trial of a problem whose cloth does not stay where it lies at the start."""
         explainer = self._explainer
         return Trial(
             self._context,
@@ -274,12 +281,12 @@ class PlanSearch:
         )
 
     def _reasons(self) -> tuple[Reason, ...]:
-        """Why there is no plan, each cause tried: with it removed there is one, or at least its fold can be done."""
+        """Return why there is no plan, with each cause tried: removing it gives a plan, or at least allows its fold."""
         found = Trial(self._context, None, bool(self._validator.rejected), self._measured)
         return self._tried(found)
 
     def _tried(self, met: Trial) -> tuple[Reason, ...]:
-        """Return the reasons among what was met, each tried; what was met is told before, since to try takes long."""
+        """Return those reasons met that proved true when tried; report them untried first, since trying takes long."""
         if self._explainer is None:
             return ()
         why = met.measured()
@@ -289,7 +296,7 @@ class PlanSearch:
         return self._explainer.tried(self._problem, known, self._try_folds, self._have_tried_enough)
 
     def _try_folds(self, problem: Problem, may_collide: bool, folds: int) -> Trial:
-        """Look whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
+        """Try whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
         budget = self._budget.part(0.0)
         search = PlanSearch(problem, self._heuristic, budget, TRIAL_EXPANDED_MAX, explainer=self._explainer)
         begun_s = budget.spent_s
@@ -310,14 +317,14 @@ class PlanSearch:
         return self._explainer.met(self._context, self._blocked(), reached, self._blocking)
 
     def _blocked(self) -> Iterator[tuple[Step, BlockingContact | None]]:
-        """Yield steps that the arms could not follow, and what was in their way."""
+        """Yield steps that the arms could not follow, each with its blocking contact."""
         for number, run in enumerate(self._some_rejected()):
             if number and self._budget.is_late:
                 break
             yield run[-1], self._problem.maker.contact(run)
 
     def _some_rejected(self) -> list[tuple[Step, ...]]:
-        """A few runs that could not be made real, of each task the first ones: the quickest ways."""
+        """Return a few rejected transfers, the first ones of each task, which are its quickest."""
         by_task: dict[tuple[object, ...], list[tuple[Step, ...]]] = {}
         for run in self._validator.rejected:
             by_task.setdefault(run[-1].task, []).append(run)
@@ -325,14 +332,14 @@ class PlanSearch:
         return list(islice(in_turns, _COLLISIONS_MAX))
 
     def _possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        """Of the steps that leave a state those that may be real, each with the least that it costs (s)."""
+        """Yield the steps leaving a state that may succeed, each with the least known cost (s)."""
         for step, cost_s in self._validator.possible(state, steps):
             self._achieved |= step.after.done
             self._reached.add(step.after)
             yield step, cost_s
 
     def _is_wanted(self, held: State) -> bool:
-        """Whether a grasp that the search came to is to be had with the base elsewhere too."""
+        """Return whether the search should also consider a grasp that it met with the base elsewhere."""
         self._reached.add(held)
         return self._validator.is_in_doubt(held)
 
@@ -349,7 +356,7 @@ class PlanSearch:
         return bool(self._blocking) or self._is_out_of_budget()
 
     def _fall_back(self) -> None:
-        """Look for some plan; from then on that is known."""
+        """Look for some plan, and continue with it as the known plan."""
         self._known = quickly_planned(self._budget.watch(self._problem.anew()), self._like, self._is_out_of_budget)
         if self._known is None:
             return
@@ -361,7 +368,7 @@ class PlanSearch:
         return self._budget.is_over
 
     def _next_unseen(self) -> list[int]:
-        """The folds that no state has done yet though nothing is left that they wait for."""
+        """Return the folds that no state has done yet although no fold that they depend on is left."""
         available = self._context.sequence.dag.available(self._achieved)
         return [fold for fold in available if self._wanted & ~self._achieved & 1 << fold]
 

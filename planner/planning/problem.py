@@ -1,4 +1,4 @@
-"""One planning problem: a task, made ready for planning."""
+"""A planning problem: a task made ready for planning."""
 
 from dataclasses import dataclass, replace
 
@@ -24,13 +24,15 @@ from planner.task.world_state import WorldState
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """What is to be planned.
+    """A task with the data and the robot that planning needs.
+
+    A problem is not shared between threads.
 
     Attributes:
-        task: what was asked.
+        task: the task.
         context: the garment's folds, the scene, the robot's reach, where the article lies.
         robot: the robot.
-        maker: what finds its joint paths.
+        maker: plans the robot's transfers.
     """
 
     task: Task
@@ -45,14 +47,14 @@ class Problem:
 
     @property
     def unrest(self) -> Unrest | None:
-        """Why the cloth would not stay where it lies at the start; None if it does."""
+        """Why the cloth would not stay where it lies at the start; None if it stays."""
         return self.context.unrest(self.start.done, self.start.offset)
 
     def state_of(self, world: WorldState) -> State:
-        """Return a state of the world as the search knows it.
+        """Return a state of the world as the search represents it.
 
         Raises:
-            RequestError: the base stands at no station, or an arm has a name that the robot has not.
+            RequestError: the base stands at no station, or the robot has no arm of that name.
         """
         names = [name for name, _ in self.context.scene.stations]
         station = world.base.station or ""
@@ -69,7 +71,7 @@ class Problem:
         )
 
     def is_goal(self, state: State) -> bool:
-        """Whether all folds are done."""
+        """Return whether all folds are done."""
         return state.done == (1 << len(self.context.sequence.folds)) - 1
 
     def varied(
@@ -81,9 +83,9 @@ class Problem:
         behind_max_m: float | None = None,
         grips_apart_m: float | None = None,
     ) -> "Problem":
-        """The same with some of it changed, for the same robot, what is known of its reach shared; raises as `of` does.
+        """Return this problem with some values changed, for the same robot; raises as `of` does.
 
-        So both are for one thread.
+        The two problems share what is known of the robot's reach, so one thread must use both.
         """
         task, context, machine = self.task, self.context, self.robot
         comfort = context.reach.comfort_m if comfort_m is None else comfort_m
@@ -100,20 +102,20 @@ class Problem:
 
     @property
     def may_let_go(self) -> bool:
-        """Whether something is held at the start that no red fold needs: to let go of it is free."""
+        """Whether the hands may let go at no cost: something is held at the start that no red fold needs."""
         return bool(self.start.held) and self.context.sequence.dag.last_of_begun_chain(self.start.done) is None
 
     def let_go(self) -> "Problem":
-        """The same with free hands at the start; nothing is worked out yet."""
+        """Return this problem with free hands at the start and nothing computed yet."""
         fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     def with_long_arms(self, more_hands: int = 0) -> "Problem":
-        """The same for a robot whose hands reach every place, and some more; joint paths are not to be asked for."""
+        """Return this problem for a robot with unlimited reach and more hands; it has no joint paths."""
         return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
 
     def anew(self) -> "Problem":
-        """The same with nothing worked out yet, for somebody else's use: a problem is not shared between threads."""
+        """Return this problem with nothing computed yet, for use in another thread."""
         return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
 
     def _with_reach(self, reach: Reach) -> "Problem":
@@ -127,8 +129,8 @@ class Problem:
         """Make a task ready for planning.
 
         Raises:
-            FoldError: a fold is not legal on the cloth as it is then.
-            RequestError: there is no such robot, or the start is none that the folds allow.
+            FoldError: a fold is not legal on the cloth as the folds before it leave it.
+            RequestError: the robot is unknown, or the folds do not allow the start.
         """
         machine, sequence = load_robot(task.robot), replayed(task.garment)
         scene, start = _searched(task, sequence, machine)
@@ -138,7 +140,7 @@ class Problem:
 
 
 def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[Scene, State]:
-    """Return the scene and the start as the search knows them: a base at no station has a station without a name."""
+    """Return the scene and the start state for the search; a base at no station gets a station without a name."""
     start, scene = task.start, task.scene
     _require_folds_in_order(start, sequence)
     station, back_off = _stand(task)
@@ -150,12 +152,12 @@ def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[S
 
 
 def _without_nameless(scene: Scene) -> Scene:
-    """Return a scene without the station that stands for a base at none."""
+    """Return a scene without the nameless station, which stands for a base at none."""
     return replace(scene, stations=tuple((name, pose) for name, pose in scene.stations if name))
 
 
 def _stand(task: Task) -> tuple[int | None, int]:
-    """Return the base's station and back-off on its grid; no station where it stands elsewhere."""
+    """Return the base's station and standoff on its grid; the station is None where the base stands elsewhere."""
     base, scene = task.start.base, task.scene
     back_off = nearest_whole(base.back_off_m * BACK_OFFS_PER_M)
     for number, (name, pose) in enumerate(scene.stations):
@@ -178,7 +180,7 @@ def _held(start: WorldState, machine: RobotPort) -> tuple[Held, ...]:
 
 
 def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
-    """Raise `RequestError` unless the folds done could be done in this order."""
+    """Raise `RequestError` unless the dependencies allow the folds done in this order."""
     done = 0
     for number, fold in enumerate(start.folds_done):
         if fold not in sequence.dag.available(done):
@@ -187,6 +189,6 @@ def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
 
 
 def forget_garments() -> None:
-    """Forget all cloth that is remembered, folded or not: whoever measures wants it worked out anew."""
+    """Clear the caches of folded and unfolded cloth, so that benchmarks measure their computation."""
     for remembered in (replayed, fold_cloth, spread_out):
         remembered.cache_clear()

@@ -1,4 +1,4 @@
-"""A plan found soon: one for a garment that differs a little, adapted as far as it goes, and the rest at one go."""
+"""Find a plan soon: adapt the plan for a similar garment as far as possible, and complete it with a greedy search."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -14,12 +14,15 @@ from planner.primitives.state import State
 
 
 def quickly_planned(problem: Problem, like: Sequence[FoundPlan], is_over: Callable[[], bool]) -> FoundPlan | None:
-    """The first of some solved plans that still does, or the longest beginning of one and the rest found greedily.
+    """Return a plan adapted from similar ones, completed greedily if need be; None if none was found.
+
+    The first plan whose acts can all be repeated is used as it is. Otherwise the plan of which most folds can be
+    repeated is the beginning, and a greedy search finds the rest.
 
     Args:
-        problem: what is to be planned.
-        like: plans for problems like it.
-        is_over: asked again and again; true means that there is no time.
+        problem: the problem to plan.
+        like: plans for similar problems.
+        is_over: polled repeatedly; true means that there is no time left.
     """
     context, effort = problem.context, Effort()
     acts = _acts(problem, like, effort, is_over) if problem.unrest is None else ()
@@ -29,7 +32,7 @@ def quickly_planned(problem: Problem, like: Sequence[FoundPlan], is_over: Callab
 
 
 def _acts(problem: Problem, like: Sequence[FoundPlan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:
-    """All that is to be done; nothing where that was not found."""
+    """Return all acts to the goal, or none where they were not found."""
     begun: tuple[Act, ...] = ()
     for plan in like:
         found = () if is_over() else adapted(plan, problem, effort)

@@ -1,14 +1,14 @@
-"""Each fold alone: can it be done at all, wherever the article lies and the robot stands?
+"""Single-fold relaxation: decide whether a fold can be done at all, wherever the article lies and the robot stands.
 
-To prove that no plan exists A* must exhaust its states, and there are many: every placement that drags can bring
-about, every back-off, every hold. But mostly one fold is to blame, and it can be seen by itself. Relax everything
-else: let the article lie wherever drags could carry it, let the robot stand at any station and back off at will, let it
-hold whatever a drag could have left it with. If even then the fold cannot be done, no plan exists.
+To prove that no plan exists, A* must exhaust its states, and there are many: every placement that drags can bring
+about, every standoff, every hold. But usually one fold is to blame, and it can be checked by itself with everything
+else relaxed: the article lies wherever drags could carry it, the robot stands at any station and standoff, and it holds
+whatever a drag could have left it with. If the fold cannot be done even then, no plan exists.
 
-Most of those cases differ in nothing that matters. A drag or a back-off along the base's x axis only shifts a path
-along that axis; so for its apex, end and start, asked one by one, all cases with the same lateral place and height are
-one question: from anywhere along that line? The few that survive are asked in full. The relaxation drops constraints
-and adds none, so it never denies what can be done.
+Most of these cases do not differ in anything that matters. A drag or a standoff along the base's x axis only shifts a
+path along that axis. So all cases with the same lateral place and height share one query for each of the path's apex,
+end and start: can the point be reached from anywhere along that line? The few cases that survive are checked in full.
+The relaxation drops constraints and adds none, so it never denies what can be done.
 """
 
 from collections.abc import Callable
@@ -29,23 +29,23 @@ from planner.primitives.fold_way import attempt_of, can_follow
 from planner.primitives.state import State
 
 _SETS_MAX = 64
-"""Folds that may come after more sets of other folds than this are left to the search."""
+"""Sets of folds that may precede a fold; a fold with more sets is left to the search."""
 
 _OFFSETS_MAX = 2000
-"""Where drags can lead to more placements than this, the search decides."""
+"""Placements that drags can lead to; where there are more, the search decides."""
 
 _BITS = 32
 
 _GUESSES, _GUESSED_DRAGS = 2, 6
-"""How many cases, and drags in each, are tried before all is gone through."""
+"""Cases, and drags in each, that are tried first, before all cases are checked."""
 
 _EXTREMES = (1.0, 2.0, 0.0)
-"""The moments of a fold that fail first: the apex, the end, the start."""
+"""The sweeps of a fold's path that fail first: the apex, the end, the start."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """A tool point of a fold's path, wherever the article lies: all on which it depends whether it is in reach."""
+    """The key of a reach query: a tool point of a fold's path, with all that decides whether it is in reach."""
 
     done: int
     is_held_out: bool
@@ -56,10 +56,10 @@ class _Asked:
 
 
 class SingleFold:
-    """Asks for each fold of a planning problem, begun at a station, whether it could be done alone."""
+    """Decides for each fold of a planning problem whether it could be done alone."""
 
     def __init__(self, context: Context, station: int, should_stop: Callable[[], bool]) -> None:
-        """Once it should stop, every fold may be possible."""
+        """Prepare the check of folds begun at a station; after `should_stop` returns true, folds count as possible."""
         self._should_stop = should_stop
         self._is_stopped = False
         self._context = context
@@ -70,7 +70,7 @@ class SingleFold:
         self._answers: dict[_Asked, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
-        """Whether a fold can never be done; if so, what stopped it is left as its only obstacles."""
+        """Return whether a fold can never be done; if so, leave what stopped it as its only obstacles."""
         context = self._context
         sets = context.sequence.dag.sets_before(fold, _SETS_MAX)
         if sets is None or len(self._offsets) > _OFFSETS_MAX or context.sequence.folds[fold].is_red:
@@ -92,7 +92,7 @@ class SingleFold:
         return is_impossible
 
     def _has_to_stop(self) -> bool:
-        """Whether there is no more time; then what was not looked at may be possible."""
+        """Return whether the time is up; what was not checked by then counts as possible."""
         self._is_stopped = self._is_stopped or self._should_stop()
         return self._is_stopped
 
@@ -104,7 +104,10 @@ class SingleFold:
         )
 
     def _is_possible_nearby(self, case: Case, fold: int) -> bool:
-        """A quick guess: whether a fold can be done from the first station where drags from there may bring it."""
+        """Return whether a fold can be done from the station of the start where a few drags may bring the article.
+
+        A quick check that mostly finds the fold possible.
+        """
         steps = min(longest_drag(self._context), _GUESSED_DRAGS)
         places = [dragged(self._context, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
         station = self._station if case.station is None else case.station
@@ -122,7 +125,7 @@ class SingleFold:
         return np.asarray(self._offsets[self._context.table_in_article((0.0, 0.0)).region.touches(lines)])
 
     def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
-        """Remember the place at which a line that is never on the table is nearest to it."""
+        """Note the place at which a fold line that is never on the table is nearest to it."""
         context = self._context
         line = context.sequence.folds[fold].line
         offsets = [(float(x), float(y)) for x, y in self._offsets]
@@ -146,7 +149,7 @@ class SingleFold:
         return False
 
     def _stages(self, case: Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
-        """How many of apex, end and start can be reached, one after the other, at each place."""
+        """Return how many of apex, end and start can be reached, one after the other, at each place."""
         unrolled = trial.path.swept(trial.points, np.array(_EXTREMES)[:, None])
         stages = np.zeros(len(self._places), dtype=np.int64)
         alive = [np.ones((len(a), len(self._places)), dtype=bool) for a in trial.approaches]
@@ -173,9 +176,9 @@ class SingleFold:
         approaches: NDArray[np.int64],
         places: NDArray[np.int64],
     ) -> BoolArray:
-        """In which approaches one tool point of the unrolled plane can be reached at which places, shape (k, n).
+        """Return with which approaches one unrolled tool point can be reached at which places, shape (k, n).
 
-        Many trials share one of their points, so answers are kept.
+        Many trials share a point, so the answers are kept.
         """
         if asked not in self._answers:
             shape = (2, len(self._context.reach.approaches), len(self._places))
@@ -191,7 +194,10 @@ class SingleFold:
         return np.asarray(is_found[np.ix_(approaches, places)])
 
     def _from_anywhere(self, station: int, arm: int, tools: FloatArray, approaches: NDArray[np.int64]) -> BoolArray:
-        """In which approaches points are in comfort from somewhere along the base's x axis, shape (k, n)."""
+        """Return with which approaches points can be reached from somewhere along the base's x axis, shape (k, n).
+
+        Points must be within the comfort radius.
+        """
         context = self._context
         points = context.in_base(station, tools)
         steps = np.floor(points[:, 0] / BACK_OFF_STEP_M + LENGTH_M)
@@ -208,7 +214,7 @@ class SingleFold:
         return found[:, group.ravel()]
 
     def _can_follow(self, state: State, fold: int, trial: FoldTrial) -> bool:
-        """Whether nothing speaks against a fold in a state and its whole path can be followed."""
+        """Return whether a fold has no obstacle in a state and its whole path can be followed."""
         context = self._context
         obstacle = geometric_obstacle(context, state, fold)
         if obstacle is not None:
@@ -222,9 +228,9 @@ def _key(point: FloatArray) -> tuple[int, ...]:
 
 
 def drag_offsets(context: Context) -> FloatArray:
-    """Where drags can carry the article as long as a part of it can lie on the table, shape (n, 2), m.
+    """Return the offsets to which drags can carry the article with a part of it on the table, shape (n, 2), m.
 
-    The count stops when there are more than the relaxation looks at.
+    The search for offsets stops once there are more than the relaxation checks.
     """
     table, size = context.scene.table, context.sequence.garment.pattern.bounds
     corners = context.placement.to_outer(np.array([(size[i], size[j]) for i in (0, 2) for j in (1, 3)]))

@@ -1,4 +1,4 @@
-"""With what in the hands a fold may be begun, wherever drags have carried the article."""
+"""Enumerate what the hands may hold when a fold begins, wherever drags have carried the article."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from planner.primitives.state import Held, State
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A set of folds done, and what is held for the next (nothing: free hands).
+    """A set of folds done, and what is held for the next fold (empty: free hands).
 
     Attributes:
         done: the folds done, as a bit mask.
         held: what is held.
-        station: where the drag was made that left it held, and hands that hold on stay; None: at any station.
+        station: the station of the drag that left it held, where hands that hold on stay; None for any station.
     """
 
     done: int
@@ -30,7 +30,7 @@ class Case:
     station: int | None = None
 
     def state(self, station: int, offset: FloatArray) -> State:
-        """The same with the robot at a station and the article dragged so far (m)."""
+        """Return this case as a state with the robot at a station and the article dragged by an offset (m)."""
         place = (float(offset[0]), float(offset[1]))
         return State(self.done, place, station, 0, self.held, dragged=1 if self.held else 0)
 
@@ -39,14 +39,14 @@ class Cases:
     """Finds the cases of one planning problem."""
 
     def __init__(self, context: Context, station: int, offsets: FloatArray, should_stop: Callable[[], bool]) -> None:
-        """Begun at a station, drags can carry the article by such offsets, shape (n, 2), m; it may be told to stop."""
+        """Prepare cases that begin at a station, with the offsets that drags can lead to, shape (n, 2), m."""
         self._context = context
         self._station = station
         self._offsets = offsets
         self._should_stop = should_stop
 
     def of(self, done: int, fold: int) -> Iterator[Case]:
-        """Free hands, then whatever a drag that starts anywhere may leave held."""
+        """Yield free hands, then whatever a drag that starts anywhere may leave held."""
         obstacle = grips_obstacle(self._context, State(done, (0.0, 0.0), self._station, 0), fold)
         if obstacle is None:
             yield Case(done)
@@ -62,10 +62,10 @@ class Cases:
                         yield from (Case(done, held, station) for held in self._serving(fold, cover))
 
     def _offsets_that_matter(self, done: int, fold: int) -> Iterator[Point2]:
-        """The offsets from which a drag may leave held what serves a fold and no other offset does.
+        """Yield the offsets from which a drag may leave held what serves a fold, without equivalent ones.
 
-        While all of the article lies on the table it does not matter where. Where a part hangs, only the edge can be
-        gripped, so what must be held in the fold has to be within a grip's radius of the table.
+        All offsets at which the whole article lies on the table are equivalent. Where a part hangs, only the edge can
+        be gripped, so what must be held in the fold has to be within a grip's radius of the table.
         """
         context = self._context
         silhouette = context.sequence.cloth(done).silhouette
@@ -80,7 +80,7 @@ class Cases:
             yield offset
 
     def _covers(self, done: int, offset: Point2, station: int) -> tuple[Cover, ...]:
-        """The grips with which the article may be dragged."""
+        """Return the grips with which the article may be dragged."""
         context = self._context
         towards = towards_robot(context, station)
         if hangs_ahead(context, done, offset, towards):
@@ -88,7 +88,7 @@ class Cases:
         return tuple(cover for cover in drag_covers(context, done, offset, towards).covers if cover)
 
     def _serving(self, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
-        """What arms may hold with some grips, if they hold what a fold needs."""
+        """Yield what the arms may hold with some grips, if these hold what a fold needs."""
         context = self._context
         held = tuple(Held(arm, point) for arm, point in enumerate(cover))
         if held_covers(context, fold, held):
@@ -96,7 +96,7 @@ class Cases:
                 yield tuple(Held(arm, point) for arm, point in zip(arms, cover, strict=True))
 
     def _is_near(self, fold: int, offset: Point2) -> bool:
-        """Whether all that must be held in a fold lies within a grip's radius of the table."""
+        """Return whether all that must be held in a fold lies within a grip's radius of the table."""
         context = self._context
         arms = len(context.reach.arm_names)
         vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)

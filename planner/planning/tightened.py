@@ -1,8 +1,8 @@
-"""The same task with less room: each plan for it is a plan for the task itself.
+"""Tighten a task: every plan for the tightened task is also a plan for the task itself.
 
 A search tries the first few ways to perform a step. With more room there are more ways, and the first few may all be
 ways that the arms can hardly follow, so a task that allows more could get a slower plan, or none. Where a plan is not
-proven, tasks that allow less are searched as well.
+proven, planning therefore searches tightened tasks as well.
 """
 
 from collections.abc import Iterator
@@ -11,19 +11,19 @@ from dataclasses import replace
 from planner.planning.problem import Problem
 
 _COMFORTS_M = (0.01, 0.02, 0.03)
-"""Comfort radii that are asked for where less is (m)."""
+"""Larger comfort radii to try (m)."""
 
 _CONES_RAD = (0.0, 0.5, 1.0)
-"""Approach cones that are asked for where they may be wider (rad)."""
+"""Narrower approach cones to try (rad)."""
 
 
 def with_more_comfort(problem: Problem) -> Iterator[Problem]:
-    """Yield a planning problem with more comfort asked for, the least first."""
+    """Yield the problem with larger comfort radii, the smallest first."""
     return (problem.varied(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)
 
 
 def with_narrower_cones(problem: Problem) -> Iterator[Problem]:
-    """Yield a planning problem with narrower approach cones, the narrowest first: they are the quickest to search."""
+    """Yield the problem with narrower approach cones, the narrowest first, since it is the quickest to search."""
     scene = problem.context.scene
     narrower = (cone_rad for cone_rad in _CONES_RAD if cone_rad < scene.approach_cone_rad)
     return (problem.varied(scene=replace(scene, approach_cone_rad=cone_rad)) for cone_rad in narrower)

@@ -1,4 +1,4 @@
-"""What became of a planning problem when it was tried, and who says why there is no plan."""
+"""The outcome of trying a planning problem, and the interface of what explains why there is no plan."""
 
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from planner.task.reason import Reason
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trial:
-    """What became of a problem when it was tried.
+    """The outcome of trying a planning problem.
 
     Attributes:
-        context: the problem's work, with what was met.
-        states: the states on the way that was found; None: none was.
-        has_collided: whether there were ways that are in reach, but on which the arms touch something.
-        measured: works out what stood in the way, not tried yet.
+        context: the planning context, with the obstacles met.
+        states: the states on the path found; None if there is none.
+        has_collided: whether some ways are in reach, but the arms touch something on them.
+        measured: computes the reasons that the search met, not tried yet.
     """
 
     context: Context
@@ -31,12 +31,12 @@ class Trial:
 
     @property
     def is_possible(self) -> bool:
-        """Whether a way was found."""
+        """Whether a path was found."""
         return self.states is not None
 
     @property
     def needed_friction(self) -> float:
-        """The least friction coefficient with which the way that was found would do as well."""
+        """The least friction coefficient with which the path found would still be possible."""
         context = self.context
         rests = {(state.done, state.place): state for state in self.states or ()}
         found = (
@@ -46,11 +46,13 @@ class Trial:
 
 
 TryFolds: TypeAlias = Callable[[Problem, bool, int], Trial]
-"""Asked whether some folds of a problem, a bit mask, can be done, and whether arms may go through anything."""
+"""Tries whether some folds of a problem, a bit mask, can be done, and whether arms may pass through anything.
+
+Its arguments are the problem, whether the arms may collide, and the folds."""
 
 
 class Explainer(Protocol):
-    """Says why there is no plan: `planner.explain` does."""
+    """Explains why there is no plan; `planner.explain` implements it."""
 
     def at_start(self, context: Context, unrest: Unrest) -> Reason:
         """Return the reason why cloth does not stay as it lies at the start."""
@@ -66,23 +68,23 @@ class Explainer(Protocol):
         """Return the reasons that a search met, not tried yet.
 
         Args:
-            context: the problem, with what was met on the way.
-            blocked: steps whose places are in reach but that the arms cannot follow, and what is in their way.
-            reached: the situations that the search came to.
-            impossible: folds that cannot be done even alone; then the search may have ended early. Empty: it has
-                exhausted all states.
+            context: the planning context, with the obstacles met.
+            blocked: steps whose places are in reach but that the arms cannot follow, with their blocking contacts.
+            reached: the situations that the search reached.
+            impossible: folds that cannot be done even alone, for which the search may have ended early; empty if the
+                search has exhausted all states.
         """
         ...
 
     def tried(
         self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
     ) -> tuple[Reason, ...]:
-        """Return the reasons among those that were met, each tried: with it removed there is a plan, or its fold.
+        """Return those reasons that prove true when tried: removing the cause gives a plan, or allows its fold.
 
         Args:
-            problem: what was to be planned.
-            met: what was met.
+            problem: the problem to plan.
+            met: the trial of the problem, with the reasons met.
             try_folds: plans with causes removed.
-            is_enough: asked before each trial; true ends them.
+            is_enough: polled before each trial; true ends them.
         """
         ...

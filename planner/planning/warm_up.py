@@ -1,4 +1,4 @@
-"""Compile all that is compiled, or load it from the cache, so that no user's search is charged for it."""
+"""Compile the numba kernels, or load them from the cache, so that no user's search pays for it."""
 
 import gc
 import math
@@ -31,25 +31,26 @@ _LEFT_M, _RIGHT_M = (0.6, 0.2, 0.9), (0.6, -0.2, 0.9)
 
 
 class _InTheWay:
-    """Arms that never pass each other, though there seems to be room at every pose."""
+    """Arms that never pass each other, though each pose seems to leave room."""
 
     def arms_apart(self, joints: FloatArray) -> BoolArray:
-        """Nowhere."""
+        """Return that the arms are apart at no joint values."""
         return np.zeros(len(joints), dtype=bool)
 
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """All."""
+        """Return that all pairs of postures are apart."""
         return np.ones((len(left), len(right)), dtype=bool)
 
 
 @cache
 def compile_kernels() -> None:
-    """Compile what is compiled, or load it from the cache, once a process; planning sees to it too.
+    """Compile the kernels, or load them from the cache, once per process; planning calls it too.
 
-    A napkin is planned and played, it is asked why places are out of reach, and arms are led past each other: that
-    touches all. What is there by then, modules above all, the garbage collector does not look at any more.
+    A napkin is planned and played, the reach is asked why places are out of reach, and the arms are led past each
+    other: together these use every kernel. Objects that exist by then, above all modules, are hidden from the garbage
+    collector.
     """
-    gc.freeze()  # modules are no garbage, and to look through them stops everything for some hundredths of a second
+    gc.freeze()  # modules are no garbage, and scanning them stops the process for some hundredths of a second
     problem = Problem.of(Task.of(Garment.from_dict(_NAPKIN), comfort_radius_m=0.0))
     endless = Budget.of(math.inf, math.inf)
     found = PlanSearch(problem, "arm_time", endless, problem.task.limits.max_expanded).plan()
@@ -65,7 +66,7 @@ def compile_kernels() -> None:
     robot, torso_m = problem.robot, problem.context.scene.torso_m
     left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
     robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
-    gc.freeze()  # nor is what has been compiled
+    gc.freeze()  # compiled code is no garbage either
 
 
 def _staying(place: Point3) -> ToolPath:
