@@ -1,8 +1,8 @@
-"""The base's legs while the hands follow a path: where it stands at each waypoint, least travel in all.
+"""Plan the base's legs while the hands follow a path, with the least travel in all.
 
-At every waypoint the path can be reached from some back-offs, given as a bit mask. The base may drive between
-waypoints, the hands resting, if every back-off on the way is in the mask. This is a shortest path in a
-strip of (waypoints x back-offs); the strips are many and small, so the sweep over them is compiled.
+At every waypoint the hands can reach the path from some standoffs, given as a bit mask. The base may drive at a
+waypoint, with the hands at rest, if the mask contains every standoff on the way. This is a shortest path in a strip of
+(waypoints x standoffs). The strips are many and small, so the sweep over them is compiled.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from planner.geometry.driving import IMPOSSIBLE
 
 @njit(cache=True)
 def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
-    """Drive to and fro within the mask at one waypoint."""
+    """Relax the steps by driving to and fro within the mask at one waypoint."""
     for j in range(count):
         if not (mask >> j) & 1:
             steps[j] = IMPOSSIBLE
@@ -27,15 +27,15 @@ def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
 
 @njit(cache=True)
 def travel(strips: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
-    """The least travel along a path, for each of several strips and each pair of back-offs.
+    """Return the least travel along a path, for each of several strips and each pair of standoffs.
 
     Args:
-        strips: bit masks of back-offs, shape (strips, waypoints).
-        count: the number of back-offs.
+        strips: bit masks of standoffs, shape (strips, waypoints).
+        count: the number of standoffs.
 
     Returns:
-        From the back-off at the first waypoint to that at the last the number of steps driven, `IMPOSSIBLE` if there
-        is no way; shape (strips, count, count).
+        The steps driven from the standoff at the first waypoint to that at the last, `IMPOSSIBLE` if there is no way;
+            shape (strips, count, count).
     """
     steps = np.full((len(strips), count, count), IMPOSSIBLE, dtype=np.int64)
     for number in range(len(strips)):
@@ -48,7 +48,11 @@ def travel(strips: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
 
 
 def unbeaten(steps: NDArray[np.int64]) -> list[int]:
-    """The end back-offs that cannot be had in as few steps by driving on from another end; steps of shape (count,)."""
+    """Return the final standoffs that driving on from another one does not reach in as few steps.
+
+    Args:
+        steps: the steps to each final standoff, `IMPOSSIBLE` where it cannot be reached, shape (count,).
+    """
     by_cost = sorted(np.flatnonzero(steps < IMPOSSIBLE), key=lambda end: (steps[end], end))
     kept: list[int] = []
     for end in by_cost:
@@ -58,16 +62,16 @@ def unbeaten(steps: NDArray[np.int64]) -> list[int]:
 
 
 def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[int, ...]:
-    """The back-off at each waypoint on a way of least travel, driving as late as can be.
+    """Return the standoff at each waypoint on a way of least travel that drives as late as possible.
 
     Args:
-        strip: bit masks of back-offs, shape (waypoints,).
-        start: back-off at the first waypoint, before any driving there.
-        end: back-off after the last.
-        count: the number of back-offs.
+        strip: bit masks of standoffs, shape (waypoints,).
+        start: the standoff at the first waypoint, before any driving there.
+        end: the standoff after the last waypoint.
+        count: the number of standoffs.
 
     Returns:
-        For each waypoint where the base stands when the hands leave it.
+        For each waypoint, the standoff of the base when the hands leave it.
     """
     remaining = _remaining(strip, end, count)
     stands: list[int] = []
@@ -80,7 +84,7 @@ def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[i
 
 
 def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[NDArray[np.int64]]:
-    """For each waypoint the steps from each back-off, before driving there, to the end."""
+    """Return for each waypoint the steps to the end from each standoff, counted before driving there."""
     steps = np.full(count, IMPOSSIBLE, dtype=np.int64)
     steps[end] = 0
     table: list[NDArray[np.int64]] = []
@@ -91,14 +95,14 @@ def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[NDArray[
 
 
 def _next_stand(mask: int, remaining: list[NDArray[np.int64]], waypoint: int, at: int) -> int:
-    """Where to stand when leaving a waypoint: the nearest place from which the way stays shortest."""
+    """Return the nearest standoff at which to leave a waypoint such that the way stays shortest."""
     total, after = remaining[waypoint][at], remaining[waypoint + 1]
     ways = [j for j in _within_reach(mask, at) if after[j] + abs(j - at) == total]
     return min(ways, key=lambda j: (abs(j - at), j))
 
 
 def _within_reach(mask: int, at: int) -> list[int]:
-    """The back-offs to which the base can drive from one without leaving the mask."""
+    """Return the standoffs to which the base can drive from `at` without leaving the mask."""
     low = high = at
     while low > 0 and mask >> (low - 1) & 1:
         low -= 1

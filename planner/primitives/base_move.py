@@ -1,7 +1,7 @@
-"""The base's way from one station to another, round the table (paper, section 6, Move).
+"""Drive the base from one station to another, round the table (paper, section 6, Move).
 
-The base backs out until the circle round it is clear of the table, turns in place, drives the shortest polyline
-that stays outside the table grown by that circle (with square corners), turning at each bend, turns to the
+The base backs out until the circle round it is clear of the table and turns in place. It then drives the shortest
+polyline outside the table grown by that circle (with square corners), turning at each bend. Finally it turns to the
 station's heading and drives in.
 """
 
@@ -27,17 +27,17 @@ from planner.task.phase import ClothMotion, Hand, Phase
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """A way of the base.
+    """A route of the base.
 
     Attributes:
-        waypoints: base poses from start to end, table frame; between two the base either drives straight
-            on or turns in place.
+        waypoints: base poses from start to end, table frame; between two waypoints the base either drives straight or
+            turns in place.
     """
 
     waypoints: tuple[Pose2, ...]
 
     def durations_s(self, speed_m_s: float, turn_rad_s: float) -> tuple[float, ...]:
-        """The time for each leg (s)."""
+        """Return the time that each leg takes (s)."""
         legs = zip(self.waypoints[:-1], self.waypoints[1:], strict=True)
         return tuple(
             math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) / speed_m_s
@@ -48,11 +48,11 @@ class Route:
 
 @dataclass(frozen=True)
 class MoveStep:
-    """One move as it is performed.
+    """A move as a step of a plan.
 
     Attributes:
-        context: the problem.
-        route: the way.
+        context: the planning context.
+        route: the route.
         before: the state it starts in.
         after: the state it leads to.
     """
@@ -71,12 +71,12 @@ class MoveStep:
 
     @property
     def duration_s(self) -> float:
-        """Driving and turning (s)."""
+        """The time to drive and turn (s)."""
         return sum(self._durations_s)
 
     @property
     def details(self) -> dict[str, Any]:
-        """From where, to where, and the way."""
+        """The names of the two stations, and the waypoints."""
         names = [name or None for name, _ in self.context.scene.stations]
         waypoints = [[p.x_m, p.y_m, p.yaw_rad] for p in self.route.waypoints]
         return {
@@ -86,11 +86,11 @@ class MoveStep:
         }
 
     def holdings(self) -> tuple[Holding, ...]:
-        """Nothing is held."""
+        """Return nothing: the hands are empty."""
         return ()
 
     def phases(self) -> tuple[Phase, ...]:
-        """One phase for each leg, the hands free."""
+        """Return one phase for each leg, with empty hands."""
         placement = self.context.placed(self.before.offset)
         still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.context.scene.table))
         free: tuple[Hand | None, ...] = (None,) * len(self.context.reach.arm_names)
@@ -98,45 +98,45 @@ class MoveStep:
         return tuple(Phase(duration, leg, free, still) for duration, leg in zip(self._durations_s, legs, strict=True))
 
     def extremes(self) -> tuple[Phase, ...]:
-        """Nothing is held."""
+        """Return nothing: no cloth is held."""
         return ()
 
     def variants(self) -> Iterable["MoveStep"]:
-        """There is but one way."""
+        """Return this step alone: there is no other route."""
         return (self,)
 
     @property
     def motion(self) -> tuple[object, ...]:
-        """Which states it leads from and to."""
+        """The key that identifies it: kind, state before and state after."""
         return (self.kind, self.before, self.after)
 
     @property
     def situation(self) -> tuple[object, ...]:
-        """A move is always made real by itself."""
+        """The key of its validation: a move is always validated by itself."""
         return (self.kind, self.before.key, self.after.key)
 
     @property
     def task(self) -> tuple[object, ...]:
-        """A move takes no hands."""
+        """The kind alone: a move takes no hands."""
         return (self.kind,)
 
     def begun_in(self, _state: State) -> "MoveStep":
-        """A move begins where it begins."""
+        """Return the move unchanged."""
         return self
 
     def elsewhere(self, _count: int) -> Iterable["MoveStep"]:
-        """There is but one way."""
+        """Return nothing: there is no other route."""
         return ()
 
     def again(self, context: Context, state: State) -> Iterable["MoveStep"]:
-        """A move to the station of the same name, if there is one."""
+        """Return a move to the station of the same name, if there is one."""
         wanted, _ = self.context.scene.stations[self.after.station]
         named = (number for number, (name, _) in enumerate(context.scene.stations) if name == wanted)
         return (step for number in named for step in context.kept(BaseMove).to(state, number))
 
 
 class BaseMove:
-    """Drives from station to station with free hands."""
+    """Drives from station to station with empty hands."""
 
     begins_with_driving = False
 
@@ -145,12 +145,12 @@ class BaseMove:
         self._routes: dict[tuple[int, int, int], Route] = {}
 
     def successors(self, state: State) -> Iterable[MoveStep]:
-        """One step for each other station."""
+        """Return one step for each other station."""
         stations = () if state.held else range(len(self._context.scene.stations))
         return DeferredSteps(tuple(self._later(state, station) for station in stations if station != state.station))
 
     def _later(self, state: State, station: int) -> Deferred[MoveStep]:
-        """A move, in its time: it takes at least what it takes to go and to turn with nothing in the way."""
+        """Return a deferred move whose lower bound ignores all obstacles: the straight drive and the turn."""
         scene, start = self._context.scene, self._context.base_pose(state.station, state.back_off)
         goal = self._context.station_pose(station)
         drive_s = math.dist(_place(start), _place(goal)) / scene.base_speed_m_s
@@ -159,7 +159,7 @@ class BaseMove:
         return Deferred(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
 
     def to(self, state: State, station: int) -> tuple[MoveStep, ...]:
-        """The move to a station."""
+        """Return the move to a station."""
         after = State(state.done, state.offset, station, 0)
         return (MoveStep(self._context, self._route(state, station), state, after),)
 
@@ -177,9 +177,9 @@ class BaseMove:
 
 
 def clear_of_table(pose: Pose2, table: Table, circle_m: float) -> Pose2:
-    """The pose backed out, no further than needed, until its circle is clear of the table.
+    """Return the pose backed out, no further than needed, until its circle is clear of the table.
 
-    A pose facing such that backing out never clears the table is left where it is.
+    A pose whose heading is such that backing out never clears the table is returned unchanged.
     """
     half_x, half_y = table.depth_m / 2 + circle_m, table.width_m / 2 + circle_m
     if abs(pose.x_m) >= half_x - LENGTH_M or abs(pose.y_m) >= half_y - LENGTH_M:
@@ -194,7 +194,7 @@ def clear_of_table(pose: Pose2, table: Table, circle_m: float) -> Pose2:
 
 
 def shortest_way(start: Point2, goal: Point2, table: Table, circle_m: float) -> tuple[Point2, ...]:
-    """The bends of the shortest polyline between two places outside the grown table, ends included."""
+    """Return the bends of the shortest polyline between two points outside the grown table, ends included."""
     half_x, half_y = table.depth_m / 2 + circle_m, table.width_m / 2 + circle_m
     corners = [(-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y)]
     graph: nx.Graph[Point2] = nx.Graph()
@@ -210,7 +210,7 @@ def shortest_way(start: Point2, goal: Point2, table: Table, circle_m: float) -> 
 
 
 def route_along(start: Pose2, out: Pose2, bends: tuple[Point2, ...], outside: Pose2, goal: Pose2) -> Route:
-    """Back out, turn and drive from bend to bend, turn to the goal's heading, drive in."""
+    """Return the route that backs out, drives from bend to bend, turns to the goal's heading and drives in."""
     poses = [start, out]
     for a, b in itertools.pairwise(bends):
         if math.dist(a, b) > LENGTH_M:
@@ -234,13 +234,13 @@ def _is_same(a: Pose2, b: Pose2) -> bool:
 
 
 def _turning(way: Iterable[Point2]) -> float:
-    """The turning at the bends of a way (rad)."""
+    """Return the sum of the turns at the bends of a polyline (rad)."""
     headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in itertools.pairwise(way)]
     return sum(abs(wrapped_angle(b - a)) for a, b in itertools.pairwise(headings))
 
 
 def _crosses(a: Point2, b: Point2, half_x: float, half_y: float) -> bool:
-    """Whether a segment runs through the inside of the rectangle (Liang-Barsky)."""
+    """Return whether a segment passes through the interior of the rectangle (Liang-Barsky)."""
     low, high = 0.0, 1.0
     for place, step, half in ((a[0], b[0] - a[0], half_x), (a[1], b[1] - a[1], half_y)):
         inner = half - LENGTH_M

@@ -1,4 +1,8 @@
-"""One planning problem: the garment's folds, the scene, the robot's reach, where the article lies."""
+"""The planning context: what all primitives of one task share.
+
+It holds the garment's folds, the scene, the robot's reach and the article's placement. The *standoff* (`back_off` in
+names) is how far the base stands back from its station; the search knows it in steps of a grid.
+"""
 
 import math
 from collections.abc import Callable
@@ -21,23 +25,23 @@ from planner.task.scene import Scene
 T = TypeVar("T")
 
 GRIPS_APART_M = 0.10
-"""How near to each other two grips may be, unless a problem says otherwise (m)."""
+"""The default smallest distance between two grips (m)."""
 
 BACK_OFFS_PER_M = 20
-"""The grid of back-offs: one every 5 cm."""
+"""The resolution of the grid of standoffs: one every 5 cm (1/m)."""
 
 BACK_OFF_STEP_M = 1 / BACK_OFFS_PER_M
-"""From one back-off to the next (m)."""
+"""The distance between neighbouring standoffs (m)."""
 
 DRAGS_PER_M = 10
-"""The grid of drag distances: one every 10 cm."""
+"""The resolution of the grid of drag distances: one every 10 cm (1/m)."""
 
 _START = State(0, (0.0, 0.0), 0, 0)
 
 
 @dataclass(frozen=True)
 class Context:
-    """What all primitives of one planning problem share.
+    """What all primitives of one task share.
 
     Attributes:
         sequence: the garment and its legal folds.
@@ -46,7 +50,7 @@ class Context:
         placement: the article frame in the table frame at the start.
         circle_m: radius of the circle round the base that must clear the table when it turns (m).
         behind_max_m: how far the part that a fold moves may reach behind its line's extension (m).
-        grips_apart_m: two grips nearer to each other than this cannot be taken by two hands (m).
+        grips_apart_m: the smallest distance between two grips that two hands can take (m).
         start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
     """
@@ -66,61 +70,61 @@ class Context:
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
 
     def kept(self, kind: "Callable[[Context], T]") -> T:
-        """What is worked out once for a problem and shared by all who ask for the same kind."""
+        """Return the context's one shared value of a kind, made at the first request."""
         if kind not in self._kept:
             self._kept[kind] = kind(self)
         return cast("T", self._kept[kind])
 
     def forget(self) -> None:
-        """Drop what only a search needs, a few megabytes, but for the obstacles; what is asked again is found again."""
+        """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
         for kept in (self._unrest, self._tables, self._extents, self._kept):
             kept.clear()
         self.reach.forget()
 
     @cached_property
     def back_offs(self) -> int:
-        """The number of places on the back-off grid."""
+        """The number of standoffs on the grid."""
         return math.floor(self.scene.back_off_max_m * BACK_OFFS_PER_M + LENGTH_M) + 1
 
     def placed(self, offset: Point2) -> Pose2:
-        """The article's placement after drags by `offset`."""
+        """Return the article's placement after drags by `offset`."""
         return self.placement.moved(*offset)
 
     def station_pose(self, station: int) -> Pose2:
-        """A station's base pose, table frame."""
+        """Return a station's base pose, table frame."""
         return self.scene.stations[station][1]
 
     def base_pose(self, station: int, back_off: int) -> Pose2:
-        """The base's pose at a station, backed off by so many steps."""
+        """Return the base's pose at a station and a standoff (grid steps), table frame."""
         return self.station_pose(station).ahead(-back_off / BACK_OFFS_PER_M)
 
     def base_stop(self, state: State) -> BaseStop:
-        """Return where the base stands in a state; a station without a name is none."""
+        """Return where the base stands in a state; the stop of an unnamed station has no name."""
         name, pose = self.scene.stations[state.station]
         return BaseStop.at(name or None, pose, state.back_off / BACK_OFFS_PER_M)
 
     def drive_s(self, steps: float) -> float:
-        """The time to drive so many steps of the back-off grid (s)."""
+        """Return the time to drive a number of steps of the grid of standoffs (s)."""
         return steps / BACK_OFFS_PER_M / self.scene.base_speed_m_s
 
     def in_base(self, station: int, points: FloatArray) -> FloatArray:
-        """Tool points of the table frame, shape (n, 3), in the base frame at back-off 0 (m)."""
+        """Return tool points of the table frame, shape (n, 3), in the base frame at standoff 0 (m)."""
         above_floor = points + np.array([0.0, 0.0, self.scene.table.height_m])
         return self.station_pose(station).to_inner(above_floor)
 
     def table_in_article(self, offset: Point2) -> TableInArticle:
-        """The table top in the article frame after drags by `offset`."""
+        """Return the table top in the article frame after drags by `offset`."""
         key = (grid_key(offset[0]), grid_key(offset[1]))
         if key not in self._tables:
             self._tables[key] = TableInArticle.seen_from(self.placed(offset), self.scene.table)
         return self._tables[key]
 
     def is_on_table(self, point: Point2, offset: Point2) -> bool:
-        """Whether a point of the article, article frame, is over the table top after drags by `offset`."""
+        """Return whether a point of the article, article frame, is over the table top after drags by `offset`."""
         return self._is_over_top(self.placement.to_outer(np.array(point)), offset)
 
     def is_all_on_table(self, done: int, offset: Point2) -> bool:
-        """Whether the cloth after some folds lies on the table altogether after drags by `offset`."""
+        """Return whether all cloth lies on the table after some folds (bit mask) and drags by `offset`."""
         if all(self._is_over_top(corner, offset) for corner in self._extent_of_all):
             return True
         if done not in self._extents:
@@ -128,7 +132,7 @@ class Context:
         return all(self._is_over_top(corner, offset) for corner in self._extents[done])
 
     def may_be_on_table(self, offset: Point2) -> bool:
-        """Whether any of the cloth, folded or not, may lie on the table top after drags by `offset`."""
+        """Return whether any cloth, folded or not, may lie on the table top after drags by `offset`."""
         (x0, y0), (x1, y1) = (corner + offset for corner in self._extent_of_all)
         table = self.scene.table
         return bool(x0 < table.depth_m / 2 and -table.depth_m / 2 < x1) and bool(
@@ -137,7 +141,10 @@ class Context:
 
     @cached_property
     def _extent_of_all(self) -> tuple[FloatArray, FloatArray]:
-        """The smallest and largest coordinates of all places to which folds carry cloth; to fold it takes longer."""
+        """The smallest and largest coordinates of all places to which folds carry cloth.
+
+        Found without folding, which takes longer.
+        """
         return self._extent(self.sequence.covered)
 
     def _extent(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -145,18 +152,18 @@ class Context:
         return placed.min(axis=0), placed.max(axis=0)
 
     def _is_over_top(self, point: FloatArray, offset: Point2) -> bool:
-        """Whether a point, table frame as long as nothing has been dragged, is over the top after drags."""
+        """Return whether a point is over the table top after drags by `offset`; table frame before any drag."""
         x, y = float(point[0]) + offset[0], float(point[1]) + offset[1]
         table = self.scene.table
         return abs(x) <= table.depth_m / 2 + LENGTH_M and abs(y) <= table.width_m / 2 + LENGTH_M
 
     @property
     def has_slipped(self) -> bool:
-        """Whether the cloth would have slipped at some placement that was asked about, and friction would hold it."""
+        """Whether the cloth would have slipped at some placement queried so far; more friction would hold it."""
         return any(found is not None and found.code == "slips" for found in self._unrest.values())
 
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
-        """Why the cloth after some folds would not stay at a placement; None if it is in a g-state."""
+        """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
         key = (done, grid_key(offset[0]), grid_key(offset[1]))
         if key not in self._unrest and self.is_all_on_table(done, offset):
             self._unrest[key] = None

@@ -1,4 +1,4 @@
-"""Where a drag leads and what it must hold (paper, Theorem 2)."""
+"""The direction, the length and the grips of a drag (paper, Theorem 2)."""
 
 import math
 
@@ -10,25 +10,28 @@ from planner.primitives.context import DRAGS_PER_M, Context
 
 
 def longest_drag(context: Context) -> int:
-    """The most steps of a drag: the article's length, the longer side of its smallest enclosing rectangle."""
+    """Return the length of the longest drag, in steps of the grid of drags.
+
+    It is the article's length: the longer side of its smallest enclosing rectangle.
+    """
     return math.floor(context.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
 
 
 def dragged(context: Context, offset: Point2, station: int, steps: int) -> Point2:
-    """Where the article is after a drag from a station by so many steps, as an offset from the start (m)."""
+    """Return the article's offset from the start (m) after a drag from a station by `steps` of the grid of drags."""
     yaw = context.station_pose(station).yaw_rad
     distance = steps / DRAGS_PER_M
     return (offset[0] - distance * math.cos(yaw), offset[1] - distance * math.sin(yaw))
 
 
 def towards_robot(context: Context, station: int) -> Point2:
-    """The direction of a drag from a station, a unit vector of the article frame."""
+    """Return the direction of a drag from a station: a unit vector, article frame."""
     heading = context.station_pose(station).yaw_rad + math.pi - context.placement.yaw_rad
     return (math.cos(heading), math.sin(heading))
 
 
 def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) -> bool:
-    """Whether cloth hangs already from an edge towards which a drag would go."""
+    """Return whether cloth already hangs over an edge towards which a drag would go."""
     coordinates = context.sequence.cloth(done).silhouette.coordinates
     for edge in context.table_in_article(offset).edges:
         outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
@@ -38,7 +41,7 @@ def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) ->
 
 
 def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
-    """The grips that Theorem 2 asks for on the part that lies on the table."""
+    """Return the grips that Theorem 2 asks for on the part that lies on the table."""
     silhouette = context.sequence.cloth(done).silhouette
     lying = silhouette.intersection(context.table_in_article(offset).region)
     vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)

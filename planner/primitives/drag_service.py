@@ -1,10 +1,10 @@
-"""Which folds may ever be done with the grips that a drag has left.
+"""Find the folds that can ever be done with the grips that a drag has left.
 
-A drag holds what lies at the cloth's front, towards the robot (Theorem 2), and a fold with the same grips needs them on
-the part that it moves. Which vertices must be held depends on all folds done before. But whatever was done: cloth ends
-only where a part that a fold moves, before it or after it, or the pattern itself ends, or along a fold line. Where the
-cloth that no fold moves, or the fold's own part, lies just ahead of all such places near the part, nothing there is
-ever held by a drag.
+A drag holds what lies at the cloth's front, towards the robot (Theorem 2). A fold that uses the same grips needs them
+on the part that it moves. The vertices to be held depend on all earlier folds, but every edge of the cloth is an edge
+of the pattern, an edge of a part that a fold moves (before or after it is moved), or a fold line. If cloth that no fold
+moves, or the fold's own part, lies just in front of every such edge near the part, then no drag ever holds a grip
+there.
 """
 
 from functools import cached_property
@@ -20,15 +20,15 @@ from planner.primitives.fold_trial import is_line_on_table
 
 
 class Service:
-    """Knows which folds of a planning problem grips left by drags may serve; they serve no others."""
+    """The folds of a task that the grips left by drags may serve; all other folds are ruled out."""
 
     def __init__(self, context: Context) -> None:
-        """Ask nothing yet."""
+        """Start without results; they are computed on request."""
         self._context = context
 
     @cached_property
     def folds(self) -> tuple[frozenset[int], ...]:
-        """For each station the folds that grips left by a drag from there may serve."""
+        """For each station, the folds that grips left by a drag from there may serve."""
         return tuple(self._served(station) for station in range(len(self._context.scene.stations)))
 
     @cached_property
@@ -37,11 +37,11 @@ class Service:
         return sum(1 << fold for fold in frozenset[int]().union(*self.folds))
 
     def is_possible(self, offset: Point2, station: int) -> bool:
-        """Return whether any fold may be done where a drag from a station has ended, at an offset (m)."""
+        """Return whether a drag that ended at an offset (m) may serve any fold from that station."""
         return any(self.may_serve(fold, offset, station) for fold in self.folds[station])
 
     def may_serve(self, fold: int, offset: Point2, station: int) -> bool:
-        """Return whether one fold may be done there with the grips that the drag has left."""
+        """Return whether a drag that ended at an offset (m) may serve one fold from that station."""
         return fold in self.folds[station] and is_line_on_table(self._context, fold, offset)
 
     def _served(self, station: int) -> frozenset[int]:
@@ -54,7 +54,7 @@ class Service:
 
     @cached_property
     def _cloth(self) -> tuple[Region, list[Region], list[Region]]:
-        """The cloth that no fold moves, what each fold moves, and all whose boundary may be the cloth's."""
+        """The cloth that no fold moves, the part each fold moves, and all regions whose boundary may be the cloth's."""
         sequence = self._context.sequence
         moving = [sequence.moving(fold.index) for fold in sequence.folds]
         landed = [part.moved(Isometry.reflection(f.line)) for part, f in zip(moving, sequence.folds, strict=True)]

@@ -1,4 +1,4 @@
-"""A drag as it is performed in a plan."""
+"""A drag as a step of a plan."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -21,15 +21,15 @@ from planner.task.phase import ClothMotion, Hand, Phase
 
 @dataclass(frozen=True)
 class DragStep:
-    """One drag as it is performed.
+    """A drag as a step of a plan.
 
     Attributes:
-        context: the problem.
+        context: the planning context.
         way: grips and arms.
         before: the state it starts in.
         after: the state it leads to.
-        first_stand: back-off at which the grips are reached.
-        approaches: each grip's approach, where that is not the one preferred.
+        first_stand: the standoff at which the hands reach the grips.
+        approaches: each grip's approach, where it is not the preferred one.
     """
 
     context: Context
@@ -42,12 +42,12 @@ class DragStep:
 
     @property
     def distance_m(self) -> float:
-        """How far the article goes (m)."""
+        """The distance over which the article is dragged (m)."""
         return (self.after.back_off - self.first_stand) / BACK_OFFS_PER_M
 
     @property
     def duration_s(self) -> float:
-        """The drive, the reach and the drag (s)."""
+        """The time to drive, reach and drag (s)."""
         steps = abs(self.before.back_off - self.first_stand) + self.after.back_off - self.first_stand
         return self.context.scene.arm_motion_s + self.context.drive_s(steps)
 
@@ -64,7 +64,7 @@ class DragStep:
 
     @property
     def details(self) -> dict[str, Any]:
-        """How far, and whether the hands keep hold afterwards."""
+        """The distance, and whether the hands keep hold afterwards."""
         return {"distance_m": self.distance_m, "holds": bool(self.after.held)}
 
     def holdings(self) -> tuple[Holding, ...]:
@@ -74,11 +74,11 @@ class DragStep:
         return holdings(self.way.taken, covers.vertices, self.context.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
-        """Drive, reach, back off with the cloth."""
+        """Return the phases: drive, reach, back off with the cloth."""
         return self._phases
 
     def extremes(self) -> tuple[Phase, ...]:
-        """The drag itself."""
+        """Return the phase of the drag itself."""
         return self._phases[-1:]
 
     @cached_property
@@ -102,7 +102,7 @@ class DragStep:
         )
 
     def variants(self) -> Iterator["DragStep"]:
-        """The same in every other choice of approaches; the best ones first."""
+        """Yield this step, then the drag with every other choice of approaches, the best first."""
         yield self
         chosen = tuple(int(approach) for approach in self.way.approaches[self.first_stand])
         able = [enumerate(approaches) for approaches in self._able()]
@@ -112,7 +112,7 @@ class DragStep:
                 yield replace(self, approaches=approaches)
 
     def _able(self) -> list[list[int]]:
-        """Return each hand's approaches in which it reaches its grip, the best first."""
+        """Return the approaches in which each hand reaches its grip, the best first."""
         context, way = self.context, self.way
         turn = context.placed(self.before.offset).yaw_rad - context.station_pose(self.before.station).yaw_rad
         able = []
@@ -125,29 +125,29 @@ class DragStep:
 
     @cached_property
     def motion(self) -> tuple[object, ...]:
-        """Which states it leads from and to, with which hands, and from where the base begins."""
+        """The key that identifies it: both states, the hands, and the standoff at which it begins."""
         return (self.kind, self.before, self.after, self.first_stand, self.way.hands, self.approaches)
 
     @cached_property
     def situation(self) -> tuple[object, ...]:
-        """What it has in common with the same motions of the hands while the base stands elsewhere."""
+        """The key it shares with drags in which the hands move alike and the base stands elsewhere."""
         length = self.after.back_off - self.first_stand
         return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, self.way.hands)
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with other drags of the same cloth from the same station by the same arms."""
+        """The key it shares with other drags of the same cloth from the same station by the same arms."""
         return (self.kind, self.before.done, self.before.station, frozenset(self.way.arms))
 
     def begun_in(self, state: State) -> "DragStep":
-        """The same from another state of the same situation."""
+        """Return the drag begun in another state of the same situation."""
         return replace(self, before=state, after=replace(self.after, done=state.done))
 
     def elsewhere(self, count: int) -> Iterator["DragStep"]:
-        """So many other ways to drag the same grips as far from the same state, the base starting elsewhere.
+        """Yield up to about `count` other ways to drag the same grips as far, begun at other standoffs.
 
-        From each place some choices of approaches follow one another, the best first: what is preferred is not always
-        what the arms can do.
+        For each standoff several choices of approaches follow one another, the best first, because the arms cannot
+        always carry out the preferred one.
         """
         length = self.after.back_off - self.first_stand
         stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.context.back_offs]
@@ -157,9 +157,9 @@ class DragStep:
             yield from islice(there.variants(), max(1, count // len(stands)))
 
     def again(self, context: Context, state: State) -> Iterator["DragStep"]:
-        """The same hands drag as far from the same back-off, each at the grip nearest to where it was.
+        """Yield drags by the same hands, as far, from the same standoff, each hand at the grip nearest to its old one.
 
-        Then from other back-offs, the nearest first; then other hands.
+        Drags from other standoffs follow, the nearest first; then drags by other hands.
         """
         steps = self.after.back_off - self.first_stand
         count = steps * DRAGS_PER_M // BACK_OFFS_PER_M
@@ -174,7 +174,7 @@ class DragStep:
                     yield from self._turned_alike(DragStep(context, way, state, after, stand))
 
     def _turned_alike(self, other: "DragStep") -> Iterator["DragStep"]:
-        """Yield another drag, first with its hands turned as here where that is not what it prefers and still goes."""
+        """Yield another drag, first with its hands turned as here if they can be and it prefers another turn."""
         if self.approaches is not None and other.first_stand == self.first_stand:
             turned = dict(zip(self.way.arms, self.approaches, strict=True))
             same = tuple(turned.get(arm, -1) for arm in other.way.arms)

@@ -1,4 +1,4 @@
-"""With which hands, at which grips, and from where an article can be dragged."""
+"""Find the hands, the grips and the standoffs with which an article can be dragged."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,13 +18,13 @@ from planner.primitives.state import State
 
 @dataclass(frozen=True, eq=False)
 class DragWay:
-    """One choice of arms for the grips of a drag.
+    """One assignment of arms to the grips of a drag.
 
     Attributes:
         arms: the arm that holds each grip.
-        grips: what is held, article frame (m).
-        picks: the same as tool points in the table frame, shape (grips, 3), m.
-        approaches: for each back-off each arm's approach, shape (back-offs, grips); -1 where out of reach.
+        grips: the points held, article frame (m).
+        picks: the grips as tool points in the table frame, shape (grips, 3), m.
+        approaches: for each standoff each arm's approach, shape (standoffs, grips); -1 where out of reach.
     """
 
     arms: tuple[int, ...]
@@ -34,30 +34,30 @@ class DragWay:
 
     @cached_property
     def hands(self) -> tuple[object, ...]:
-        """What tells it from other ways: arms, picks and approaches."""
+        """The key that identifies it: arms, picks and approaches."""
         return (self.arms, np.round(self.picks / LENGTH_M).tobytes(), self.approaches.tobytes())
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
-        """What each arm holds, article frame (m)."""
+        """The point that each arm holds, article frame (m)."""
         return dict(zip(self.arms, self.grips, strict=True))
 
     @cached_property
     def stands(self) -> list[int]:
-        """The back-offs from which all grips are in reach."""
+        """The standoffs from which all grips are within reach."""
         return [int(b) for b in np.flatnonzero((self.approaches >= 0).all(axis=1))]
 
 
 class DragWays:
-    """The ways to drag in each state; states with the same cloth at the same place share them."""
+    """The ways to drag in each state; states with the same cloth in the same place share them."""
 
     def __init__(self, context: Context) -> None:
-        """Nothing is known yet."""
+        """Start without results; they are computed on request."""
         self._context = context
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 
     def of(self, state: State) -> tuple[DragWay, ...]:
-        """All choices of arms and grips with which the article can be dragged from where it lies."""
+        """Return all choices of arms and grips that can drag the article from where it lies."""
         _, x, y, station, *_ = state.key
         key = (state.done, x, y, station)
         if key not in self._found:
@@ -81,7 +81,7 @@ class DragWays:
                     yield self._way(state, grips, hands, picks[order], placement)
 
     def _order(self, state: State, arms: tuple[int, ...], picks: FloatArray) -> list[tuple[tuple[int, ...], int, int]]:
-        """Of each hand its key, its arm and its number, in order."""
+        """Return each hand's key, arm and number, sorted."""
         hands = zip(arms, picks[:, None], strict=True)
         return sorted((hand_key(self._context, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
 

@@ -1,4 +1,4 @@
-"""A fold as it looks while it happens: the hands follow the cloth's way, the base drives in between."""
+"""The motion of a fold: the hands follow the path of the cloth, and the base drives at some waypoints."""
 
 import math
 from collections.abc import Iterator
@@ -20,28 +20,33 @@ _DENSE_SWEEP = 0.02
 
 @dataclass(frozen=True, slots=True)
 class _Piece:
-    """A part of the path: the sweep and the base's back-off at its start and at its end; one of them stays."""
+    """A part of the path during which either the sweep or the standoff stays constant.
+
+    Attributes:
+        sweeps: the sweep at the start and at the end.
+        stands: the standoff at the start and at the end.
+    """
 
     sweeps: tuple[float, float]
     stands: tuple[int, int]
 
     @property
     def moments(self) -> FloatArray:
-        """The sweeps at which its points are."""
+        """The sweeps at which its points lie."""
         start, end = self.sweeps
         return np.linspace(start, end, max(2, nearest_whole((end - start) / _DENSE_SWEEP) + 1) if end > start else 1)
 
 
 @dataclass(frozen=True)
 class FoldMotion:
-    """How a fold is performed.
+    """The motion that performs a fold.
 
     Attributes:
-        context: the problem.
+        context: the planning context.
         way: grips, arms and paths.
         before: the state it starts in.
-        first_stand: back-off from which the path is begun.
-        end: back-off at its end.
+        first_stand: the standoff from which the path is begun.
+        end: the standoff at its end.
     """
 
     context: Context
@@ -51,7 +56,7 @@ class FoldMotion:
     end: int
 
     def phases(self) -> tuple[Phase, ...]:
-        """Drive, reach, and follow the path with the base's legs in between."""
+        """Return the phases: drive, reach, follow the path with the base's legs in between."""
         pieces = tuple(self._pieces())
         moments = [np.zeros(1), *(piece.moments for piece in pieces)]
         places = np.cumsum([len(sweeps) for sweeps in moments])[:-1]
@@ -61,7 +66,7 @@ class FoldMotion:
         return (*begin, *follow)
 
     def extremes(self) -> tuple[Phase, ...]:
-        """From the picks straight to the places: only its beginning and its end are as they will be."""
+        """Return one phase straight from the picks to the places; only its start and end are true to the motion."""
         numbers = range(len(self.way.trial.arms))
         ends = [self._cut(number, np.array([0.0, 2.0]), np.empty(0, dtype=np.int64))[0] for number in numbers]
         bases = (self._base(self.first_stand), self._base(self.end))
@@ -78,7 +83,7 @@ class FoldMotion:
         )
 
     def _pieces(self) -> Iterator[_Piece]:
-        """Stretches of even motion, broken where the base drives and at the apex, and the base's drives."""
+        """Yield the pieces of even motion, split at the apex and where the base drives, and the base's drives."""
         strip = self.way.strip(self.context, self.before.station)
         stands = legs(strip, self.first_stand, self.end, self.context.back_offs)
         at, sweep = self.first_stand, 0.0
@@ -108,7 +113,7 @@ class FoldMotion:
         return tuple(hands)
 
     def _cut(self, number: int, sweeps: FloatArray, places: NDArray[np.int64]) -> "list[_Points]":
-        """A hand's points and rolls at some sweeps, rising, in parts."""
+        """Return a hand's points and rolls at rising sweeps, cut into parts."""
         trial = self.way.trial
         path = trial.path.tool_paths(trial.points[number : number + 1], sweeps)[0]
         rolls = self._rolls(number, sweeps)
@@ -116,10 +121,11 @@ class FoldMotion:
         return [_Points(tuple((x, y, z) for x, y, z in p.tolist()), tuple(r.tolist())) for p, r in parts]
 
     def _rolls(self, number: int, sweeps: FloatArray) -> FloatArray:
-        """How far a hand has rolled (rad): with the cloth by half a turn if it points along the fold line, else not.
+        """Return the roll of a hand at each sweep (rad).
 
-        In between would be nearer to how the cloth turns, but fingers come down flat on the table. A hand on the
-        extension of the fold line stays where it is.
+        A hand that points along the fold line rolls with the cloth by half a turn; one that points across it does not
+        roll. A roll in between would follow the cloth more closely, but fingers come down flat on the table. A hand on
+        the extension of the fold line stays where it is.
         """
         path, approach = self.way.trial.path, self._approach(number)
         distance = float(path.line.left_distances(self.way.trial.points[number : number + 1])[0])
@@ -145,7 +151,12 @@ class FoldMotion:
 
 @dataclass(frozen=True, slots=True)
 class _Points:
-    """What a hand does in a phase: its tool's points in the table frame (m), and the roll at each."""
+    """A hand's share of a phase.
+
+    Attributes:
+        points: its tool's points, table frame (m).
+        rolls_rad: the roll at each point (rad).
+    """
 
     points: tuple[Point3, ...]
     rolls_rad: tuple[float, ...]

@@ -1,9 +1,8 @@
-"""Where may the base stand while one fold is performed? Asked as lazily as the search allows.
+"""Find where the base may stand while one fold is performed, as lazily as the search allows.
 
-To ask for every approach of every hand at every back-off is to ask for tens of thousands of places, for one fold. But
-a search wants to know the cheapest ends first and mostly never comes to ask for the others; and mostly the base need
-not drive at all. So it is asked for no driving first, then for the least that there may be, and for more only when
-nothing cheaper is left.
+Testing every approach of every hand at every standoff takes tens of thousands of reach queries for one fold. The search
+needs the cheapest final standoffs first, rarely asks for the others, and mostly the base need not drive at all. So the
+query covers no driving first, then the least driving possible, and more only when nothing cheaper is left.
 """
 
 from collections.abc import Iterator
@@ -21,13 +20,13 @@ from planner.primitives.state import State
 
 @dataclass(frozen=True, eq=False, slots=True)
 class End:
-    """A place where the base may stand after a fold.
+    """A standoff at which the base may stand after a fold.
 
     Attributes:
-        back_off: that place.
+        back_off: the standoff.
         steps: the least steps of driving in all.
-        first: where the base stands then when the hands begin.
-        way: the way that needs so few.
+        first: the standoff of the base when the hands begin, for that many steps.
+        way: the way to fold with that many steps.
     """
 
     back_off: int
@@ -37,10 +36,10 @@ class End:
 
 
 class FoldQuestion:
-    """One fold, from one station, of the article at one place, with what is held."""
+    """One fold, from one station, with the article in one place and with given grips held."""
 
     def __init__(self, context: Context, state: State, fold: int) -> None:
-        """What can be tried in a state with any back-off; what speaks against it is noted."""
+        """Collect the trials for a state, whatever its standoff, and note what rules the fold out."""
         self._context = context
         self._state = state
         self._trials = tuple(self._search(fold))
@@ -56,15 +55,15 @@ class FoldQuestion:
             self._context.obstacles.note(obstacle)
 
     def ends(self, begun: NDArray[np.int64], least: int, most: int) -> tuple[list[End], int]:
-        """The ends that take so many steps, no less and no more, and that cannot be had as cheaply by driving on.
+        """Return the ends that take `least` to `most` steps and that driving on does not reach as cheaply.
 
         Args:
-            begun: for each back-off the steps in which the base can be there when the hands begin.
-            least: ends of fewer steps are left out.
-            most: and so are those of more.
+            begun: for each standoff, the steps after which the base can be there when the hands begin.
+            least: the fewest steps of an end.
+            most: the most steps of an end.
 
         Returns:
-            The ends, and the least steps that others may take; `IMPOSSIBLE` if there are none.
+            The ends, and the least steps that further ends may take; `IMPOSSIBLE` if there are none.
         """
         at_least = min(int((begun + self._least).min()), IMPOSSIBLE)
         if at_least > most:
@@ -79,12 +78,12 @@ class FoldQuestion:
         return [end for end in kept if end.steps >= least], more
 
     def _learn(self, begun: NDArray[np.int64], steps: int) -> None:
-        """From where the base can be at a back-off when the hands begin, it takes at least so many steps in all."""
+        """Raise the lower bound on the steps from each standoff to `steps`, less the steps to get there."""
         beyond = IMPOSSIBLE if steps == IMPOSSIBLE else steps - begun
         np.maximum(self._least, beyond, out=self._least, where=begun < IMPOSSIBLE)
 
     def every_end(self, begun: NDArray[np.int64]) -> list[End]:
-        """All ends, and of each choice of grips and arms; `begun` is as for `ends`."""
+        """Return all ends, for each choice of grips and arms; `begun` is as for `ends`."""
         found = (hands.least_driving(begun, wanted="every") for hands in self._hands)
         ends = [end for number, driving in enumerate(found) for end in self._ends(number, driving)]
         if not ends:
@@ -98,7 +97,7 @@ class FoldQuestion:
             yield End(end, int(driving.steps[end]), int(driving.first[end]), way)
 
     def _note_out_of_reach(self) -> None:
-        """Remember that the arms cannot follow, once."""
+        """Note once that the arms cannot follow."""
         if not self._is_noted:
             self._is_noted = True
             for trial in self._trials:
@@ -106,13 +105,13 @@ class FoldQuestion:
 
 
 def _beats(one: End, other: End, is_before: bool) -> bool:
-    """Whether one end makes another useless: it can be had as cheaply by driving on from it."""
+    """Return whether one end makes another useless: driving on from it is as cheap."""
     away = abs(one.back_off - other.back_off)
     return one is not other and one.steps + away <= other.steps and (away > 0 or one.steps < other.steps or is_before)
 
 
 class FoldQuestions:
-    """Many states of a search ask the same question, so answers are kept."""
+    """The fold queries of a context; many states of a search share one, so they are kept."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -122,7 +121,7 @@ class FoldQuestions:
         self._driven = {False: away, True: np.where(away > 0, IMPOSSIBLE, 0)}
 
     def of(self, state: State, fold: int) -> FoldQuestion:
-        """What is asked about a fold in a state; states that differ in their back-off share it."""
+        """Return the query about a fold in a state; states that differ in their standoff share it."""
         done, x, y, station, _, held, dragged = state.key
         key = (done, x, y, station, held, dragged > 0, fold)
         if key not in self._kept:
@@ -130,6 +129,9 @@ class FoldQuestions:
         return self._kept[key]
 
     def begun(self, state: State) -> NDArray[np.int64]:
-        """The steps in which the base can be at each back-off when the hands begin; while they hold, where it is."""
+        """Return the steps in which the base can be at each standoff when the hands begin.
+
+        While the hands hold cloth, the base cannot drive first.
+        """
         steps: NDArray[np.int64] = self._driven[bool(state.held)][state.back_off]
         return steps

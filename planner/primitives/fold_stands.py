@@ -1,8 +1,9 @@
-"""From where can a fold be begun with free hands, whatever other folds are done?
+"""Find the standoffs from which a fold can be begun with empty hands, whatever other folds are done.
 
-For each state the search asks anew, since the cloth may have changed. But what a fold moves is the same after every set
-of folds, and so are its grips. Only from where a grip may be approached depends on what lies round it; where another
-fold may change that, every approach counts. So what is found here is a lower bound for every state, and mostly exact.
+The search repeats this query for each state, since the cloth may have changed. But what a fold moves is the same after
+every set of folds, and so are its grips. Only the directions from which a grip may be approached depend on the cloth
+round it; where another fold may change that, every approach counts. So the result is a lower bound for every state, and
+mostly exact.
 """
 
 from dataclasses import replace
@@ -21,17 +22,17 @@ from planner.primitives.surroundings import Surroundings
 
 
 class FoldStands:
-    """The least driving that each fold of a planning problem takes, by where the article lies and the base stands."""
+    """The least driving that each fold takes, by the article's place and the base's station."""
 
     def __init__(self, context: Context) -> None:
-        """Ask nothing yet."""
+        """Start without results; they are computed on request."""
         self._context = context
         self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
         self._places = np.arange(context.back_offs)
         self._surroundings = context.kept(Surroundings)
 
     def least(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
-        """Return for each back-off the least steps to drive in all when a fold is begun from there.
+        """Return for each standoff the least steps to drive in all when a fold is begun from there.
 
         Args:
             fold: the fold's index; a blue fold.
@@ -39,7 +40,7 @@ class FoldStands:
             station: where the robot stands.
 
         Returns:
-            Steps of the back-off grid, `IMPOSSIBLE` where free hands never can, shape (back-offs,).
+            Steps of the grid of standoffs, `IMPOSSIBLE` where empty hands never can, shape (standoffs,).
         """
         key = (fold, grid_key(offset[0]), grid_key(offset[1]), station)
         if key not in self._known:
@@ -57,7 +58,10 @@ class FoldStands:
         return np.asarray(np.minimum((driven + away).min(axis=1), IMPOSSIBLE))
 
     def _driven(self, trial: FoldTrial, station: int) -> NDArray[np.int64]:
-        """The steps driven from each back-off at which the path may be begun: those to its ends, asked backwards."""
+        """Return the steps driven from each standoff at which the path may be begun.
+
+        The path is reversed, so that one query about its ends gives the steps for all beginnings.
+        """
         context = self._context
         approaches = tuple(
             allowed if self._surroundings.are_same(trial.fold, grip) else context.kept(all_approaches)[arm]

@@ -1,4 +1,4 @@
-"""A fold as it is performed in a plan: reach the grips, lift them over the fold line, lay them down."""
+"""A fold as a step of a plan: reach the grips, lift them over the fold line, lay them down."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -22,20 +22,20 @@ from planner.task.phase import Phase
 _DENSE_SWEEP = 0.02
 
 _LIKE = 8
-"""So many approaches of each arm count as like one that it had: to look at all takes several times as long."""
+"""The number of approaches of each arm that count as like its former one; trying all takes several times as long."""
 
 
 @dataclass(frozen=True)
 class FoldStep:
-    """One fold as it is performed.
+    """A fold as a step of a plan.
 
     Attributes:
-        context: the problem.
+        context: the planning context.
         way: grips, arms and paths.
         before: the state it starts in.
         after: the state it leads to.
-        first_stand: back-off from which the path is begun.
-        driven: how many steps of the back-off grid the base drives from there on.
+        first_stand: the standoff from which the path is begun.
+        driven: how many steps of the grid of standoffs the base drives from there on.
     """
 
     context: Context
@@ -48,7 +48,7 @@ class FoldStep:
 
     @property
     def duration_s(self) -> float:
-        """The arm motions and all the base's legs (s)."""
+        """The time of the arm motions and of all the base's legs (s)."""
         steps = self.driven + abs(self.before.back_off - self.first_stand)
         motions = 2 if self.before.held else 3
         return motions * self.context.scene.arm_motion_s + self.context.drive_s(steps)
@@ -66,7 +66,7 @@ class FoldStep:
 
     @property
     def details(self) -> dict[str, Any]:
-        """Which fold, and whether the hands keep hold for a red fold that follows."""
+        """The fold, and whether the hands keep hold for a red fold that follows."""
         return {"fold": self.way.trial.fold, "holds": bool(self.after.held)}
 
     def holdings(self) -> tuple[Holding, ...]:
@@ -76,11 +76,11 @@ class FoldStep:
         return holdings(trial.taken, covers.vertices, context.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
-        """Drive, reach, and follow the path with the base's legs in between."""
+        """Return the phases: drive, reach, follow the path with the base's legs in between."""
         return self._phases
 
     def extremes(self) -> tuple[Phase, ...]:
-        """From the picks to the places."""
+        """Return one phase from the picks to the places."""
         return self._motion.extremes()
 
     @cached_property
@@ -92,7 +92,7 @@ class FoldStep:
         return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.back_off)
 
     def variants(self) -> Iterator["FoldStep"]:
-        """This, then every other way between the same states, the quickest first."""
+        """Yield this step, then every other way between the same states, the quickest first."""
         yield self
         fold, end = self.way.trial.fold, self.after.back_off
         for variant in fold_variants(self.context, self.before, fold, end):
@@ -103,12 +103,12 @@ class FoldStep:
 
     @cached_property
     def motion(self) -> tuple[object, ...]:
-        """Which states it leads from and to, with which hands, and from where the base begins."""
+        """The key that identifies it: both states, the hands, and the standoff at which it begins."""
         return (self.kind, self.before, self.after, self.first_stand, self.way.trial.hands, self.way.approaches)
 
     @cached_property
     def situation(self) -> tuple[object, ...]:
-        """What it has in common with the same motions of the hands while the base stands elsewhere.
+        """The key it shares with folds in which the hands move alike and the base stands elsewhere.
 
         Which other folds are done does not matter, as long as the hands do the same.
         """
@@ -117,24 +117,24 @@ class FoldStep:
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with the same fold from the same station by the same arms, wherever the cloth lies."""
+        """The key it shares with the same fold from the same station by the same arms, wherever the cloth lies."""
         return (self.kind, self.way.trial.fold, self.before.station, frozenset(self.way.trial.arms))
 
     def begun_in(self, state: State) -> "FoldStep":
-        """The same from another state of the same situation."""
+        """Return the fold begun in another state of the same situation."""
         steps = self.driven + abs(self.first_stand - state.back_off)
         return fold_step(self.context, self.way, state, self.first_stand, self.after.back_off, steps)
 
     def elsewhere(self, count: int) -> Iterator["FoldStep"]:
-        """So many other ways to do the same fold in the same state, the base starting and ending anywhere."""
+        """Yield up to `count` other ways to do the same fold in the same state, at any standoffs."""
         for variant in fold_spread(self.context, self.before, self.way.trial.fold, count):
             yield fold_step(self.context, variant.way, self.before, variant.first, variant.end, variant.steps)
 
     def again(self, context: Context, state: State) -> Iterator["FoldStep"]:
-        """The same fold with the same hands, each at the grip nearest to where it was: as it was done, if it still can.
+        """Yield the fold again, each hand at the grip nearest to its old one: first unchanged, if it can be.
 
-        Else the ways in which the base travels least, hands held much the same before others; where the same hands
-        cannot, with others.
+        The ways in which the base travels least follow, those with the hands held much the same first; then ways with
+        other hands.
         """
         old = self.way.trial
         is_next = old.fold in context.sequence.dag.available(state.done)
@@ -158,9 +158,17 @@ class FoldStep:
 
 
 def fold_step(context: Context, way: FoldWay, state: State, first: int, end: int, steps: int) -> FoldStep:
-    """A fold done in a state, its path begun at one back-off and ended at another in so many steps of driving in all.
+    """Return the step of a fold in a state, from its first standoff to its last.
 
     Before a red fold the hands hold on.
+
+    Args:
+        context: the planning context.
+        way: grips, arms and paths.
+        state: the state it starts in.
+        first: the standoff from which the path is begun.
+        end: the standoff at its end.
+        steps: the steps of driving in all.
     """
     fold = way.trial.fold
     held: tuple[Held, ...] = ()
@@ -176,9 +184,9 @@ def fold_step(context: Context, way: FoldWay, state: State, first: int, end: int
 def _variants_like(
     context: Context, state: State, trial: FoldTrial, orientation: dict[int, int], end: int
 ) -> Iterator[Variant]:
-    """The ways of a trial, of least travel first, then those that end nearest to a back-off.
+    """Yield the ways of a trial by rising travel, then by how near they end to a standoff.
 
-    Before all others come those in which each arm's approach is like one that it had.
+    Those in which each arm's approach is like its former one come before all others.
     """
 
     def rank(variant: Variant) -> tuple[int, int, int]:

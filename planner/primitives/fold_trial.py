@@ -1,4 +1,4 @@
-"""What could be tried to perform a fold, before the robot is asked: grips, arms, the path of the tools."""
+"""Candidates for performing a fold, before the robot is queried: grips, arms, the path of the tools."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -32,15 +32,15 @@ from planner.task.reason import Code
 
 @dataclass(frozen=True, eq=False)
 class FoldTrial:
-    """Grips and arms that may do.
+    """Grips and arms that may perform a fold.
 
     Attributes:
         fold: the fold's index.
-        cover: what is held, article frame (m).
-        arms: the arm that holds each.
+        cover: the points held, article frame (m).
+        arms: the arm that holds each point.
         path: the fold's path, table frame.
         points: the grips in the table frame's unrolled plane, shape (grips, 2), m.
-        sweeps: the waypoints.
+        sweeps: the waypoints, as sweeps.
         tools: each grip's tool path in the table frame, shape (grips, waypoints, 3), m.
         approaches: for each grip the approaches allowed, best first.
     """
@@ -56,20 +56,20 @@ class FoldTrial:
 
     @cached_property
     def hands(self) -> tuple[object, ...]:
-        """What tells it from other trials: arms, tool paths and approaches."""
+        """The key that identifies it: arms, tool paths and approaches."""
         return (self.arms, np.round(self.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in self.approaches))
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
-        """What each arm holds, article frame (m)."""
+        """The point that each arm holds, article frame (m)."""
         return dict(zip(self.arms, self.cover, strict=True))
 
     def is_like(self, other: "FoldTrial") -> bool:
-        """Whether the same arms take the same grips, maybe elsewhere on the table."""
+        """Return whether the same arms take the same grips, possibly elsewhere on the table."""
         return (self.cover, self.arms) == (other.cover, other.arms)
 
     def in_order(self, hands: list[int]) -> "FoldTrial":
-        """Return the same, its hands in another order."""
+        """Return the trial with its hands in another order."""
         return replace(
             self,
             cover=tuple(self.cover[hand] for hand in hands),
@@ -80,23 +80,23 @@ class FoldTrial:
         )
 
     def in_base(self, context: Context, station: int) -> FloatArray:
-        """The tool paths as the robot sees them from a station at back-off 0, shape (grips, waypoints, 3), m."""
+        """Return the tool paths in the base frame at standoff 0, shape (grips, waypoints, 3), m."""
         return context.in_base(station, self.tools)
 
     def following(self, context: Context, station: int) -> Following:
-        """The hands as they are to follow their paths from a station."""
+        """Return the query about hands that follow the tool paths from a station."""
         return context.reach.following(self.arms, self.in_base(context, station), self.approaches, BACK_OFF_STEP_M)
 
 
 class Depths:
-    """How far the part that a fold moves reaches from the fold line."""
+    """The distances from the fold line that the moving part of each fold covers."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
         self._known: dict[int, tuple[float, float]] = {}
 
     def of(self, fold: int) -> tuple[float, float]:
-        """The smallest and the largest distance from the line, to the left (m)."""
+        """Return the smallest and the largest distance from the line, to the left (m)."""
         if fold not in self._known:
             moving = self._context.sequence.moving(fold)
             distances = self._context.sequence.folds[fold].line.left_distances(moving.coordinates)
@@ -105,12 +105,12 @@ class Depths:
 
 
 def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
-    """What speaks against a fold in a state whatever the arms can do; None if nothing does."""
+    """Return the first obstacle to a fold that does not depend on the arms; None if there is none."""
     return next(geometric_obstacles(context, state, fold), None)
 
 
 def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[Obstacle]:
-    """All that speaks against a fold in a state whatever the arms can do."""
+    """Yield all obstacles to a fold in a state that do not depend on the arms."""
     line, label = context.sequence.folds[fold].line, context.sequence.folds[fold].label
     if not is_line_on_table(context, fold, state.offset):
         off = context.table_in_article(state.offset).region.distance_to(line)
@@ -131,17 +131,17 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
 
 
 def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:
-    """Whether a part of a fold's line is over the table top after drags by `offset`."""
+    """Return whether a part of a fold's line is over the table top after drags by `offset`."""
     line = context.sequence.folds[fold].line
     is_end_on_table = context.is_on_table(line.start, offset) or context.is_on_table(line.end, offset)
     return is_end_on_table or bool(context.table_in_article(offset).region.overlaps_with(line))
 
 
 def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
-    """Return the grips and arms that may perform a fold in a state, with what is held or with free hands.
+    """Return the grips and arms that may perform a fold in a state, with the grips held or with empty hands.
 
-    They and their hands come in an order that depends on where things are and not on how they were drawn, and a mirror
-    image of the task has them in the same.
+    The order of the trials and of their hands depends on where things are and not on how they were drawn; a mirror
+    image of the task has the same order.
     """
     keyed = [(trial, _hand_keys(context, state, trial)) for trial in _trials(context, state, fold)]
     return [trial for trial, _ in sorted(keyed, key=lambda pair: pair[1])]
@@ -169,16 +169,16 @@ def _trials(context: Context, state: State, fold: int) -> Iterator[FoldTrial]:
 def held_covers(context: Context, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
     """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
 
-    Only hands on the part that moves count: on the fold line, or on cloth that stays, a hand lifts nothing.
+    Only hands on the moving part count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
     return context.kept(_HeldCovers).of(fold, held)
 
 
 class _HeldCovers:
-    """What grips already held hold of what folds need: many states hold the same, so answers are kept.
+    """The sets of grips already held that suffice for a fold; many states share them, so they are kept.
 
-    Grips that are the same to the grid share an answer though their points differ by a rounding error, so an answer
-    says which of the grips it means, not where they are.
+    Grips that are equal on the grid share an answer though their points differ by a rounding error. So an answer holds
+    the grips' numbers, not their points.
     """
 
     def __init__(self, context: Context) -> None:
@@ -203,19 +203,22 @@ class _HeldCovers:
 
 
 def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:
-    """Those of the grips held that are on the part that a fold moves, article frame (m)."""
+    """Return the grips held that lie on the part that a fold moves, article frame (m)."""
     line, moving = context.sequence.folds[fold].line, context.sequence.moving(fold)
     return [h.point for h in held if _is_lifted(h.point, moving, line)]
 
 
 def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
-    """Whether a point of the cloth lies on the part that moves, off the fold line."""
+    """Return whether a point of the cloth lies on the moving part, off the fold line."""
     is_on_part = moving.contains(point) or moving.boundary_distance(point) <= LENGTH_M
     return is_on_part and float(line.distances(np.array([point]))[0]) > LENGTH_M
 
 
 def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
-    """Why free hands cannot hold what a fold needs: too many grips, or too near to each other; None if they can."""
+    """Return why empty hands cannot hold what a fold needs; None if they can.
+
+    There may be too many grips, or grips too close to each other.
+    """
     arms = len(context.reach.arm_names)
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
     if not covers.is_holdable:
@@ -239,7 +242,7 @@ def _path(context: Context, state: State, fold: int) -> FoldPath:
 
 
 def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
-    """Grips and their arms: those held that suffice, or the best new ones."""
+    """Yield grips and their arms: those held that suffice, or the best new ones."""
     if state.held:
         yield from _held_grips(context, state, fold)
         return
@@ -256,7 +259,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
 
 
 def _held_grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
-    """The fewest of the grips held that hold all that must be held."""
+    """Yield the smallest sets of held grips that hold all that must be held."""
     covers = held_covers(context, fold, state.held)
     if not covers and not state.is_dragged:
         context.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))

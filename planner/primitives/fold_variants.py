@@ -1,7 +1,7 @@
-"""All ways to perform a fold between the same two states, and a spread of those from one state to any.
+"""Find all ways to perform a fold between two given states, and a selection of those from one state to any.
 
-The search keeps one way for each end; what it leaves out may be all that is left once arms must not collide: other
-grips that tie, the grips given to the arms the other way round, other orientations, a path begun or ended elsewhere.
+The search keeps one way for each end. Once arms must not collide, only ways that it left out may remain: other grips
+that tie, the grips swapped between the arms, other orientations, a path begun or ended elsewhere.
 """
 
 from collections.abc import Iterator
@@ -22,10 +22,10 @@ from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
 
 _COMBINATIONS_MAX = 240
-"""Of more combinations of orientations than this only so many are looked at, evenly spread."""
+"""The most combinations of orientations examined; of more, an evenly spaced selection is taken."""
 
 Approaches: TypeAlias = tuple[NDArray[np.int64], ...]
-"""Of each hand the approaches that it may take, the most natural first."""
+"""For each hand the approaches that it may take, the most natural first."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,8 +34,8 @@ class Variant:
 
     Attributes:
         way: grips, arms and path, in one orientation of each hand.
-        first: the back-off from which the path is begun.
-        end: the back-off at its end.
+        first: the standoff from which the path is begun.
+        end: the standoff at its end.
         steps: travel in all, in steps of the grid.
         driven: the part of it that is driven once the path is begun.
         rank: how far from natural the orientations are.
@@ -50,7 +50,7 @@ class Variant:
 
 
 def fold_variants(context: Context, state: State, fold: int, end: int) -> Iterator[Variant]:
-    """The ways to do a fold in a state and end at a back-off: by rising travel, then the most natural first."""
+    """Yield the ways to do a fold in a state and end at a standoff: by rising travel, then the most natural first."""
     found = (
         sorted(trial_variants(context, state, trial, end), key=_rank) for trial in fold_trials(context, state, fold)
     )
@@ -58,9 +58,9 @@ def fold_variants(context: Context, state: State, fold: int, end: int) -> Iterat
 
 
 def fold_spread(context: Context, state: State, fold: int, count: int) -> Iterator[Variant]:
-    """Some ways to do a fold in a state, wherever the base ends: the best ones, and others evenly spread over the rest.
+    """Yield the best ways to do a fold in a state, and an evenly spaced selection of the others.
 
-    While the hands are free they are the same wherever the base stands before.
+    The base may end anywhere. While the hands are empty, the ways do not depend on where the base stands before.
     """
     found = [v for trial in fold_trials(context, state, fold) for v in trial_variants(context, state, trial)]
     found.sort(key=lambda variant: (variant.driven, variant.rank))
@@ -76,9 +76,14 @@ def _rank(variant: Variant) -> tuple[int, int]:
 def trial_variants(
     context: Context, state: State, trial: FoldTrial, end: int | None = None, approaches: Approaches | None = None
 ) -> Iterator[Variant]:
-    """The ways of one trial, each combination of orientations with the base travelling least.
+    """Yield the ways of one trial: for each combination of orientations, the one of least travel.
 
-    The base ends at a back-off, or at any; hands approach in some of the trial's ways, or in any.
+    Args:
+        context: the planning context.
+        state: the state in which the fold starts.
+        trial: grips, arms and path.
+        end: the standoff at which the base ends; None: any.
+        approaches: the approaches to combine; None: all of the trial's.
     """
     masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
@@ -96,7 +101,7 @@ def trial_variants(
 
 
 def _allowed(context: Context, state: State, end: int | None) -> BoolArray:
-    """Which back-offs a path may be begun from and ended at, shape (back-offs, back-offs)."""
+    """Return at which standoffs a path may be begun and ended, shape (standoffs, standoffs)."""
     every = np.arange(context.back_offs)
     is_first = every == state.back_off if state.held else np.ones(context.back_offs, dtype=bool)
     is_last = every == end if end is not None else np.ones(context.back_offs, dtype=bool)
@@ -106,9 +111,11 @@ def _allowed(context: Context, state: State, end: int | None) -> BoolArray:
 def _all_strips(
     context: Context, state: State, trial: FoldTrial, approaches: Approaches
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
-    """Every combination of approaches in which the base has a place at every waypoint, and how natural it is.
+    """Return every combination of approaches for which the base has a standoff at every waypoint.
 
-    Bit masks of back-offs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); ranks.
+    Returns:
+        Bit masks of standoffs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); and
+            ranks, how far from natural each combination is.
     """
     start = state.back_off if state.held else None
     masks, numbers = [], []

@@ -1,4 +1,4 @@
-"""A fold as one robot can perform it from one station: which hands take which grips, and in which approaches."""
+"""A way for one robot to perform a fold from one station: which hands take which grips, and with which approaches."""
 
 from dataclasses import dataclass
 
@@ -13,12 +13,12 @@ from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State
 
 AHEAD_M = 0.7
-"""About as far ahead of its shoulder a hand works on a table (m)."""
+"""The typical distance of a working hand ahead of its shoulder on a table (m)."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FoldWay:
-    """One choice of grips, arms and approaches for a fold at one placement and station that the robot can follow.
+    """One choice of grips, arms and approaches with which the robot can follow a fold from one station.
 
     Attributes:
         trial: the grips, the arms, the path.
@@ -29,11 +29,11 @@ class FoldWay:
     approaches: tuple[int, ...]
 
     def is_like(self, other: "FoldWay") -> bool:
-        """Whether the same arms take the same grips in the same approaches."""
+        """Return whether the same arms take the same grips in the same approaches."""
         return self.trial.is_like(other.trial) and self.approaches == other.approaches
 
     def strip(self, context: Context, station: int) -> NDArray[np.uint32]:
-        """At each waypoint the back-offs from which every hand is in comfort, as bit masks, shape (waypoints,)."""
+        """Return the standoffs that keep every hand within the comfort radius, as bit masks, shape (waypoints,)."""
         hands = zip(self.trial.arms, self.trial.in_base(context, station), self.approaches, strict=True)
         masks = [
             context.reach.back_offs(arm, points, np.array([approach]), context.back_offs, BACK_OFF_STEP_M)[0]
@@ -43,13 +43,13 @@ class FoldWay:
 
 
 def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | None = None) -> bool:
-    """Whether the arms can follow a trial, the base driving as it may.
+    """Return whether the arms can follow a trial, with the base free to drive.
 
     Args:
-        context: the problem.
+        context: the planning context.
         station: where the robot stands.
         trial: grips, arms and path.
-        stands: the back-offs at one of which it is begun, as a bit mask; None: any.
+        stands: the standoffs at one of which the path is begun, as a bit mask; None: any.
     """
     begun = np.zeros(context.back_offs, dtype=np.int64)
     if stands is not None:
@@ -58,18 +58,18 @@ def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | N
 
 
 def attempt_of(state: State, trial: FoldTrial, places: FloatArray) -> Attempt:
-    """A trial in a state that failed, as it is remembered; at all of these offsets of the article, shape (n, 2), m."""
+    """Return the record of a trial that failed at each of some offsets of the article, shape (n, 2), m."""
     return Attempt(trial.fold, state, trial.cover, trial.arms, trial.path, trial.points, trial.approaches, places)
 
 
 def away_from_shoulders(context: Context, station: int, arms: tuple[int, ...], tools: FloatArray) -> FloatArray:
-    """How far the hands must go from their shoulders at most (m), sideways, up or down, and too far ahead.
+    """Return how far the hands must go from their shoulders at most (m): sideways, up, down, and too far ahead.
 
-    The base can back off but not go nearer, so what lies ahead counts as far as it is beyond `AHEAD_M`. Only for
-    comparing what could not be reached.
+    The base can back off but not come closer, so a point ahead counts only as far as it lies beyond `AHEAD_M`. The
+    number serves only to compare attempts that were out of reach.
 
     Args:
-        context: the problem.
+        context: the planning context.
         station: where the robot stands.
         arms: the arm of each grip.
         tools: each grip's tool points in the table frame, shape (grips, n, ..., 3), m.

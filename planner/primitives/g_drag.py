@@ -1,4 +1,4 @@
-"""The g-drag: the base backs off with the arms still and the cloth comes along (paper, section 6)."""
+"""The g-drag: the base backs off with the arms still, and the cloth comes along (paper, section 6)."""
 
 from collections.abc import Iterable, Iterator
 from functools import partial
@@ -29,14 +29,14 @@ class GDrag:
         self._longest = longest_drag(context)
 
     def successors(self, state: State) -> Iterable[DragStep]:
-        """Drags of every distance, letting go afterwards or, where a fold can use the grips, holding on."""
+        """Return drags of every distance that let go afterwards or, if a fold can use the grips, hold on."""
         if state.held:
             return DeferredSteps(())
         held = State(state.done, state.offset, state.station, 0, dragged=1)
         return DeferredSteps((*self._later(state, 1, state), *self._later(state, 1, held)))
 
     def by(self, state: State, count: int) -> Iterator[DragStep]:
-        """Drags of one distance, so many steps of the grid."""
+        """Yield the drags of one distance, `count` steps of the grid of drags."""
         ways = () if state.held else self._ways.of(state)
         offset = dragged(self._context, state.offset, state.station, count)
         if ways and self._context.unrest(state.done, offset) is None:
@@ -45,13 +45,13 @@ class GDrag:
                 yield from self._holding.every(state, way, count, offset)
 
     def _later(self, state: State, count: int, towards: State) -> Iterator[Deferred[DragStep]]:
-        """Drags of at least so many steps of the grid, in their time; the hands hold on if they do `towards`."""
+        """Yield deferred drags of at least `count` steps of the grid; the hands hold on if they do in `towards`."""
         if count <= self._longest:
             duration = self._context.scene.arm_motion_s + self._context.drive_s(count * STEPS_PER_DRAG)
             yield Deferred(duration, towards, partial(self._steps, state, count, towards))
 
     def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Deferred[DragStep]]:
-        """Drags by so many steps of the grid, and in their time by more."""
+        """Yield the drags of `count` steps of the grid, then deferred longer ones."""
         ways = self._ways.of(state)
         if not ways:
             return
@@ -65,7 +65,7 @@ class GDrag:
         yield from self._later(state, count + 1, towards)
 
     def _letting_go(self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2) -> Iterator[DragStep]:
-        """The cheapest way to each end back-off, where driving on from another end is no cheaper."""
+        """Yield the cheapest drag to each final standoff that driving on from another one does not reach as cheaply."""
         best: dict[int, DragWay] = {}
         for way in ways:
             for stand in way.stands:

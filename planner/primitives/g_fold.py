@@ -25,23 +25,23 @@ class GFold:
         self._stands = context.kept(FoldStands) if context.sequence.dag.is_loose else None
 
     def successors(self, state: State) -> Iterable[FoldStep]:
-        """One step for each available fold and each end back-off that no other beats."""
+        """Return one step for each available fold and each final standoff that no other beats."""
         folds = self._available(state.done)
         if state.is_dragged:
             folds = tuple(fold for fold in folds if not self._context.sequence.folds[fold].is_red)
         return DeferredSteps(tuple([self._later(state, fold, 0) for fold in folds]))
 
     def _later(self, state: State, fold: int, driven: int) -> Deferred[FoldStep]:
-        """What needs at least so many steps of driving, in its time."""
+        """Return deferred steps that need at least `driven` steps of driving."""
         motions = 2 if state.held else 3
         duration = motions * self._context.scene.arm_motion_s + self._context.drive_s(driven)
         towards = State(state.done | 1 << fold, state.offset, state.station, ANYWHERE)
         return Deferred(duration, towards, partial(self._begun, state, fold, driven), is_there=True)
 
     def _begun(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Deferred[FoldStep]]:
-        """The same, put off where the fold takes more driving whatever other folds are done.
+        """Yield the steps of a fold, deferred again if the fold needs more driving whatever other folds are done.
 
-        To find that out is done once for all of the many states in which loose folds may be done.
+        That bound is computed once for all of the many states in which loose folds may be done.
         """
         if self._stands is not None and not state.held:
             least = int(self._stands.least(fold, state.offset, state.station)[state.back_off])
@@ -51,7 +51,7 @@ class GFold:
         yield from self._steps(state, fold, driven if driven < IMPOSSIBLE else 0)
 
     def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Deferred[FoldStep]]:
-        """The steps with so much driving or some more, and in their time those with still more."""
+        """Yield the steps with up to three times `driven` steps of driving, then deferred ones with more."""
         question, begun = self._questions.of(state, fold), self._questions.begun(state)
         if self._follows_at_once[fold]:
             ends, more = question.every_end(begun), IMPOSSIBLE

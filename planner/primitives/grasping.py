@@ -1,4 +1,4 @@
-"""Which arm takes which grip, and from which directions it may."""
+"""Assign arms to grips, and find the directions from which they may approach."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -16,25 +16,25 @@ from planner.task.grip import Holding
 _PREFERRED_PITCH_RAD = math.radians(30.0)
 
 _DISCOMFORT_DIGITS = 3
-"""Discomforts that agree to so many decimals (rad) are the same: the bisector at a corner is known no better."""
+"""Decimals to which discomforts are compared (rad): the bisector at a corner is known no better."""
 
 
 def nearest_pair_m(points: FloatArray) -> float:
-    """The distance of the two nearest of some points, shape (n, 2), m; infinite for fewer than two."""
+    """Return the distance of the two nearest points, shape (n, 2), m; infinite for fewer than two."""
     pairs = combinations(points, 2)
     return min((float(np.hypot(*(a - b))) for a, b in pairs), default=math.inf)
 
 
 def assignments(context: Context, station: int, points: FloatArray) -> Iterator[tuple[int, ...]]:
-    """The ways to give grips to arms: an arm further left takes a grip further left.
+    """Yield the ways to assign grips to arms: an arm further left takes a grip further left.
 
     Args:
-        context: the problem.
+        context: the planning context.
         station: where the robot stands.
         points: the grips in the table frame, shape (n, 2), m.
 
     Yields:
-        For each grip the number of its arm. Where two grips are equally far left, both ways come.
+        For each grip the number of its arm. Where two grips are equally far left, both assignments are yielded.
     """
     lateral = context.station_pose(station).to_inner(points)[:, 1]
     for arms in permutations(range(len(context.reach.arm_names)), len(points)):
@@ -49,12 +49,12 @@ def assignments(context: Context, station: int, points: FloatArray) -> Iterator[
 
 
 def hand_key(context: Context, station: int, arm: int, tools: FloatArray) -> tuple[int, ...]:
-    """Return by what hands are put in order, whatever the frame of the drawing: where they begin and end.
+    """Return the key that orders hands by where they begin and end, whatever the frame of the drawing.
 
-    Mirrored, as all arms were on the left: so what a mirror image of the task tries comes in the same order.
+    Right arms are mirrored to the left, so a mirror image of the task tries its hands in the same order.
 
     Args:
-        context: the problem.
+        context: the planning context.
         station: where the robot stands.
         arm: the hand's arm.
         tools: its tool points in the table frame, shape (n, 3), m.
@@ -64,7 +64,7 @@ def hand_key(context: Context, station: int, arm: int, tools: FloatArray) -> tup
 
 
 def side_of(context: Context, arm: int) -> float:
-    """Return on which side of the robot an arm is: 1 left, -1 right."""
+    """Return the side of the robot that an arm is on: 1 left, -1 right."""
     return math.copysign(1.0, context.reach.shoulders[arm][1])
 
 
@@ -73,7 +73,7 @@ def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names:
 
     Args:
         taken: the grip of each arm, article frame (m).
-        vertices: what must be held, article frame (m).
+        vertices: the points that must be held, article frame (m).
         arm_names: the names of all arms.
     """
     nearest = [min(taken, key=lambda arm: (math.dist(taken[arm], vertex), arm)) for vertex in vertices]
@@ -84,11 +84,11 @@ def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names:
 
 
 class Taking(Protocol):
-    """Arms at grips."""
+    """A choice of grips for arms."""
 
     @property
     def taken(self) -> dict[int, Point2]:
-        """What each arm holds, article frame (m)."""
+        """The point that each arm holds, article frame (m)."""
         ...
 
 
@@ -96,7 +96,7 @@ T = TypeVar("T", bound=Taking)
 
 
 def by_nearness(one: T, others: Iterable[T]) -> list[T]:
-    """Others in the order in which their hands are nearest to where one has them; last those of other arms."""
+    """Return the others sorted by how far their hands are from those of `one`; those with other arms last."""
 
     def away_m(other: T) -> float:
         if other.taken.keys() != one.taken.keys():
@@ -109,11 +109,11 @@ def by_nearness(one: T, others: Iterable[T]) -> list[T]:
 def approaches_from_outside(
     context: Context, done: int, heading_in_base: float, grip: Point2, arm: int
 ) -> NDArray[np.int64]:
-    """The approaches that pinch the cloth from outside, best first; of equally good ones those across the body.
+    """Return the approaches that pinch the cloth from outside, best first; of equals those across the body first.
 
     Args:
-        context: the problem.
-        done: the folds finished.
+        context: the planning context.
+        done: the folds finished, as a bit mask.
         heading_in_base: direction of the article's x axis in the base frame (rad).
         grip: a point of the stack, article frame (m).
         arm: the arm that takes it.
@@ -122,7 +122,7 @@ def approaches_from_outside(
 
 
 def like_approach(context: Context, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
-    """Of some approaches so many that turn the hand least from one, in the order in which they were."""
+    """Return the `count` approaches that turn the hand least from `one`, in their given order."""
     wanted = context.reach.approaches[one]
     found = [context.reach.approaches[approach] for approach in approaches]
     off = [
@@ -133,7 +133,7 @@ def like_approach(context: Context, approaches: NDArray[np.int64], one: int, cou
 
 
 class _Pinches:
-    """From which directions cloth may be pinched: asked again and again for the same grips, so answers are kept."""
+    """The directions from which cloth may be pinched, kept because the same grips are queried again and again."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -149,7 +149,7 @@ class _Pinches:
         return self._known[key]
 
     def _inward_heading(self, done: int, grip: Point2) -> float | None:
-        """The direction into the cloth in the article frame (rad); None for a grip that is not at its edge."""
+        """Return the direction into the cloth, article frame (rad); None for a grip that is not at its edge."""
         if (done, grip) not in self._headings:
             inward = self._context.sequence.cloth(done).silhouette.inward_bisector(grip)
             self._headings[done, grip] = None if inward is None else math.atan2(inward[1], inward[0])
@@ -157,7 +157,10 @@ class _Pinches:
 
 
 def _from_outside(context: Context, heading: float | None, side: float) -> NDArray[np.int64]:
-    """The approaches within the cone about a heading, base frame, best first; without one only straight down."""
+    """Return the approaches within the cone about a heading, base frame, best first.
+
+    Without a heading, only the vertical approaches count.
+    """
     discomfort, off = _discomfort(context, heading)
     cone, is_vertical = context.scene.approach_cone_rad, [approach.is_vertical for approach in context.reach.approaches]
     is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
@@ -167,7 +170,7 @@ def _from_outside(context: Context, heading: float | None, side: float) -> NDArr
 
 
 def all_approaches(context: Context) -> tuple[NDArray[np.int64], ...]:
-    """Every approach, for each arm the best first: what is held already may be held from anywhere."""
+    """Return every approach, for each arm the best first: a grip already held may be held from any direction."""
     discomfort, _ = _discomfort(context, None)
     every = np.arange(len(discomfort))
     return tuple(
@@ -178,13 +181,16 @@ def all_approaches(context: Context) -> tuple[NDArray[np.int64], ...]:
 def _by_comfort(
     context: Context, discomfort: FloatArray, approaches: NDArray[np.int64], side: float
 ) -> NDArray[np.int64]:
-    """Approaches in the order of their discomfort; of equal ones first flat ones, then those that point across."""
+    """Return approaches by rising discomfort; of equals first the flat ones, then those that point across the body."""
     found = np.array([(a.pitch_rad, side * a.heading_rad) for a in context.reach.approaches])[approaches]
     return np.asarray(approaches[np.lexsort((found[:, 1], found[:, 0], discomfort[approaches]))])
 
 
 def _discomfort(context: Context, heading: float | None) -> tuple[FloatArray, FloatArray]:
-    """How far each approach is from the natural one, straight into the cloth, 30 degrees down; and from the heading."""
+    """Return each approach's deviation from the natural one, and from the heading (rad).
+
+    The natural approach points straight into the cloth, 30 degrees down.
+    """
     found = [(a.heading_rad, a.pitch_rad, 0.0 if a.is_vertical else 1.0) for a in context.reach.approaches]
     headings, pitches, counts = np.array(found).T
     off = np.abs(np.remainder(headings - (heading or 0.0) + math.pi, math.tau) - math.pi)

@@ -1,7 +1,7 @@
 """Drags after which the hands hold on.
 
-To hold on is of use only for a fold, and where the base stands in between matters to nothing else. So it is asked of
-the drag and the fold together where that had best be, once; all other places are spare.
+Holding on is of use only for a fold, and the base's standoff in between matters to nothing else. So one query finds the
+best standoff for the drag and the fold together; drags to all other standoffs are spare.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,16 +21,16 @@ from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 
 STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
-"""So many steps of the back-off grid has one of the grid of drags."""
+"""The steps of the grid of standoffs in one step of the grid of drags."""
 
 
 class _Drag(NamedTuple):
-    """One drag by the same hands, wherever the base stands when it begins.
+    """One drag by given hands, whatever the standoff of the base when it begins.
 
     Attributes:
         before: the state it starts in.
         way: grips and arms.
-        driven: the steps of the back-off grid that the base drives with the cloth.
+        driven: the steps of the grid of standoffs that the base drives with the cloth.
         afters: the states it may lead to.
     """
 
@@ -41,14 +41,14 @@ class _Drag(NamedTuple):
 
 
 class HoldingDrags:
-    """The drags of one planning problem after which the hands hold on."""
+    """The drags of one task after which the hands hold on."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
         self._questions = context.kept(FoldQuestions)
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
-        """The drags to an offset, so many steps of the grid of drags away, that leave grips of use to some fold."""
+        """Yield the drags by `count` steps of the grid of drags that leave grips of use to some fold."""
         drag = self._drag(state, way, count, offset)
         if self._served(drag):
             yield from (self._step(drag, after) for after in drag.afters)
@@ -56,7 +56,7 @@ class HoldingDrags:
     def successors(
         self, state: State, way: DragWay, count: int, offset: Point2
     ) -> Iterator[DragStep | Deferred[DragStep]]:
-        """The same, those first that together with a fold take least; what serves no fold better is spare."""
+        """Yield the same drags, those first that are cheapest together with a fold; defer the rest as spare."""
         drag = self._drag(state, way, count, offset)
         folds = self._served(drag)
         if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):
@@ -77,7 +77,7 @@ class HoldingDrags:
         return DragStep(self._context, drag.way, drag.before, after, after.back_off - drag.driven)
 
     def _served(self, drag: _Drag) -> list[int]:
-        """The folds that can be done with the grips."""
+        """Return the folds that can be done with the grips."""
         if not drag.afters:
             return []
         held = drag.afters[0].held
@@ -86,7 +86,7 @@ class HoldingDrags:
         return [fold for fold in blue if held_covers(self._context, fold, held)]
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
-        """The drags that serve a fold best, drag and fold together taking so many steps of driving or more."""
+        """Yield the drags that serve a fold best, where drag and fold take at least `least` steps of driving in all."""
         begun = np.full(self._context.back_offs, IMPOSSIBLE)
         for after in drag.afters:
             stand = after.back_off - drag.driven
@@ -107,6 +107,6 @@ class HoldingDrags:
         steps: Callable[[], Iterator[DragStep | Deferred[DragStep]]],
         is_spare: bool = False,
     ) -> Deferred[DragStep]:
-        """What drives so much in all, before, with and after the drag."""
+        """Return deferred steps that drive `driven` steps in all: before, with and after the drag."""
         duration_s = self._context.scene.arm_motion_s + self._context.drive_s(driven)
         return Deferred(duration_s, drag.afters[0], steps, is_spare)

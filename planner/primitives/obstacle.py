@@ -1,7 +1,7 @@
-"""Why a fold was not possible: collected while searching, turned into reasons when there is no plan.
+"""Record why a fold was not possible while searching, to be turned into reasons when there is no plan.
 
-What stops a fold is noted with the state in which it did. What the arms could not follow is only noted as an attempt,
-which costs next to nothing: how far out of reach it was is worked out when somebody asks.
+An obstacle is noted with the state in which it stopped a fold. A path that the arms could not follow is noted as an
+attempt, which costs next to nothing: how far out of reach it was is computed when somebody asks.
 """
 
 import math
@@ -21,26 +21,29 @@ from planner.primitives.state import State
 from planner.task.reason import Code
 
 Situation: TypeAlias = tuple[int, int, int, tuple[tuple[int, int, int], ...], bool, int]
-"""What of a state matters to whether a fold is possible: the folds done (a bit mask), where the article lies, what is
-held and whether from a drag; and how far the base has backed off, if anything is held, for else it may drive."""
+"""The part of a state that decides whether a fold is possible.
+
+The folds done (a bit mask), the article's place, the grips held, whether they are held from a drag, and the standoff:
+-1 if nothing is held, because the base may then drive.
+"""
 
 
 def situation(state: State) -> Situation:
-    """What of a state matters to whether a fold is possible, places to the grid."""
+    """Return the part of a state that decides whether a fold is possible, places on the grid."""
     done, x, y, _, back_off, held, dragged = state.key
     return (done, x, y, held, dragged > 0, back_off if held else -1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BlockingContact:
-    """What an arm cannot help touching, at the moment of a motion at which that is worst.
+    """A contact that an arm cannot avoid, at the moment of a motion at which it is deepest.
 
     Attributes:
         arm: the arm's name.
-        point: where its tool is then, table frame (m).
+        point: the position of its tool at that moment, table frame (m).
         cause: what it touches: ``table``, ``own_body`` or ``arms``.
-        parts: what people call the two that touch, the arm's own first: ``left forearm``, ``table top``.
-        depth_m: how far they are into each other at least (m).
+        parts: the everyday names of the two bodies in contact, the arm's own first: ``left forearm``, ``table top``.
+        depth_m: how deep they penetrate each other at least (m).
     """
 
     arm: str
@@ -52,18 +55,20 @@ class BlockingContact:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Obstacle:
-    """One thing that stood in the way of one fold.
+    """A constraint that stopped one fold.
 
     Attributes:
-        fold: the fold's index; None when it is about no fold.
-        code: which constraint.
-        says: a sentence with the numbers; None where it is worked out when asked for.
-        severity: how far from possible it was (m, or of the friction coefficient), 0 just missed; infinite where that
-            is not known.
-        state: the state in which it did, of a drag that in which it begins; None where that does not matter.
-        point: where, article frame (m), of a drag what the hand holds; None where it is no one place.
-        contact: of a collision what touches what, where that is known.
-        dragged_to: of a collision in a drag that the fold would need the offset to which that leads (m).
+        fold: the fold's index; None if the obstacle is not about a fold.
+        code: the constraint.
+        says: a sentence with the numbers; None where it is made on request.
+        severity: how far from possible the fold was (m, or in units of the friction coefficient); 0: just missed;
+            infinite: unknown.
+        state: the state in which the fold was stopped; of a drag the state in which it begins; None where that does not
+            matter.
+        point: the place of the obstacle, article frame (m); of a drag the point that the hand holds; None where there
+            is no single place.
+        contact: of a collision the contact, where that is known.
+        dragged_to: of a collision in a drag that the fold would need, the offset to which the drag leads (m).
     """
 
     fold: int | None
@@ -76,7 +81,7 @@ class Obstacle:
     dragged_to: Point2 | None = None
 
     def is_milder_than(self, other: "Obstacle") -> bool:
-        """Whether it was nearer to possible, by more than rounding."""
+        """Return whether it was nearer to possible, by more than rounding."""
         if math.isinf(other.severity):
             return not math.isinf(self.severity)
         return not math.isinf(self.severity) and grid_key(self.severity) < grid_key(other.severity)
@@ -89,7 +94,7 @@ class Attempt:
     Attributes:
         fold: the fold's index.
         state: the state in which it was tried, at one of the places.
-        cover: what is held, article frame (m).
+        cover: the points held, article frame (m).
         arms: the arm of each grip.
         path: the fold's path in that state.
         points: the grips in the table frame's unrolled plane in that state, shape (grips, 2), m.
@@ -107,14 +112,14 @@ class Attempt:
     places: FloatArray
 
     def at(self, index: int) -> State:
-        """The state with the article at one of the places."""
+        """Return the state with the article at one of the places."""
         x, y = (float(c) for c in self.places[index])
         state = self.state
         return State(state.done, (x, y), state.station, state.back_off, state.held, state.dragged)
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What it has in common with attempts that differ in the article's place only."""
+        """The key it shares with attempts that differ in the article's place only."""
         state = self.state
         grips = tuple((grid_key(x), grid_key(y)) for x, y in self.cover)
         return (self.fold, state.done, state.station, bool(state.held), state.is_dragged, grips, self.arms)
@@ -122,9 +127,9 @@ class Attempt:
 
 @dataclass(slots=True)
 class Obstacles:
-    """What stood in the folds' ways: for each fold, code and situation the mildest obstacle, and all attempts.
+    """The obstacles met: for each fold, code and situation the mildest one, and all attempts.
 
-    What stood in the way of a drag that a fold would need is kept beside what stood in the fold's own.
+    Obstacles to a drag that a fold would need are kept beside the fold's own.
     """
 
     _met: dict[tuple[object, ...], Obstacle] = field(default_factory=dict)
@@ -143,11 +148,11 @@ class Obstacles:
         self._tried.setdefault(attempt.kind, []).append(attempt)
 
     def of(self, fold: int | None) -> tuple[Obstacle, ...]:
-        """What stood in one fold's way, its attempts aside, in the order in which it was met."""
+        """Return the obstacles to one fold, without its attempts, in the order in which they were met."""
         return tuple(o for o in self._met.values() if o.fold == fold)
 
     def attempts(self, fold: int) -> Iterator[Attempt]:
-        """The attempts at one fold, those that differ in the article's place only as one."""
+        """Yield the attempts at one fold; those that differ in the article's place only are merged into one."""
         for alike in self._tried.values():
             first = alike[0]
             if first.fold == fold:
@@ -156,19 +161,19 @@ class Obstacles:
                 yield replace(first, approaches=approaches, places=np.vstack([a.places for a in alike]))
 
     def dones(self, fold: int) -> set[int]:
-        """The sets of folds done, as bit masks, after which one fold was stopped or tried in vain."""
+        """Return the sets of folds done, as bit masks, after which one fold was stopped or tried in vain."""
         stopped = {o.state.done for o in self._met.values() if o.fold == fold and o.state is not None}
         return stopped | {alike[0].state.done for alike in self._tried.values() if alike[0].fold == fold}
 
     def codes(self, fold: int) -> tuple[Code, ...]:
-        """The constraints that stopped one fold."""
+        """Return the constraints that stopped one fold."""
         found = dict.fromkeys(o.code for o in self.of(fold))
         if any(alike[0].fold == fold for alike in self._tried.values()):
             found[Code.OUT_OF_REACH] = None
         return tuple(found)
 
     def taken_away(self, fold: int) -> "Obstacles":
-        """What stood in one fold's way, forgotten here."""
+        """Remove and return the obstacles to one fold."""
         mine = Obstacles(
             {key: o for key, o in self._met.items() if o.fold == fold},
             {key: alike for key, alike in self._tried.items() if alike[0].fold == fold},
@@ -180,7 +185,7 @@ class Obstacles:
         return mine
 
     def put_back(self, others: "Obstacles") -> None:
-        """Note again what others know."""
+        """Note all obstacles and attempts of `others`."""
         for obstacle in others._met.values():
             self.note(obstacle)
         for alike in others._tried.values():

@@ -1,4 +1,4 @@
-"""What a primitive and a step of it are. To add one, write its file and name its class in `PRIMITIVES`."""
+"""The protocols of a primitive and of its steps. To add one, write its file and name its class in `PRIMITIVES`."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from planner.task.phase import Phase
 
 
 class Step(Protocol):
-    """One primitive as it is performed in a plan: where it starts, where it leads, what it takes."""
+    """A primitive as a step of a plan: where it starts, where it leads, what it takes."""
 
     @property
     def kind(self) -> str:
@@ -35,7 +35,7 @@ class Step(Protocol):
 
     @property
     def grips(self) -> tuple[Grip, ...]:
-        """Where the hands go, from the leftmost arm to the rightmost."""
+        """The picks and places of the hands, from the leftmost arm to the rightmost."""
         ...
 
     @property
@@ -48,42 +48,42 @@ class Step(Protocol):
         ...
 
     def phases(self) -> tuple[Phase, ...]:
-        """What it looks like while it happens; their durations add up to `duration_s`."""
+        """Return the phases of its motion; their durations add up to `duration_s`."""
         ...
 
     def extremes(self) -> tuple[Phase, ...]:
-        """Phases that begin and end where it does while cloth is held; what they are in between does not matter."""
+        """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
         ...
 
     def variants(self) -> "Iterable[Step]":
-        """This step, and every other way between the same two states, the quickest first."""
+        """Return this step, then every other way between the same two states, the quickest first."""
         ...
 
     @property
     def motion(self) -> tuple[object, ...]:
-        """What tells it from other steps of the same problem, the way it is done included."""
+        """The key that tells it from other steps of the same task, the way it is done included."""
         ...
 
     @property
     def situation(self) -> tuple[object, ...]:
-        """What it has in common with the same done while the base stands elsewhere; see `begun_in`."""
+        """The key it shares with the same motion while the base stands elsewhere; see `begun_in`."""
         ...
 
     @property
     def task(self) -> tuple[object, ...]:
-        """What it has in common with the same done from the same station by the same arms, wherever the cloth lies."""
+        """The key it shares with the same step from the same station by the same arms, wherever the cloth lies."""
         ...
 
     def begun_in(self, state: State) -> "Step":
-        """The same from another state of the same situation."""
+        """Return the step begun in another state of the same situation."""
         ...
 
     def elsewhere(self, count: int) -> "Iterable[Step]":
-        """So many other ways to do the same from the same state, the base starting and ending elsewhere."""
+        """Return about `count` other ways to do it from the same state, with the base at other standoffs."""
         ...
 
     def again(self, context: Context, state: State) -> "Iterable[Step]":
-        """The same in a state of another problem, a garment that differs a little: the likest first, if any can be."""
+        """Return the step repeated in a state of another, similar task, the most alike first; empty if it cannot be."""
         ...
 
 
@@ -92,16 +92,17 @@ S = TypeVar("S", bound=Step, covariant=True)
 
 @dataclass(frozen=True, eq=False)
 class Deferred(Generic[S]):
-    """Steps that are worked out only when nothing quicker is left to try.
+    """Successors that are computed only when nothing quicker is left to try.
 
     Attributes:
-        duration_s: none of them takes less (s), or else what has to follow takes so much more than it seems.
-        towards: none of them leads to a state nearer to the end of all folds. Where it says that a drag's grips are
-            held but not which, any may be.
-        steps: works them out; of some it may say once more that there is time.
-        is_spare: whether they are of no use as long as all other ways to and from the grasp of `towards` are real and
-            take no longer than they seem.
-        is_there: whether all of them leave the article and the robot where `towards` says; else only the folds done
+        duration_s: a lower bound on the duration of each (s). A step may be shorter if the steps that must follow it
+            take longer than they seem by as much.
+        towards: a state at least as near to the end of all folds as any state they lead to. Where it says that a drag's
+            grips are held but not which, any may be.
+        steps: computes them; some of the results may be deferred once more.
+        is_spare: whether they are of no use as long as all other ways to and from the grasp of `towards` are validated
+            and take no longer than they seem.
+        is_there: whether all of them leave the article and the robot where `towards` says; if not, only the folds done
             and whether something is held count of it.
     """
 
@@ -114,36 +115,36 @@ class Deferred(Generic[S]):
 
 @dataclass(frozen=True, eq=False)
 class DeferredSteps(Generic[S]):
-    """The steps that leave a state, most of them not worked out yet; to go through them works them all out.
+    """The steps that leave a state, most of them not computed yet; iterating computes them all.
 
     Attributes:
-        found: steps, and what there is time for.
+        found: steps and deferred steps.
     """
 
     found: "tuple[S | Deferred[S], ...]"
 
     def __iter__(self) -> Iterator[S]:
-        """All steps."""
+        """Yield all steps, computing the deferred ones."""
         return _worked_out(self.found)
 
 
 class Primitive(Protocol):
-    """A kind of motion, for one planning problem.
+    """A kind of motion, for one task.
 
     Attributes:
-        begins_with_driving: whether the base may first drive on, closer to its station or further off, at the cost of
-            the way: what begins further on costs so much less.
+        begins_with_driving: whether the base may first drive to another standoff at its station, at the cost of the
+            drive; a step begun there then costs that much less.
     """
 
     begins_with_driving: bool
 
     def successors(self, state: State) -> Iterable[Step]:
-        """The steps of this kind that are possible in a state; `DeferredSteps` where working them out takes long."""
+        """Return the possible steps of this kind in a state; `DeferredSteps` where computing them is slow."""
         ...
 
 
 def in_time(found: Iterable[Step]) -> "Iterable[Step | Deferred[Step]]":
-    """Steps that leave a state, those that have time as such."""
+    """Return the steps that leave a state, deferred ones still deferred."""
     return found.found if isinstance(found, DeferredSteps) else found
 
 

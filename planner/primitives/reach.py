@@ -1,4 +1,4 @@
-"""What the primitives ask of a robot. They own the question; `planner.robot` answers it."""
+"""The protocol for queries about a robot's reach. The primitives own it; `planner.robot` implements it."""
 
 import math
 from typing import Protocol
@@ -12,17 +12,17 @@ from planner.geometry.shortfall import Shortfall
 
 
 class Following(Protocol):
-    """Hands that are to follow paths."""
+    """A query about hands that follow paths."""
 
     def least_driving(
         self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
     ) -> Driving:
-        """How the base may drive meanwhile, in as few steps as can be.
+        """Return how the base may drive meanwhile, in as few steps as possible.
 
         Args:
-            begun: for each back-off the steps in which the base can be there when the hands begin; `IMPOSSIBLE`
-                where it cannot. Shape (count,), count at most 32.
-            most: ways of more steps than this are not looked for.
+            begun: for each standoff the steps in which the base can be there when the hands begin; `IMPOSSIBLE` where
+                it cannot. Shape (count,), count at most 32.
+            most: the most steps of a way; longer ones are not looked for.
             wanted: which ends are wanted.
         """
         ...
@@ -40,7 +40,7 @@ class Reach(Protocol):
         ...
 
     def forget(self) -> None:
-        """Drop what it remembers; its answers stay the same."""
+        """Drop all caches; answers stay the same."""
         ...
 
     @property
@@ -50,12 +50,12 @@ class Reach(Protocol):
 
     @property
     def comfort_m(self) -> float:
-        """A point counts as reachable only if a circle of this radius round it is (m)."""
+        """The comfort radius: a point counts as reachable only if a circle of this radius round it is (m)."""
         ...
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
-        """Where each arm is hung up, base frame (m); for telling near from far, not for reach."""
+        """The position of each shoulder, base frame (m); for telling near from far, not for reach."""
         ...
 
     def back_offs(
@@ -68,54 +68,53 @@ class Reach(Protocol):
         enough: int | None = None,
         start: int | None = None,
     ) -> NDArray[np.uint32]:
-        """For each approach, the back-offs at which the base may stand while the arm's tool follows a path.
+        """Return, for each approach, the standoffs at which the base may stand while the arm's tool follows a path.
 
         The tool keeps one orientation. At each point the base may drive while the tool rests there, if the tool is
-        in comfort at every back-off on the way. So a back-off counts at a point if the base was there at the point
-        before, or can drive there; at the first point every back-off in comfort counts.
+        within the comfort radius at every standoff on the way. So a standoff counts at a point if the base was there at
+        the point before, or can drive there; at the first point every standoff within the comfort radius counts.
 
         Args:
             arm: index into `arm_names`.
-            points: tool points in the base frame as it stands at back-off 0, z above the floor (m),
-                shape (n, 3).
+            points: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,).
-            count: how many back-offs there are, at most 32.
-            step_m: from one back-off to the next (m).
-            enough: so many approaches that can follow the path, the first in the order given, are enough, and
-                the rows of others may be left 0; None: all are wanted.
-            start: the back-off at which the base stands when the tool is at the first point already; None: the tool
-                is brought there once the base stands wherever is best.
+            count: the number of standoffs, at most 32.
+            step_m: the distance between neighbouring standoffs (m).
+            enough: how many approaches that can follow the path are enough, the first in the order given; the rows of
+                others may be left 0. None: all are wanted.
+            start: the standoff at which the base stands when the tool is at the first point already; None: the tool is
+                brought there once the base stands wherever is best.
 
         Returns:
-            Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the
-            path cannot be followed to its end, that approach's whole row is 0.
+            Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the path
+                cannot be followed to its end, that approach's whole row is 0.
         """
         ...
 
     @property
     def queries(self) -> int:
-        """Inverse-kinematics queries put to the exact kernel so far, comfort points counted."""
+        """The number of queries put to the exact inverse-kinematics kernel so far, comfort points counted."""
         ...
 
     @property
     def query_time_s(self) -> float:
-        """Time spent in them (s)."""
+        """The time spent in them (s)."""
         ...
 
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
     ) -> Following:
-        """Hands that are to follow paths, each in one approach.
+        """Return a query about hands that follow paths, each in one approach.
 
-        At every waypoint the base may drive while the hands rest there, if every hand is in comfort at every back-off
-        on the way.
+        At every waypoint the base may drive while the hands rest there, if every hand is within the comfort radius at
+        every standoff on the way.
 
         Args:
             arms: for each hand its index into `arm_names`.
-            paths: for each hand its tool points in the base frame as it stands at back-off 0, z above the floor (m),
+            paths: for each hand its tool points in the base frame as it stands at standoff 0, z above the floor (m),
                 shape (hands, n, 3).
             approaches: for each hand the indices into `approaches` that it may use, best first.
-            step_m: from one back-off to the next (m).
+            step_m: the distance between neighbouring standoffs (m).
         """
         ...
 
@@ -128,72 +127,73 @@ class Reach(Protocol):
         step_m: float,
         enough: int | None = None,
     ) -> BoolArray:
-        """For each approach, at which points the arm's tool is in comfort from at least one back-off.
+        """Return, for each approach, which points the arm's tool reaches comfortably from at least one standoff.
 
-        Each point stands on its own: there is no path that leads to it.
+        Comfortably means within the comfort radius. Each point stands on its own: no path leads to it.
 
         Args:
             arm: index into `arm_names`.
-            points: tool points in the base frame as it stands at back-off 0, z above the floor (m),
-                shape (n, 3).
+            points: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,).
-            count: how many back-offs there are.
-            step_m: from one back-off to the next (m).
-            enough: so many approaches that have every point in comfort, the first in the order given, are enough, and
-                the rows of others may be left false; None: all are wanted.
+            count: the number of standoffs.
+            step_m: the distance between neighbouring standoffs (m).
+            enough: how many approaches that reach every point are enough, the first in the order given; the rows of
+                others may be left false. None: all are wanted.
 
         Returns:
-            Truths, shape (k, n).
+            Truth values, shape (k, n).
         """
         ...
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
-        """A lower bound on what `shortfall_together` finds for the points of each way (m), shape (n,).
+        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
 
-        0 where nothing can be said. Much cheaper.
+        It is 0 where no bound is known. It is much cheaper than the exact result.
 
         Args:
             arm: index into `arm_names`.
-            ways: tool points in the base frame as it stands at back-off 0, z above the floor (m), shape (n, p, 3).
+            ways: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, p, 3).
             approaches: indices into `approaches`, shape (k,); the best of them counts.
-            count: how many back-offs there are; the best of them counts.
-            step_m: from one back-off to the next (m).
+            count: the number of standoffs; the best of them counts.
+            step_m: the distance between neighbouring standoffs (m).
         """
         ...
 
     def shortfall(
         self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
     ) -> Shortfall | None:
-        """Why, and by how much, a place is not in comfortable reach, in the best of some approaches.
+        """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
 
         Args:
             arm: index into `arm_names`.
-            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where
-                the base may stand, shape (n, 3).
+            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where the
+                base may stand, shape (n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: displacements longer than this need not be looked for (m).
+            at_most_m: the longest displacement to look for (m).
 
         Returns:
-            The smallest shortfall; None where the place is in comfort from somewhere in one of the approaches.
+            The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
+                approaches.
         """
         ...
 
     def shortfall_together(
         self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
     ) -> tuple[int, Shortfall] | None:
-        """Of places that are all to be had in one approach the worst, in the approach in which it is least so.
+        """Return the worst of places that one approach must reach, in the approach in which that is mildest.
 
         Args:
             arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand, base frame,
-                z above the floor (m), shape (p, n, 3).
+            places: places of the tool, each as seen from each of the places where the base may stand, base frame, z
+                above the floor (m), shape (p, n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: displacements longer than this need not be looked for (m).
+            at_most_m: the longest displacement to look for (m).
 
         Returns:
-            Which place, and its shortfall in that approach; None where some approach brings all into comfort. Where
-            `at_most_m` is lacking or more, nothing counts of the answer but that.
+            The index of the place, and its shortfall in that approach; None where some approach reaches all places
+                comfortably. Where `at_most_m` or more is lacking, only that fact is valid, not the other details of the
+                answer.
         """
         ...

@@ -1,8 +1,8 @@
-"""The least driving that folds still need, in a relaxed problem. Compiled; see `planner.planning.driving_bound`.
+"""Bound from below the driving that folds still need, in a relaxed problem; see `planner.planning.driving_bound`.
 
-A *site* is a place of the article and a station. From site to site lead drags and moves, as long as nothing but the
-table's size and the grid speaks against them; at a site the base drives along its back-offs. What lies further from the
-start than a horizon is outside: there nothing is left to be done.
+A *site* is a place of the article and a station. Drags and moves lead from site to site, ruled out only by the table's
+size and the grid; at a site the base drives along its standoffs. Sites further from the start than a horizon are
+outside: there the bound assumes that nothing is left to do. The functions are compiled.
 """
 
 from typing import NamedTuple
@@ -15,24 +15,23 @@ from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import BoolArray, FloatArray
 
 OUTSIDE, NOWHERE = -1, -2
-"""Instead of the number of a site: it is beyond the horizon; there is no such site."""
+"""Markers in place of a site's number: beyond the horizon; no such site."""
 
 FREE, HELD = 0, 1
-"""Whether hands are free, or hold on to what they have dragged."""
+"""Whether the hands are empty, or hold on to the grips of a drag."""
 
 
 class Sites(NamedTuple):
     """The sites within the horizon, and the ways between them.
 
     Attributes:
-        drags: for each site and each drag, by one step of the grid of drags more each, where it leads; shape (sites,
-            drags).
-        moves: for each site and station where a move leads, shape (sites, stations).
-        move_s: how long that takes at least from each back-off (s), shape (sites, stations, back-offs).
+        drags: for each site and each drag, in order of length, the site to which it leads; shape (sites, drags).
+        moves: for each site and station the site to which a move leads, shape (sites, stations).
+        move_s: a lower bound on the move's duration from each standoff (s), shape (sites, stations, standoffs).
         may_hold: at which sites hands that hold on after a drag may be of use to a fold, shape (sites,).
         motion_s: one arm motion (s).
-        step_s: driving one step of the back-off grid (s).
-        per_drag: steps of the back-off grid in one of the grid of drags.
+        step_s: driving one step of the grid of standoffs (s).
+        per_drag: steps of the grid of standoffs in one step of the grid of drags.
     """
 
     drags: NDArray[np.int64]
@@ -50,11 +49,11 @@ def to_go(sites: Sites, served: NDArray[np.int64], is_served: BoolArray) -> Floa
 
     Args:
         sites: the relaxed problem.
-        served: the steps of driving it takes to do each fold with free hands, shape (folds, sites, back-offs).
+        served: the steps of driving it takes to do each fold with empty hands, shape (folds, sites, standoffs).
         is_served: whether grips held from a drag may do instead, shape (folds, sites).
 
     Returns:
-        Seconds, shape (sets of folds as bit masks, 2, sites, back-offs): `FREE` or `HELD`.
+        Seconds, shape (sets of folds as bit masks, 2, sites, standoffs): `FREE` or `HELD`.
     """
     folds, count, back_offs = served.shape
     found = np.full((1 << folds, 2, count, back_offs), np.inf)
@@ -83,7 +82,7 @@ def _serve(
     is_served: BoolArray,
     site: int,
 ) -> None:
-    """Do a fold at a site; wherever the base drives with it in so many steps, it may end."""
+    """Do a fold at a site; it may end at any standoff that the base can reach in the steps that the fold takes."""
     back_offs = here.shape[2]
     for start in range(back_offs):
         steps = served[site, start]
@@ -97,7 +96,7 @@ def _serve(
 
 @njit(cache=True, nogil=True)
 def _relax(sites: Sites, here: FloatArray, site: int) -> bool:
-    """Look for shorter ways from a site; whether there were any."""
+    """Look for shorter ways from a site, and return whether there were any."""
     back_offs, has_changed = here.shape[2], False
     for number in range(2 * back_offs):
         start = number if number < back_offs else 2 * back_offs - 1 - number

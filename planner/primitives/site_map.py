@@ -1,4 +1,4 @@
-"""The sites that drags and moves lead to within a horizon; see `planner.primitives.relaxed_sites`."""
+"""Find the sites that drags and moves reach within a horizon; see `planner.primitives.relaxed_sites`."""
 
 import heapq
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
 from planner.primitives.state import State
 
 SiteKey = tuple[int, int, int]
-"""A site to the grid: where the article lies (x, y), and the station."""
+"""A site on the grid: the article's place (x, y) and the station."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,15 +35,15 @@ class Site:
 
     @property
     def key(self) -> SiteKey:
-        """The site to the grid."""
+        """The site on the grid."""
         return grid_key(self.offset[0]), grid_key(self.offset[1]), self.station
 
 
 class SiteMap:
-    """Sites and the ways between them, found from a first one on."""
+    """The sites and the ways between them, explored from the start."""
 
     def __init__(self, context: Context, start: State, service: Service) -> None:
-        """Know nothing but the start."""
+        """Begin with the site of the start state."""
         self._context = context
         self._service = service
         self._start = Site(start.offset, start.station)
@@ -52,7 +52,7 @@ class SiteMap:
         self._move_s = cache(self._moved_s)
 
     def within(self, horizon_s: float, most: int) -> tuple[tuple[Site, ...], bool]:
-        """Return the sites less than a horizon from the start (s), nearest first, at most so many; are these all?"""
+        """Return up to `most` sites within a horizon of the start (s), nearest first, and whether these are all."""
         found: dict[SiteKey, Site] = {}
         queue: list[tuple[float, int, Site]] = [(0.0, 0, self._start)]
         count = 0
@@ -69,7 +69,7 @@ class SiteMap:
         return tuple(found.values()), not queue
 
     def sites(self, within: tuple[Site, ...], is_service_over: bool) -> Sites:
-        """Return the relaxed problem of some sites; to others lead ways, and beyond those is nothing to be done.
+        """Return the relaxed problem of some sites; all other sites count as outside.
 
         Args:
             within: the sites.
@@ -94,7 +94,7 @@ class SiteMap:
         return Sites(drags, moves, move_s, may_hold, context.scene.arm_motion_s, step_s, STEPS_PER_DRAG)
 
     def _beside(self, site: Site) -> Iterator[tuple[Site, float]]:
-        """The sites next to one, with what it takes to get there at least (s)."""
+        """Yield the neighbours of a site, with a lower bound on the time to get there (s)."""
         context = self._context
         for count, goal in enumerate(self._dragged(site), start=1):
             is_held = self._service.is_possible(goal.offset, goal.station)
@@ -104,7 +104,7 @@ class SiteMap:
                 yield Site(site.offset, station), float(self._move_s(site.station, station).min())
 
     def _dragged(self, site: Site) -> Iterator[Site]:
-        """Where drags lead, as long as some of the cloth may still lie on the table."""
+        """Yield the sites to which drags lead, as long as some of the cloth may still lie on the table."""
         for count in range(1, self._longest + 1):
             offset = dragged(self._context, site.offset, site.station, count)
             if not self._context.may_be_on_table(offset):
@@ -112,6 +112,6 @@ class SiteMap:
             yield Site(offset, site.station)
 
     def _moved_s(self, station: int, goal: int) -> FloatArray:
-        """How long a move takes from each back-off (s)."""
+        """Return the duration of a move from each standoff (s)."""
         starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._context.back_offs))
         return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])

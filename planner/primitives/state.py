@@ -1,4 +1,4 @@
-"""What the search tells apart: folds done, placement, where the base stands, what is held."""
+"""The states of the search: folds done, placement, where the base stands, what is held."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -7,24 +7,24 @@ from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
 
 HeldKey: TypeAlias = tuple[int, int, int]
-"""A grip to the grid: the arm, and where it holds."""
+"""A grip on the grid: the arm, and the point that it holds."""
 
 StateKey: TypeAlias = tuple[int, int, int, int, int, tuple[HeldKey, ...], int]
-"""A state to the grid: folds done, place (x, y), station, back-off, what is held, and from a drag how long."""
+"""A state on the grid: folds done, place (x, y), station, standoff, grips held, length of the drag they come from."""
 
 
 ANYWHERE = -1
-"""Instead of a station or a back-off where a state stands for many: the base may stand anywhere."""
+"""A station or standoff that is not fixed, in a state that stands for many."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Held:
-    """One grip that has not been let go.
+    """A grip that has not been let go.
 
     Attributes:
         arm: the arm's number, from left to right.
-        point: what it holds, article frame (m).
-        key: the grip to the grid.
+        point: the point held, article frame (m).
+        key: the grip on the grid.
     """
 
     arm: int
@@ -32,22 +32,22 @@ class Held:
     key: HeldKey = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Work out the key."""
+        """Compute the key."""
         object.__setattr__(self, "key", (self.arm, grid_key(self.point[0]), grid_key(self.point[1])))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """A node of the search. Two states are equal if they agree to the grid.
+    """A node of the search. Two states are equal if they agree on the grid.
 
     Attributes:
         done: the folds finished, as a bit mask.
         offset: how far drags have carried the article since the start, table frame (m).
         station: index of the base's station in the scene's order.
-        back_off: how many steps the base has backed off from it.
-        held: what is held; empty when the hands are free.
-        dragged: how long the drag was from which it is held, in steps of the grid of drags: what a fold really takes
-            may depend on that. 0: nothing is held, or from a fold, for a red fold.
+        back_off: the standoff: how many grid steps the base stands back from its station.
+        held: the grips held; empty when the hands are.
+        dragged: the length of the drag from which they are held, in steps of the grid of drags; a fold's real duration
+            may depend on it. 0 if nothing is held, or if a fold left them held for a red fold.
         key: all of that, places in steps of the grid.
     """
 
@@ -61,7 +61,7 @@ class State:
     _hash: int = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Work out the key: the state to the grid."""
+        """Compute the key: the state on the grid."""
         x, y = self.offset
         held = tuple([h.key for h in self.held])
         key = (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.dragged)
@@ -70,28 +70,28 @@ class State:
 
     @property
     def is_dragged(self) -> bool:
-        """Whether what is held is held from a drag."""
+        """Whether the grips are held from a drag."""
         return self.dragged > 0
 
     @property
     def hold(self) -> tuple[object, ...]:
-        """What is held, and how far the base has backed off from it; while hands are free that does not matter."""
+        """The grips held, and the standoff; empty while nothing is held, because the standoff then does not matter."""
         return (*(h.key for h in self.held), self.is_dragged, self.back_off) if self.held else ()
 
     @property
     def grasp(self) -> tuple[object, ...]:
-        """What is held, from which station, where the article lies; but not how far the base has backed off."""
+        """The grips held, the station and the article's place, but not the standoff."""
         return (self.place, self.station, self.is_dragged, *(h.key for h in self.held))
 
     @property
     def place(self) -> tuple[int, int]:
-        """Where the article lies, in steps of the grid."""
+        """The article's place, in steps of the grid."""
         return self.key[1], self.key[2]
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are the same to the grid."""
+        """Return whether both states are the same on the grid."""
         return isinstance(other, State) and self.key == other.key
 
     def __hash__(self) -> int:
-        """The key's hash."""
+        """Return the key's hash."""
         return self._hash

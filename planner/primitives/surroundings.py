@@ -1,4 +1,4 @@
-"""Whether the cloth round a grip is the same whatever other folds are done."""
+"""Decide whether the cloth round a grip is the same whatever other folds are done."""
 
 import networkx as nx
 
@@ -8,18 +8,18 @@ from planner.geometry.region import Region
 from planner.primitives.context import Context
 
 _BESIDE_M = 5e-3
-"""What another fold moves this near to a grip may change from where the grip is approached (m)."""
+"""The distance within which a part moved by another fold may change how a grip is approached (m)."""
 
 
 class Surroundings:
-    """Knows for each grip of each fold of a planning problem whether other folds change the cloth round it.
+    """For each grip of each fold, whether other folds change the cloth round it.
 
-    Folds that must come before one are done whenever it is asked for, those that must come after it never are; all
+    Folds that must come before a fold are done whenever it is queried, and those that must come after it never are; all
     others may be done or not.
     """
 
     def __init__(self, context: Context) -> None:
-        """Ask nothing yet."""
+        """Collect for each fold the folds that may be done or not; query no grip yet."""
         self._sequence = sequence = context.sequence
         self._known: dict[tuple[int, Point2], bool] = {}
         folds = range(len(sequence.folds))
@@ -34,7 +34,7 @@ class Surroundings:
         return self._known[fold, grip]
 
     def _is_beside(self, fold: int, point: Point2) -> bool:
-        """Whether a point is next to what a fold moves, or to where that lands."""
+        """Return whether a point is close to the part that a fold moves, or to where that part lands."""
         part, line = self._sequence.moving(fold), self._sequence.folds[fold].line
         return _is_near(part, point) or _is_near(part, Isometry.reflection(line).apply_point(point))
 

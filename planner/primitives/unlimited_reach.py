@@ -1,6 +1,6 @@
-"""Arms of any length: the answer to every question about reach is yes.
+"""Arms of unlimited length, within whose reach everything lies.
 
-No robot has them. They tell whether reach is all that stands in the way of a fold.
+No robot has them. They show whether reach is the only obstacle to a fold.
 """
 
 import numpy as np
@@ -13,19 +13,19 @@ from planner.primitives.reach import Following, Reach
 
 
 class UnlimitedReach:
-    """The reach of a robot as if every place were in comfort from everywhere; see `Reach`."""
+    """The reach of a robot as if every place were within the comfort radius from everywhere; see `Reach`."""
 
     queries, query_time_s = 0, 0.0
 
     def __init__(self, robot: Reach, more_hands: int = 0) -> None:
-        """As many arms as a robot has, by the same names, and some more; grippers turn as the robot's do."""
+        """Copy the names and approaches of a robot's arms, and add `more_hands` arms."""
         self.arm_names: tuple[str, ...] = (*robot.arm_names, *(f"extra {n + 1}" for n in range(more_hands)))
         self.approaches: tuple[Approach, ...] = robot.approaches
         self.comfort_m: float = robot.comfort_m
         self.shoulders: tuple[Point3, ...] = (*robot.shoulders, *robot.shoulders[-1:] * more_hands)
 
     def forget(self) -> None:
-        """Nothing is remembered."""
+        """Do nothing: there are no caches."""
 
     def back_offs(
         self,
@@ -37,13 +37,13 @@ class UnlimitedReach:
         enough: int | None = None,
         start: int | None = None,
     ) -> NDArray[np.uint32]:
-        """Every back-off, for each approach and point."""
+        """Return every standoff, for each approach and point."""
         return np.full((len(approaches), len(points)), (1 << count) - 1, dtype=np.uint32)
 
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
     ) -> Following:
-        """Hands that can follow any path from anywhere."""
+        """Return hands that can follow any path from anywhere."""
         return _Unlimited(len(arms))
 
     def from_anywhere(
@@ -55,30 +55,30 @@ class UnlimitedReach:
         step_m: float,
         enough: int | None = None,
     ) -> BoolArray:
-        """Always."""
+        """Return true for each approach and point."""
         return np.ones((len(approaches), len(points)), dtype=bool)
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
-        """Nothing is lacking."""
+        """Return zeros: nothing is lacking."""
         return np.zeros(len(ways))
 
     def shortfall(
         self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
     ) -> Shortfall | None:
-        """Nothing is lacking."""
+        """Return None: nothing is lacking."""
         return None
 
     def shortfall_together(
         self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
     ) -> tuple[int, Shortfall] | None:
-        """Nothing is lacking."""
+        """Return None: nothing is lacking."""
         return None
 
 
 class _Unlimited:
-    """Hands that can follow any path; the first approach of each will do."""
+    """Hands that can follow any path with the first approach of each."""
 
     def __init__(self, hands: int) -> None:
         self._hands = hands
@@ -86,7 +86,7 @@ class _Unlimited:
     def least_driving(
         self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
     ) -> Driving:
-        """The base stays where it is when the hands begin, or goes on from there to every end if that is wanted."""
+        """Keep the base where it is when the hands begin, or drive it from there to every end if that is wanted."""
         places = np.arange(len(begun))
         steps, first = begun.copy(), places
         if wanted == "every":
