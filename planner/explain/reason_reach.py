@@ -70,7 +70,8 @@ def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Pl
     examined = 0
     for number, candidate in enumerate(sorted(candidates, key=lambda c: c.bound_m)):
         at_most_m = math.inf if best is None else best.short_by_m
-        if candidate.bound_m >= at_most_m or (examined >= EXAMINED_MAX and best is not None):
+        is_enough = examined >= EXAMINED_MAX or context.patience.is_over()
+        if candidate.bound_m >= at_most_m or (is_enough and best is not None):
             break
         state = candidate.state
         is_to_be_sure = bool(state.held) or number >= _UNSURE_MAX

@@ -24,6 +24,9 @@ _LEAD_S, _TAIL_S = 0.8, 0.6
 _CHECK_S = 0.04
 """How far apart moments are at which free hands beside a moving base are checked (s)."""
 
+_CHECKS_MAX = 1000
+"""Moments that are checked at most: who takes minutes for a way goes less far from one to the next."""
+
 _KEYFRAMES = 12
 """Into how many keyframes an eased line of free hands is cut."""
 
@@ -112,7 +115,7 @@ class TransitPlanner:
         """Whether hands that go on from a tail touch nothing, the base where it is then, nor pass low over cloth."""
         track = JointTrack([free.start_s], [tail.joints[0]])
         track.add(keyframes.times_s, keyframes.joints)
-        count = int(np.ceil((free.end_s - free.start_s) / _CHECK_S))
+        count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases = np.array([free.base_at(t) for t in moments])
         there = np.array([track.joints_at(t) for t in moments])

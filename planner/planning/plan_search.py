@@ -103,6 +103,7 @@ class PlanSearch:
         self._blocking: list[int] = []
         self._validator = MotionValidator(problem.maker, self._is_out_of_budget, QUICK)
         budget.watch(problem)
+        problem.context.patience.is_over = lambda: budget.is_late
         self._found: tuple[Act, ...] = ()
         self._bound_s: float | None = None
         self._edges = Edges(problem.context, self._possible, self._is_wanted)
@@ -311,7 +312,7 @@ class PlanSearch:
         return self._tried_s > REASONS_WORK_S or self._budget.is_late
 
     def _measured(self) -> tuple[Reason, ...]:
-        if self._explainer is None:
+        if self._explainer is None or (self._is_trial and self._budget.is_late):
             return ()
         reached = {situation(state) for state in self._reached}
         return self._explainer.met(self._context, self._blocked(), reached, self._blocking)

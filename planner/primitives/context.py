@@ -39,6 +39,21 @@ DRAGS_PER_M = 10
 _START = State(0, (0.0, 0.0), 0, 0)
 
 
+def _never() -> bool:
+    return False
+
+
+@dataclass(slots=True)
+class Patience:
+    """How long somebody waits for an answer.
+
+    Attributes:
+        is_over: asked in loops that take long; true: return what is known by then.
+    """
+
+    is_over: Callable[[], bool] = _never
+
+
 @dataclass(frozen=True)
 class Context:
     """What all primitives of one task share.
@@ -53,6 +68,7 @@ class Context:
         grips_apart_m: the smallest distance between two grips that two hands can take (m).
         start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
+        patience: how long somebody waits for the answer.
     """
 
     sequence: FoldSequence
@@ -64,6 +80,7 @@ class Context:
     grips_apart_m: float = GRIPS_APART_M
     start: State = _START
     obstacles: Obstacles = field(default_factory=Obstacles)
+    patience: Patience = field(default_factory=Patience)
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner import Scene, load_garment, make_plan
+from planner import Scene, Task, find_plan, load_garment, make_plan
+from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.task.reason import Code, Reason
@@ -17,9 +18,11 @@ from tests.planning.provoked import (
     COMFORT_M,
     FRONT,
     FURTHEST_X,
+    HAMMER_SCENE,
     LEVEL_M,
     but_for_collisions,
     fixed,
+    hammer,
     is_gone,
     is_in_reach,
     met,
@@ -175,3 +178,13 @@ def _moved_station(cloth, reason: Reason, by_m: float):
     x, y, _ = (reason.short_by_m + by_m) * np.array(reason.towards)
     stations = tuple((name, pose.moved(-float(x), -float(y))) for name, pose in FRONT)
     return cloth, replace(fixed(), stations=stations)
+
+
+def test_a_reason_is_told_with_what_is_known_once_nobody_waits_any_more():
+    """No move that would help is looked for then."""
+    context = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).problem.context
+    shifts = []
+    for is_over in (True, False):
+        context.patience.is_over = lambda is_over=is_over: is_over
+        shifts += [reason.shift_m for reason in reasons(context, (), [0]) if reason.code is Code.NOT_A_G_STATE]
+    assert shifts == [None, pytest.approx(0.05)]
