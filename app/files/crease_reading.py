@@ -1,11 +1,11 @@
-"""Where the fold lines of a drawing lie on the cloth.
+"""Places the fold lines of an imported drawing on the cloth.
 
-A line in a file can be meant in two ways: on the cloth as the folds before it leave it, as garment files have it, or on
-the flat cloth, as crease patterns have it. A line on the flat cloth is carried to where the layers that it is drawn on
-lie when its turn comes.
+A line in a file can have two meanings: a line on the cloth as the previous folds leave it, as in garment files, or a
+line on the flat cloth, as in crease patterns. A line on the flat cloth moves with the layers that it is drawn on, to
+where they lie when its fold is done.
 
-Drawings are never exact. A line that runs over the outline is cut there, and one that nearly reaches the edge of the
-cloth is drawn on to it. An end well inside the outline is left alone: there the line may be meant the other way.
+Drawings are inexact. A line that crosses the outline is cut there, and a line that nearly reaches the edge of the cloth
+is extended to it. An end well inside the outline stays, since the line may have the other meaning.
 """
 
 import math
@@ -29,21 +29,21 @@ from planner.geometry.tolerance import LENGTH_M, SNAP_M
 from planner.message import Message
 
 Creases: TypeAlias = Literal["folded", "flat"]
-"""On which cloth the lines are drawn: as the folds before leave it, or flat."""
+"""The cloth on which lines are drawn: as the previous folds leave it, or flat."""
 
 NEAR_M = 0.02
-"""An end this near to the edge of the cloth is meant to be on it (m): outlines and creases are drawn by hand."""
+"""Distance from the edge of the cloth within which an end is taken as on it (m): people draw by hand."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReadCreases:
-    """The fold lines of a drawing, read in one way.
+    """The fold lines of a drawing, read with one of the two meanings.
 
     Attributes:
-        folds: all folds, article frame; those that are legal lie on the cloth, the others stay as drawn.
-        legal: how many of them are legal, up to the first that is not.
-        cut_m: by the index of a fold, how much of its line was cut off or added (m); not told where that is little.
-        problem: what is wrong with the first fold that is not legal; None if all are.
+        folds: all folds, article frame; the legal ones lie on the cloth, the others stay as drawn.
+        legal: the number of legal folds, up to the first illegal one.
+        cut_m: by fold index, the length cut off or added to the line (m), if it is more than a little.
+        problem: the problem of the first illegal fold; None if all are legal.
     """
 
     folds: tuple[DrawnFold, ...]
@@ -53,12 +53,12 @@ class ReadCreases:
 
 
 def read_creases(outline: Sequence[Point2], folds: Sequence[DrawnFold], creases: Creases) -> ReadCreases:
-    """Put fold lines onto the cloth, each when its turn comes; ends at the first that fits nowhere.
+    """Return the fold lines placed on the cloth one after the other, up to the first that does not fit.
 
     Args:
-        outline: the corners of a good outline (m).
+        outline: the corners of a valid outline (m).
         folds: the lines as drawn, in the user's order.
-        creases: on which cloth they are drawn.
+        creases: the cloth on which they are drawn.
     """
     pattern = Region.polygon(outline)
     cloth = ClothState.spread_out(pattern)
@@ -79,13 +79,13 @@ def read_creases(outline: Sequence[Point2], folds: Sequence[DrawnFold], creases:
 
 @dataclass(frozen=True, slots=True)
 class _Placed:
-    """A fold that is legal.
+    """A legal fold.
 
     Attributes:
-        drawn: its line as the file has it, cut or carried where that was needed.
-        line: the same with its ends on the boundary.
-        folded: the fold done.
-        cut_m: how much of the line in the file was cut off or added (m).
+        drawn: its line as in the file, cut or moved if necessary.
+        line: that line with its ends on the boundary.
+        folded: the result of folding.
+        cut_m: the length cut off or added to the line in the file (m).
     """
 
     drawn: Segment
@@ -95,10 +95,10 @@ class _Placed:
 
 
 def _placed(fold: DrawnFold, pattern: Region, cloth: ClothState, before: Segment | None, creases: Creases) -> _Placed:
-    """A fold where it can be; `before` is the line of the one before it.
+    """Return a fold placed on the cloth; `before` is the line of the previous fold.
 
     Raises:
-        FoldError: no way to read it gives a legal fold; tells what is wrong with the first.
+        FoldError: no reading gives a legal fold; the error is that of the first reading.
     """
     silhouette = flap_silhouette(cloth, is_red=fold.is_red)
     drawn = Segment(fold.start, fold.end)
@@ -117,7 +117,7 @@ def _placed(fold: DrawnFold, pattern: Region, cloth: ClothState, before: Segment
 
 
 def _cut(line: Segment, pattern: Region, silhouette: Region) -> Iterator[tuple[Segment, float]]:
-    """A line as drawn, and from edge to edge of the cloth where its ends overhang the outline or nearly reach it."""
+    """Yield a line as drawn, then from edge to edge of the cloth if its ends overhang or nearly reach the edge."""
     yield line, 0.0
     chord = nearest_chord(silhouette, line)
     if chord is None:
@@ -133,7 +133,7 @@ def _may_slide(end: Point2, to: Point2, pattern: Region) -> bool:
 
 
 def _carried(line: Segment, pattern: Region, cloth: ClothState, *, is_red: bool) -> Iterator[tuple[Segment, float]]:
-    """The line on the flat cloth where the layers have carried it, that of the longest piece first."""
+    """Yield the line on the flat cloth as its layers have moved it, for the longest piece first."""
     silhouette = flap_silhouette(cloth, is_red=is_red)
     pieces = sorted(
         (
@@ -153,13 +153,13 @@ def _carried(line: Segment, pattern: Region, cloth: ClothState, *, is_red: bool)
 
 
 def _moved(piece: Segment, isometry: Isometry) -> Segment:
-    """A piece of a line where its layer lies; turned round where the layer shows its back, so that the same moves."""
+    """Return a piece of a line moved with its layer; reversed on a turned layer, to keep the moving side."""
     start, end = (isometry.apply_point(point) for point in (piece.start, piece.end))
     return Segment(end, start) if isometry.is_mirrored else Segment(start, end)
 
 
 def _gap(chord: Segment, pieces: Sequence[Segment]) -> float:
-    """The longest stretch of a chord on which none of some segments lies (m)."""
+    """Return the longest stretch of a chord that no piece covers (m)."""
     ends = [np.array([piece.start, piece.end]) for piece in pieces]
     on_it = [points for points in ends if np.abs(chord.left_distances(points)).max() <= SNAP_M]
     reached_m = longest_m = 0.0
@@ -170,7 +170,7 @@ def _gap(chord: Segment, pieces: Sequence[Segment]) -> float:
 
 
 def _overhang(line: Segment, pattern: Region) -> float:
-    """How far the ends of a line are from what of it lies on the flat cloth (m), the larger of the two."""
+    """Return the distance by which a line's ends extend past the flat cloth (m), the larger of the two."""
     ends = [end for stretch in pattern.overlaps_with(line) for end in stretch]
     if not ends:
         return 0.0

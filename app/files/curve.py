@@ -1,6 +1,6 @@
-"""Curves of a drawing, and how they become points.
+"""The curves of a drawing, and their flattening to points.
 
-A curve is flattened when it is known how long a unit of the drawing is, so that the deviation can be said in metres.
+A curve is flattened only when the length of the drawing's unit is known, so that the tolerance can be in metres.
 """
 
 import math
@@ -15,7 +15,7 @@ from app.files.import_errors import broken
 from planner.geometry.pose import FloatArray
 
 POINTS_MAX = 50_000
-"""A curve is cut into no more pieces than this."""
+"""Largest number of points of a flattened curve."""
 
 
 class Curve(Protocol):
@@ -23,16 +23,16 @@ class Curve(Protocol):
 
     @property
     def extent(self) -> FloatArray:
-        """Points in whose convex hull it lies but for the bulges of arcs, its ends first and last, shape (n, 2)."""
+        """Points whose convex hull holds the line except bulges of arcs, its ends first and last, shape (n, 2)."""
         ...
 
     @property
     def is_bent(self) -> bool:
-        """Whether it is anything but straight segments, so that flattening changes it."""
+        """Whether the line is more than straight segments, so that flattening changes it."""
         ...
 
     def flattened(self, tolerance: float) -> FloatArray:
-        """Points on it, ends included, from which it deviates by no more than this (units), shape (n, 2)."""
+        """Return points on the line, ends included, with at most this deviation (units), shape (n, 2)."""
         ...
 
 
@@ -41,8 +41,8 @@ class SvgCurve:
     """A subpath of an SVG path.
 
     Attributes:
-        segments: its segments, each beginning where the one before ends.
-        matrix: from its own coordinates to the drawing's, shape (3, 3).
+        segments: its segments, each starting at the end of the previous one.
+        matrix: the transform from its coordinates to the drawing's, shape (3, 3).
     """
 
     segments: tuple[Line | QuadraticBezier | CubicBezier | Arc, ...]
@@ -51,16 +51,16 @@ class SvgCurve:
     @property
     def extent(self) -> FloatArray:
         """The ends and control points of its segments, and the middles of its arcs."""
-        with np.errstate(all="ignore"):  # what is beyond all numbers is refused by who reads it
+        with np.errstate(all="ignore"):  # the caller refuses values that are not finite
             return self._placed(np.concatenate([_controls(segment) for segment in self.segments]))
 
     @property
     def is_bent(self) -> bool:
-        """Whether any of its segments is a curve with a bend."""
+        """Whether any of its segments is curved."""
         return any(_bend(segment) > 0.0 for segment in self.segments)
 
     def flattened(self, tolerance: float) -> FloatArray:
-        """Points on it, evenly spaced within each segment."""
+        """Return points on the line, evenly spaced within each segment."""
         stretch = float(np.linalg.norm(self.matrix[:2, :2], 2)) or 1.0
         with np.errstate(all="ignore"):
             counts = [_count(segment, tolerance / stretch) for segment in self.segments]
@@ -77,12 +77,12 @@ class SvgCurve:
 
 @dataclass(frozen=True, eq=False)
 class DrawnCurve:
-    """A curve that can flatten itself, as those of a DXF file can.
+    """A curve that can flatten itself, as in a DXF file.
 
     Attributes:
         extent: its ends and control points, shape (n, 2).
-        cut: gives points on it for a tolerance, shape (n, 2).
-        is_bent: whether it is anything but straight segments.
+        cut: returns points on it for a tolerance, shape (n, 2).
+        is_bent: whether it is more than straight segments.
     """
 
     extent: FloatArray
@@ -90,7 +90,7 @@ class DrawnCurve:
     is_bent: bool
 
     def flattened(self, tolerance: float) -> FloatArray:
-        """Points on it."""
+        """Return points on the line."""
         return _finite(self.cut(tolerance))
 
 
@@ -101,29 +101,29 @@ def _finite(points: FloatArray) -> FloatArray:
 
 
 def _controls(segment: Line | QuadraticBezier | CubicBezier | Arc) -> FloatArray:
-    """Points round a segment, as complex numbers."""
+    """Return the control points of a segment, or three points of an arc, as complex numbers."""
     if isinstance(segment, Arc):
         return np.array([segment.start, segment.point(0.5), segment.end])
     return np.array(segment.bpoints())
 
 
 def _count(segment: Line | QuadraticBezier | CubicBezier | Arc, tolerance: float) -> float:
-    """Into how many pieces a segment is cut.
+    """Return the number of pieces into which to cut a segment.
 
-    A piece of a curve with the second derivative c, over a stretch s of the parameter, deviates from its chord by at
-    most c s^2 / 8.
+    A piece of a curve with second derivative c, over a stretch s of the parameter, deviates from its chord by at most
+    c s^2 / 8.
     """
     return max(float(np.ceil(np.sqrt(_bend(segment) / (8.0 * tolerance)))), 1.0)
 
 
 def _points(segment: Line | QuadraticBezier | CubicBezier | Arc, count: int) -> FloatArray:
-    """Points on a segment, as complex numbers, the first left out."""
+    """Return points on a segment, as complex numbers, without the first."""
     points = [segment.point(number / count) for number in range(1, count)]
     return np.array([*points, segment.end])
 
 
 def _bend(segment: Line | QuadraticBezier | CubicBezier | Arc) -> float:
-    """The largest second derivative by the parameter, which runs from 0 to 1."""
+    """Return the largest second derivative with respect to the parameter, which runs from 0 to 1."""
     if isinstance(segment, Line):
         return 0.0
     if isinstance(segment, Arc):

@@ -1,4 +1,4 @@
-"""What the layers of a DXF file mean: those of sewing patterns by ASTM D6673, all others by their names.
+"""The meaning of DXF layers: by ASTM D6673 in sewing patterns, otherwise by the layer's name.
 
 ASTM D6673 (Standard Practice for Sewn Products Pattern Data Interchange, which took over ANSI/AAMA-292) has one block
 for each piece of a pattern, and in it, as summed up at
@@ -15,7 +15,7 @@ https://fabricesalvaire.github.io/Patro/resources/file-format/dxf-astm.html, the
    8  internal lines, not cut               80-87  further notches, checks, text
 ====  =====================================  ====  ==============================
 
-A fold is none of these things. The layer for lines that are only drawn, 8, is where a pattern can carry it.
+None of these layers is for folds. A pattern can carry them on layer 8, for lines that are drawn but not cut.
 """
 
 import re
@@ -29,21 +29,21 @@ _METRIC_UNITS = re.compile(r"^\s*units\s*:?\s*(metric|english)", re.IGNORECASE)
 _UNIT_M = {"metric": 1e-3, "english": 0.0254}
 
 INSUNITS_M = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 10: 0.9144, 14: 0.1}
-"""What a unit of the drawing is by the header's $INSUNITS (m): inch, foot, mm, cm, m, yard, dm."""
+"""Length of a drawing's unit by the header's $INSUNITS (m): inch, foot, mm, cm, m, yard, dm."""
 
 
 def may_carry_folds(layer: str) -> bool:
-    """Whether a coloured line on a layer of a sewing pattern may mean a fold."""
+    """Return whether a coloured line on a layer of a sewing pattern may mean a fold."""
     return layer == INTERNAL_LINES or _NUMBERED.fullmatch(layer) is None
 
 
 def kind_by_name(layer: str) -> str | None:
-    """The kind of fold that a layer is named for, like ``Fold blue``; None: none."""
+    """Return the kind of fold that a layer's name mentions, as in ``Fold blue``, or None."""
     words = set(re.split(r"[^a-z]+", layer.lower()))
     return next((kind for kind in ("blue", "red") if kind in words), None)
 
 
 def unit_by_text(texts: Iterable[str]) -> float | None:
-    """How long a unit is by the style's text ``UNITS: METRIC`` (mm) or ``UNITS: ENGLISH`` (inches); None: not said."""
+    """Return the unit's length by the text ``UNITS: METRIC`` (mm) or ``UNITS: ENGLISH`` (inches), or None (m)."""
     found = (_METRIC_UNITS.match(text) for text in texts)
     return next((_UNIT_M[match[1].lower()] for match in found if match), None)

@@ -1,4 +1,4 @@
-"""Reads DXF, that of sewing patterns and any other: closed lines may be the outline, open ones in colour are folds."""
+"""Reads DXF, sewing patterns and others: closed lines are candidates for the outline; coloured open lines are folds."""
 
 import io
 import logging
@@ -26,10 +26,10 @@ from app.files.sketch import FoldLine, Sketch
 from planner.geometry.pose import FloatArray
 
 ENTITIES_MAX, INSERTS_MAX = 20_000, 1_000
-"""Blocks can multiply entities; beyond so many entities and blocks inserted a drawing is refused."""
+"""Largest numbers of entities and of inserted blocks; blocks can multiply entities."""
 
 SPLINE_POINTS_MAX = 1_000
-"""A spline through more points is refused: to find it takes long."""
+"""Largest number of points of a spline; interpolating more takes too long."""
 
 _BLOCKS_DEEP = 8
 _LINES = frozenset({"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
@@ -44,15 +44,15 @@ _BAD = (
     TypeError,
     ValueError,
 )
-"""What ezdxf raises on files that are none, or whose numbers make no sense."""
+"""Exceptions that ezdxf raises on files that are not DXF or hold nonsensical numbers."""
 
-# It would tell the server's log of every number in somebody's file that it had to mend.
+# It would log every number that it repairs in a user's file to the server's log.
 logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Line:
-    """A connected line, and where it stands in the file."""
+    """A connected line with its layer and fold kind."""
 
     curve: DrawnCurve
     layer: str
@@ -62,17 +62,17 @@ class _Line:
 
 @dataclass(frozen=True, slots=True)
 class _Inherited:
-    """What entities in a block take from where the block is inserted: a layer, a colour (ACI)."""
+    """The layer and the colour (ACI) that entities in a block inherit from the block's insertion."""
 
     layer: str = "0"
     colour: int = 7
 
 
 def read_dxf(data: bytes) -> Sketch:
-    """The drawing in a DXF file.
+    """Return the drawing in a DXF file.
 
     Raises:
-        ImportedFileError: it is no DXF, or has too many entities.
+        ImportedFileError: the file is not DXF, or has too many entities.
     """
     try:
         drawing, _ = recover.read(io.BytesIO(data))
@@ -109,7 +109,7 @@ def _unit_m(drawing: Drawing, entities: list[tuple[DXFEntity, _Inherited]]) -> f
 
 
 def _all(drawing: Drawing) -> Iterator[tuple[DXFEntity, _Inherited]]:
-    """All entities of the model space, those of inserted blocks in their place; without any, those of the blocks."""
+    """Yield all entities of the model space, with inserted blocks expanded; if it is empty, those of the blocks."""
     space = drawing.modelspace()
     blocks = (block for block in drawing.blocks if not block.is_any_layout)
     layouts: Iterable[Iterable[DXFEntity]] = [space] if len(space) else blocks
@@ -173,7 +173,7 @@ def _plane(points: Iterable[Vec3]) -> FloatArray:
 
 
 def _layer(entity: DXFEntity, around: _Inherited) -> str:
-    """An entity's layer; in a block layer 0 stands for the layer of where it is inserted."""
+    """Return an entity's layer; layer 0 in a block stands for the layer of the insertion."""
     layer = str(entity.dxf.get("layer", "0"))
     return around.layer if layer == "0" else layer
 
@@ -184,7 +184,7 @@ def _colour(entity: DXFEntity, around: _Inherited) -> int:
 
 
 def _rgb(drawing: Drawing, entity: DXFEntity, layer: str, around: _Inherited) -> Rgb | None:
-    """An entity's own colour, or else its layer's."""
+    """Return an entity's own colour, or else its layer's."""
     true_colour = entity.dxf.get("true_color")
     if true_colour is not None:
         return _shares(int2rgb(true_colour))

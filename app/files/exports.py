@@ -1,4 +1,4 @@
-"""All that can be made of a document: which files, when, and how."""
+"""All exports of a document: the kinds of file, when each is available, and how it is made."""
 
 import json
 from collections.abc import Callable
@@ -18,25 +18,25 @@ from planner.message import Message
 from planner.task.plan import Plan
 
 Make = Callable[[DocumentState, float, ShouldStop], bytes]
-"""Of a state, frames a second and whether it should stop, the file."""
+"""Makes a file from a document's state and a frame rate (Hz), unless it should stop."""
 
 
 class UnavailableFileError(FoldingError):
-    """A file that cannot be made of a document as it is now."""
+    """A file cannot be made from a document in its present state."""
 
 
 @dataclass(frozen=True, slots=True)
 class Export:
-    """A kind of file.
+    """A kind of file to export.
 
     Attributes:
-        what: what it is asked for by.
-        title: what people call it.
-        text: what it is good for, in a sentence.
-        ending: how its name ends.
+        what: its name in a request.
+        title: its displayed name.
+        text: its use, in a sentence.
+        ending: the ending of the file's name.
         media_type: its media type.
-        why_not: why it cannot be made of a state now, in a sentence; None if it can.
-        make: makes it of a state of which it can be made.
+        why_not: returns the reason why a state cannot be exported now; None if it can.
+        make: makes the file from a state that can be exported.
     """
 
     what: str
@@ -49,22 +49,22 @@ class Export:
 
     @property
     def needs_plan(self) -> bool:
-        """Whether it is made of a plan, and not of the garment alone."""
+        """Whether the file needs a plan, and not only the garment."""
         return self.why_not in (_no_answer, _no_plan)
 
     def filename(self, state: DocumentState) -> str:
-        """What the file is called."""
+        """Return the name of the file."""
         return f"{state.drawing.name}{self.ending}"
 
     def file(self, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
-        """The file; raises `UnavailableFileError`."""
+        """Return the file; raise `UnavailableFileError` if it cannot be made now."""
         reason = self.why_not(state)
         if reason is not None:
             raise UnavailableFileError(reason.text)
         return self.make(state, rate_hz, should_stop)
 
     def to_dict(self, state: DocumentState) -> dict[str, Any]:
-        """The entry of a list, as JSON."""
+        """Return the entry for the list of exports, as JSON."""
         reason = self.why_not(state)
         return {
             "what": self.what,
@@ -79,12 +79,12 @@ class Export:
 
 
 def find_export(what: str) -> Export | None:
-    """The kind of file of a name; None if there is none."""
+    """Return the export with a name, or None."""
     return next((export for export in EXPORTS if export.what == what), None)
 
 
 def _no_outline(state: DocumentState) -> Message | None:
-    """Why there is no garment file: its outline must be good, its folds may be wrong."""
+    """Return why there is no garment file: it needs a valid outline, but its folds may be illegal."""
     try:
         _as_drawn(state)
     except GarmentError as error:
@@ -100,7 +100,7 @@ def _not_legal(state: DocumentState) -> Message | None:
 
 
 def _not_finished(why: Message, field: str) -> Message:
-    """That there is no garment as long as something is wrong with the drawing."""
+    """Return the message that the drawing has a problem, so that there is no garment."""
     text = f"The drawing is not finished: {f'{field}: ' if field else ''}{why.text}."
     return Message("not_finished", text, {"message": why.text, "says": why.to_dict()})
 
@@ -127,7 +127,7 @@ def _no_plan(state: DocumentState) -> Message | None:
 
 
 def _as_drawn(state: DocumentState) -> Garment:
-    """The garment with its folds as they are drawn, legal or not; raises `GarmentError`."""
+    """Return the garment with its folds as drawn, legal or not; raise `GarmentError` without a valid outline."""
     return state.solution.garment or garment_of(state.solution.drawing)
 
 
@@ -228,4 +228,4 @@ EXPORTS = (
         _recording,
     ),
 )
-"""In the order in which they are shown."""
+"""All exports, in the order shown."""

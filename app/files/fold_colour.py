@@ -1,6 +1,6 @@
-"""Which colours mean a fold: blue for all layers, red for the last flap.
+"""Decides which colours mean a fold: blue for all layers, red for the last flap.
 
-Drawing programs have many blues, so the hue decides, of colours that are not nearly grey.
+Drawing programs offer many blues, so the hue decides, unless the colour is nearly grey.
 """
 
 import colorsys
@@ -41,7 +41,7 @@ _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(%?)(?:deg)?")
 
 
 def kind_of(rgb: Rgb | None) -> str | None:
-    """The kind of fold that a colour means, "blue" or "red"; None: none."""
+    """Return the kind of fold that a colour means, "blue" or "red", or None."""
     if rgb is None or max(rgb) - min(rgb) < _CHROMA_MIN:
         return None
     hue_deg = 360.0 * colorsys.rgb_to_hsv(*rgb)[0]
@@ -52,7 +52,7 @@ def kind_of(rgb: Rgb | None) -> str | None:
 
 
 def css_rgb(text: str) -> Rgb | None:
-    """The colour that CSS means: by name, ``#rgb``, ``#rrggbb``, ``rgb()`` or ``hsl()``; None for any other."""
+    """Return a CSS colour: a name, ``#rgb``, ``#rrggbb``, ``rgb()`` or ``hsl()``; None for any other text."""
     if len(text) > _LONGEST:
         return None
     wanted = text.strip().lower()
@@ -64,7 +64,7 @@ def css_rgb(text: str) -> Rgb | None:
 
 
 def hex_rgb(digits: str) -> Rgb:
-    """The colour of three or six hexadecimal digits; a fourth, or a seventh and eighth (alpha) are passed over."""
+    """Return the colour of three or six hexadecimal digits; ignore a fourth, or a seventh and eighth (alpha)."""
     wide = digits if len(digits) >= 6 else "".join(2 * digit for digit in digits)
     red, green, blue = (int(wide[i : i + 2], 16) / 255.0 for i in (0, 2, 4))
     return (red, green, blue)

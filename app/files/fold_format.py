@@ -1,7 +1,7 @@
 """Writes the folding of a garment in the FOLD format, version 1.2 (github.com/edemaine/fold, doc/spec.md).
 
-The key frame is the crease pattern, with the creases that the finished garment has. Each further frame is the cloth
-after one more fold; it inherits the mesh and has its own places, its own creases and the order of its layers.
+The key frame is the crease pattern, with the creases of the finished garment. Each further frame is the cloth after
+one more fold; it inherits the mesh and has its own positions, creases and layer order.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,12 +25,12 @@ _Edges = dict[tuple[int, int], tuple[int, ...]]
 def fold_format(
     garment: Garment, cloths: Sequence[ClothState], should_stop: ShouldStop = lambda: False
 ) -> dict[str, Any]:
-    """A garment and its folding as a FOLD file, lengths in m in the article frame.
+    """Return a garment and its folding as a FOLD file, lengths in m in the article frame.
 
     Args:
         garment: the garment.
         cloths: its stacks, spread out and after each fold.
-        should_stop: asked between frames; what is then left out is missing.
+        should_stop: called between frames; the remaining frames are left out once it is true.
     """
     mesh = FoldMesh.of(cloths)
     edges = mesh.edges
@@ -98,10 +98,10 @@ def _creases(mesh: FoldMesh, edges: _Edges, step: int) -> dict[str, Any]:
 
 
 def _assignment(mesh: FoldMesh, faces: tuple[int, ...], step: int) -> str:
-    """What the edge between two faces is in a step.
+    """Return the FOLD assignment of the edge between two faces in a step.
 
     Faces are counter-clockwise with their front up. Where one shows its front and the other, above it, its back, the
-    fronts look at each other: a valley.
+    fronts face each other: a valley.
     """
     if len(faces) < 2:
         return "B"
@@ -113,7 +113,7 @@ def _assignment(mesh: FoldMesh, faces: tuple[int, ...], step: int) -> str:
 
 
 def _orders(mesh: FoldMesh, step: int) -> Iterator[list[int]]:
-    """For each two faces that overlap [the upper, the lower, 1 if the lower shows its front, else -1]."""
+    """Yield, for every two faces that overlap, [the upper, the lower, 1 if the lower shows its front, else -1]."""
     regions = [Region.polygon(mesh.places[step][list(face)].tolist()) for face in mesh.faces]
     bounds = np.array([region.bounds for region in regions])
     layers, is_turned = np.array(mesh.layers[step]), mesh.is_turned[step]
@@ -126,7 +126,7 @@ def _orders(mesh: FoldMesh, step: int) -> Iterator[list[int]]:
 
 
 def _overlap(one: Region, other: Region) -> bool:
-    """Whether two pieces of cloth lie over each other; the quick answer first, which mostly settles it."""
+    """Return whether two pieces of cloth overlap; the cheap test comes first and mostly decides."""
     if other.contains(one.inner_point) or one.contains(other.inner_point):
         return True
     return not one.intersection(other).is_sliver

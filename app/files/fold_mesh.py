@@ -1,9 +1,9 @@
-"""The folded cloth as one mesh: what all folds together cut the pattern into, and where each piece lies step by step.
+"""The folded cloth as one mesh: the pieces into which all folds cut the pattern, and their place at each step.
 
-Layers only ever get smaller, so the pieces of the final stack are the faces for all steps: at an earlier step a face
-is a part of the layer from which it was cut. A corner of one face on the edge of another becomes a corner of both, so
-that two faces share whole edges. Corners that lie at one place in the pattern are one vertex as long as they stay
-together in every step; cloth hangs together, so they do.
+Layers only get smaller, so the pieces of the final stack can serve as faces at all steps: earlier, a face is part of
+the layer from which it is cut. Where a corner of one face lies on the edge of another, it becomes a corner of both, so
+that two faces share whole edges. Corners at the same place of the pattern are one vertex if they stay together in
+every step, which they do, because the cloth is connected.
 """
 
 from collections.abc import Sequence
@@ -17,17 +17,17 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 
 _CELL_M = 4 * LENGTH_M
-"""Corners nearer to each other than this are one (m)."""
+"""Distance within which corners are the same (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FoldMesh:
-    """Faces and vertices, and where they are in each step; step 0 is the cloth spread out.
+    """Faces and vertices, and their positions at each step; step 0 is the cloth spread out.
 
     Attributes:
-        places: where each vertex lies, shape (steps, vertices, 2), article frame (m).
+        places: the position of each vertex, shape (steps, vertices, 2), article frame (m).
         faces: the vertices of each face, counter-clockwise in the pattern.
-        layers: for each step the layer of each face: its place in the stack, from the bottom.
+        layers: for each step the layer of each face, as its index in the stack from the bottom.
         is_turned: for each step whether each face shows its back.
     """
 
@@ -38,7 +38,7 @@ class FoldMesh:
 
     @staticmethod
     def of(cloths: Sequence[ClothState]) -> "FoldMesh":
-        """The mesh of a garment by its stacks before the first fold, and after each."""
+        """Return the mesh of a garment, given its stacks before the first fold and after each."""
         ways = _ways(cloths)
         rings = _matched([layer.pattern_piece.whole_ring for layer in cloths[-1].layers])
         carried = [
@@ -61,7 +61,7 @@ class FoldMesh:
 
     @property
     def edges(self) -> dict[tuple[int, int], tuple[int, ...]]:
-        """The faces at each edge, the edges by their vertices, the smaller first; in the order of the faces."""
+        """The faces at each edge; an edge is its two vertices, the smaller first, in the order of the faces."""
         found: dict[tuple[int, int], list[int]] = {}
         for number, face in enumerate(self.faces):
             for a, b in zip(face, (*face[1:], face[0]), strict=True):
@@ -70,7 +70,7 @@ class FoldMesh:
 
 
 def _ways(cloths: Sequence[ClothState]) -> list[list[int]]:
-    """For each layer of the final stack its number in each step's stack."""
+    """Return, for each layer of the final stack, its index in each step's stack."""
     ways = [[number] for number in range(len(cloths[-1].layers))]
     for before, after in zip(cloths[-2::-1], cloths[:0:-1], strict=True):
         parents = [_parent(layer, before) for layer in after.layers]
@@ -80,7 +80,7 @@ def _ways(cloths: Sequence[ClothState]) -> list[list[int]]:
 
 
 def _parent(layer: Layer, before: ClothState) -> int:
-    """The layer of the stack before from which a layer was cut."""
+    """Return the index of the layer in the previous stack from which a layer was cut."""
     for number, whole in enumerate(before.layers):
         if whole.pattern_piece is layer.pattern_piece:
             return number
@@ -89,7 +89,7 @@ def _parent(layer: Layer, before: ClothState) -> int:
 
 
 def _matched(rings: Sequence[FloatArray]) -> list[FloatArray]:
-    """Rings in whose edges the corners of others that lie on them are corners too, shapes (n, 2), m."""
+    """Return the rings with all corners of other rings that lie on their edges inserted, shapes (n, 2), m."""
     corners = np.unique(np.round(np.concatenate(rings) / LENGTH_M), axis=0) * LENGTH_M
     matched = []
     for ring in rings:
@@ -102,7 +102,7 @@ def _matched(rings: Sequence[FloatArray]) -> list[FloatArray]:
 
 
 def _between(start: FloatArray, end: FloatArray, points: FloatArray) -> FloatArray:
-    """Those of some points that lie on a segment, away from its ends, in the order in which it passes them."""
+    """Return the points that lie inside a segment, in order along it."""
     length = float(np.hypot(*(end - start)))
     direction = (end - start) / length
     along = (points - start) @ direction

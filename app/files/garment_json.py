@@ -12,12 +12,12 @@ from planner.task.plan_files import VERSION_FIELD
 
 
 def read_garment_json(data: bytes) -> tuple[Garment, tuple[Message, ...]]:
-    """Return the garment in a garment file or in a plan file, and what is to be said about it.
+    """Return the garment in a garment file or a plan file, and remarks on it.
 
     Raises:
-        ImportedFileError: it is no JSON object.
-        GarmentError: it is no garment; names the field.
-        RequestError: it is no plan; names the field.
+        ImportedFileError: the file is not a JSON object.
+        GarmentError: the garment is invalid; the error names the field.
+        RequestError: the plan is invalid; the error names the field.
     """
     try:
         values = from_json(data.removeprefix(b"\xef\xbb\xbf"), allow_inf_nan=False)
@@ -31,7 +31,7 @@ def read_garment_json(data: bytes) -> tuple[Garment, tuple[Message, ...]]:
 
 
 def _garment_of(plan: Plan) -> tuple[Garment, tuple[Message, ...]]:
-    """Return the garment of a plan, as it lies at the plan's start, and that it is one."""
+    """Return the garment of a plan, placed as at the plan's start, and a note that says so."""
     done = len(plan.task.start.folds_done)
     from_middle = f" after {done} of its folds" if done else ""
     text = (

@@ -1,4 +1,4 @@
-"""What can be wrong with a file that is to be imported."""
+"""Errors of a file to import."""
 
 from collections.abc import Mapping
 
@@ -7,15 +7,15 @@ from planner.message import Message
 
 
 class ImportedFileError(FieldError):
-    """A file that is no drawing of a garment; the field is ``file``, or the option of the import that is wrong."""
+    """A file is not a drawing of a garment; the field is ``file``, or the option of the import at fault."""
 
 
 class UnitsNeededError(FoldingError):
-    """The file does not say how long a unit of it is.
+    """The length of a drawing's unit is unknown.
 
     Attributes:
-        why: what is wrong with what the file says.
-        sizes: for each unit that could be meant, how wide and how high the garment would be (m).
+        why: why the unit in the file cannot be used.
+        sizes: the garment's width and height for each possible unit (m).
     """
 
     def __init__(self, why: Message, sizes: Mapping[str, tuple[float, float]]) -> None:
@@ -25,5 +25,5 @@ class UnitsNeededError(FoldingError):
 
 
 def broken(message: str) -> ImportedFileError:
-    """The file itself is at fault."""
+    """Return the error of a file that is itself at fault."""
     return ImportedFileError("file", message)

@@ -1,4 +1,4 @@
-"""Imports a file as a garment: the kind of file is told by the ending of its name."""
+"""Imports a file as a garment; the ending of its name decides its format."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ from planner.message import Message
 from planner.task.plan_files import ENDING
 
 LARGEST_FILE = 2 << 20
-"""No drawing and no garment may have more bytes."""
+"""Largest size of a drawing or garment file (bytes)."""
 
 LARGEST_PLAN_FILE = 8 << 20
-"""A plan file has some 400 kB; with all folds that a garment may have, a few MB."""
+"""Largest size of a plan file (bytes). A typical one has 400 kB; one with as many folds as allowed, a few MB."""
 
 SCALES = (1e-3, 1e3)
 
@@ -29,14 +29,14 @@ _JSON = "json"
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What came out of a file.
+    """The content of an imported file.
 
     Attributes:
         format: "json", "svg" or "dxf".
         garment: the garment.
-        notes: what is to be said about it, in sentences.
-        creases: on which cloth the fold lines of a drawing were read; None where that makes no difference.
-        sizes: how large a drawing would be in other units; None for a garment file.
+        notes: remarks on the import, in sentences.
+        creases: the cloth on which the fold lines were read; None if it makes no difference.
+        sizes: the size that a drawing would have in other units; None for a garment file.
     """
 
     format: str
@@ -47,27 +47,27 @@ class Imported:
 
 
 def largest(filename: str) -> int:
-    """Return how many bytes a file of a name may have at most."""
+    """Return the largest size of a file with this name (bytes)."""
     return LARGEST_PLAN_FILE if filename.lower().endswith(ENDING) else LARGEST_FILE
 
 
 def import_file(
     filename: str, data: bytes, units: str | None = None, scale: float = 1.0, creases: Creases | None = None
 ) -> Imported:
-    """The garment in a file.
+    """Return the garment in a file.
 
     Args:
-        filename: what the file is called.
-        data: what is in it.
-        units: what a unit of a drawing is, one of `UNITS_M`; None: what the file says.
-        scale: everything is so many times as large.
-        creases: on which cloth the fold lines of a drawing are; None: that on which more of them are legal.
+        filename: the file's name.
+        data: its content.
+        units: the drawing's unit, one of `UNITS_M`; None to take it from the file.
+        scale: the factor by which to enlarge everything.
+        creases: the cloth on which the drawing's fold lines are; None for the reading that makes more of them legal.
 
     Raises:
-        ImportedFileError: the file is no garment; the field is ``file``, ``filename``, ``units`` or ``scale``.
-        UnitsNeededError: nobody says how long a unit of the drawing is, or what the file says cannot be.
-        GarmentError: what is in it is no garment; the field is that of a garment file.
-        RequestError: what is in it is no plan, though it says so; the field is that of a plan file.
+        ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units`` or ``scale``.
+        UnitsNeededError: the drawing's unit is unknown, or the one in the file is impossible.
+        GarmentError: the garment is invalid; the field is that of a garment file.
+        RequestError: the file claims to be a plan but is invalid; the field is that of a plan file.
     """
     path = PurePath(filename.replace("\\", "/"))
     ending = path.suffix[1:].lower()

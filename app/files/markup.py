@@ -1,8 +1,8 @@
-"""XML, read with care: nothing is fetched, nothing is expanded, and what is too large or too deep is refused.
+"""Reads XML safely: it fetches nothing, expands nothing, and refuses what is too large or too deep.
 
-Python's own parsers are built on expat, which never reads a file or an address that a document refers to unless it is
-told to. What is left is entities that a document declares itself and that grow into gigabytes; a document that
-declares any is refused. A plain document type, as drawing programs write it, is not looked at.
+Python's parsers build on expat, which reads no external file or address unless told to. That leaves entities that a
+document declares itself, which can grow into gigabytes; a document that declares any is refused. A plain document
+type, as drawing programs write it, is ignored.
 """
 
 from collections.abc import Iterator
@@ -20,11 +20,11 @@ class Element:
     """An element of a document.
 
     Attributes:
-        tag: its name without a namespace.
-        attributes: by name without namespace.
-        line: where it begins in the file.
-        children: the elements in it, in order.
-        text: what is written in it directly.
+        tag: its name without namespace.
+        attributes: its attributes by name, without namespace.
+        line: the line of the file in which it begins.
+        children: the child elements, in order.
+        text: the text directly in it.
     """
 
     tag: str
@@ -34,7 +34,7 @@ class Element:
     text: str = ""
 
     def walk(self) -> Iterator["Element"]:
-        """This element and all within it, in the document's order."""
+        """Yield this element and all its descendants, in document order."""
         waiting = [self]
         while waiting:
             element = waiting.pop()
@@ -42,22 +42,22 @@ class Element:
             waiting.extend(reversed(element.children))
 
     def child_text(self, tag: str) -> str | None:
-        """What is written in the first child of a name; None if there is none or nothing is written in it."""
+        """Return the text of the first child with a tag; None without such a child or text."""
         found = next((child.text.strip() for child in self.children if child.tag == tag), "")
         return " ".join(found.split()) or None
 
 
 def read_markup(data: bytes) -> Element:
-    """The root element of an XML document.
+    """Return the root element of an XML document.
 
     Raises:
-        ImportedFileError: it is not well-formed, declares entities, or has too many elements or too deep ones.
+        ImportedFileError: it is not well-formed, declares entities, or has too many or too deep elements.
     """
     return _Builder().read(data)
 
 
 class _Builder:
-    """Builds the tree as expat goes through the document."""
+    """Builds the tree while expat reads the document."""
 
     def __init__(self) -> None:
         self._parser = expat.ParserCreate(namespace_separator="}")

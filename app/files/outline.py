@@ -1,4 +1,4 @@
-"""Finds the outline of a garment among the curves of a drawing: closed, and the largest."""
+"""Finds the outline of a garment among the curves of a drawing: the largest closed one."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -13,22 +13,22 @@ from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import FloatArray
 
 TOLERANCE_M = 0.5e-3
-"""So far a curve may deviate from the straight edges that take its place (m), if they are few enough."""
+"""Largest deviation of the straight edges from the curve that they replace, unless they are too many (m)."""
 
 _JOIN_M = 0.2e-3
-"""Ends of lines nearer than this are joined (m)."""
+"""Distance below which the ends of two lines are joined (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundOutline:
-    """The outline.
+    """An outline found in a drawing.
 
     Attributes:
         points: its corners (m), shape (n, 2), the first not repeated.
-        tolerance_m: how far they deviate from the curves at most (m).
+        tolerance_m: their largest deviation from the curves (m).
         is_bent: whether any of the curves is more than straight segments.
-        is_simplified: whether corners that were drawn have been left out.
-        others: the other closed curves, each by its lowest and highest coordinates (m), shape (n, 2, 2).
+        is_simplified: whether corners of the drawing are left out.
+        others: the lowest and highest coordinates of each other closed curve (m), shape (n, 2, 2).
     """
 
     points: FloatArray
@@ -38,7 +38,7 @@ class FoundOutline:
     others: FloatArray
 
     def is_about(self, line: FloatArray) -> bool:
-        """Whether a line, shape (n, 2), may be meant for this outline: not beside another, nor far away."""
+        """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
         middle = (line[0] + line[-1]) / 2.0
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         if np.all((middle >= low) & (middle <= high)):
@@ -62,24 +62,24 @@ class _Line:
 
     @property
     def is_closed(self) -> bool:
-        """Whether it ends where it begins, to the length of the shortest edge of an outline."""
+        """Whether the line ends where it begins, within the length of the shortest edge of an outline."""
         return float(np.hypot(*(self.points[0] - self.points[-1]))) <= EDGE_MIN_M
 
     @property
     def reversed(self) -> "_Line":
-        """The same line, walked the other way."""
+        """The line in the opposite direction."""
         return _Line(self.points[::-1], self.is_bent)
 
 
 def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
-    """The largest closed curve, lines that meet at their ends joined before, by at most 400 corners.
+    """Return the largest closed curve, after joining lines at their ends, with at most 400 corners.
 
     Args:
         curves: the curves.
-        unit_m: how long a unit of theirs is (m).
+        unit_m: the length of their unit (m).
 
     Raises:
-        ImportedFileError: none is closed.
+        ImportedFileError: there is no closed curve.
     """
     lines: list[_Line] = []
     count = 0
@@ -109,13 +109,13 @@ def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
 
 
 def area(ring: FloatArray) -> float:
-    """The signed area within a ring of points, shape (n, 2): positive if it runs counter-clockwise."""
+    """Return the signed area of a ring of points, shape (n, 2): positive if it is counter-clockwise."""
     x, y = (ring - ring[0]).T
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
 
 
 def _rings(lines: Sequence[_Line]) -> list[_Line]:
-    """The closed lines that could be cloth, the largest first."""
+    """Return the closed lines that are large enough to be cloth, the largest first."""
     closed = [line for line in lines if len(line.points) > 3 and line.is_closed]
     loose = [line for line in lines if len(line.points) > 1 and not line.is_closed]
     closed.extend(line for line in _joined(loose) if line.is_closed)
@@ -124,7 +124,7 @@ def _rings(lines: Sequence[_Line]) -> list[_Line]:
 
 
 def _joined(lines: Sequence[_Line]) -> list[_Line]:
-    """Lines put together where exactly two of them meet."""
+    """Return the lines, joined where exactly two of them meet."""
     meeting: dict[tuple[int, int], list[int]] = defaultdict(list)
     for number, line in enumerate(lines):
         for end in (line.points[0], line.points[-1]):
@@ -140,7 +140,7 @@ def _joined(lines: Sequence[_Line]) -> list[_Line]:
 
 
 def _continued(line: _Line, lines: Sequence[_Line], meeting: dict[tuple[int, int], list[int]], left: set[int]) -> _Line:
-    """A line with all that follows it, as long as it is clear what does; that is taken from what is left."""
+    """Return a line with all lines that follow it unambiguously; remove those from `left`."""
     parts = [line.points]
     is_bent = line.is_bent
     while len(there := meeting[_place(parts[-1][-1])]) == 2:
@@ -159,7 +159,7 @@ def _place(point: FloatArray) -> tuple[int, int]:
 
 
 def _spaced(line: FloatArray) -> FloatArray:
-    """A closed line without its repeated end, and without points that make edges shorter than those of an outline."""
+    """Return a closed line without its repeated end, and without points that make edges too short for an outline."""
     kept = [line[0]]
     for point in line[1:]:
         if np.hypot(*(point - kept[-1])) >= EDGE_MIN_M:
@@ -170,7 +170,7 @@ def _spaced(line: FloatArray) -> FloatArray:
 
 
 def _simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:
-    """A ring with fewer corners that deviates from it by no more than a tolerance (Douglas and Peucker)."""
+    """Return a ring with fewer corners that deviates by at most a tolerance (Douglas-Peucker)."""
     far = int(np.hypot(*(ring - ring[0]).T).argmax())
     closed = np.concatenate([ring, ring[:1]])
     keep = np.zeros(len(closed), dtype=bool)
@@ -189,7 +189,7 @@ def _simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:
 
 
 def _off_chord(line: FloatArray) -> FloatArray:
-    """How far points are from the segment between the first and the last."""
+    """Return the distances of points from the segment between the first and the last."""
     chord, from_first = line[-1] - line[0], line - line[0]
     length2 = float(chord @ chord)
     along = np.clip(from_first @ chord / length2, 0.0, 1.0) if length2 > 0.0 else np.zeros(len(line))

@@ -1,11 +1,11 @@
-"""Writes a plan as a table: one row for each primitive, with where the hands go as the table and as the base see it.
+"""Writes a plan as a table: one row per primitive, with the positions of the hands in the table and the base frame.
 
-While a fold is under way the base may drive, so its place is given for each of the three moments: when the cloth is
-taken, at the top of the path, and where it is let go. Each point of the base frame is seen from the base's place at
-its own moment. Heights in the base frame are above the floor, in the table frame above the table's top.
+The base may drive during a fold, so the table has its pose at three moments: when the hands pick the cloth, at the top
+of the path, and when they place it. A point in the base frame uses the base's pose at its own moment. Heights in the
+base frame are above the floor, in the table frame above the table top.
 
-Points are turned and shifted on the way here, which leaves noise in their last digits. Numbers are rounded to what the
-planner tells apart, far above that noise.
+Transforms leave noise in the last digits of a point. Numbers are rounded to the planner's resolution, which is far
+above that noise.
 """
 
 import csv
@@ -29,7 +29,7 @@ _FORMULA = ("=", "+", "-", "@")
 
 
 def plan_table(plan: Plan) -> str:
-    """Return a solved plan as comma-separated values, a row of names first; lengths in m, times in s, angles in rad.
+    """Return a solved plan as comma-separated values, a header row first; lengths in m, times in s, angles in rad.
 
     Raises:
         UnsolvedPlanError: the plan is not solved.
@@ -90,7 +90,7 @@ def _row(plan: Plan, number: int, step: PlanStep, segments: Sequence[Segment]) -
 
 
 def _stands(phases: Sequence[Phase]) -> dict[str, Pose2]:
-    """Where the base is when the hands take hold, when they come to the top of a fold's path, and at the end."""
+    """Return the base's pose when the hands take hold, when they reach the top of a fold's path, and at the end."""
     held = [phase for phase in phases if any(hand is not None and hand.is_closed for hand in phase.hands)]
     if not held:
         return {}
@@ -109,7 +109,7 @@ def _point(grip: Grip, moment: str) -> Point3 | None:
 
 
 def _in_base(plan: Plan, base: Pose2, point: Point3) -> Point3:
-    """A point of the table frame as the base sees it, its height above the floor (m)."""
+    """Return a point of the table frame in the base frame, its height above the floor (m)."""
     x, y, z = base.to_inner(np.array(point) + np.array([0.0, 0.0, plan.scene.table.height_m]))
     return (float(x), float(y), float(z))
 
@@ -123,5 +123,5 @@ def _pose(name: str, pose: Pose2) -> dict[str, float]:
 
 
 def _text(text: str) -> str:
-    """A name that no spreadsheet takes for a formula."""
+    """Return a text that no spreadsheet takes for a formula."""
     return f"'{text}" if text.startswith(_FORMULA) else text

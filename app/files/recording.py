@@ -1,7 +1,7 @@
-"""Records a plan as one HTML file that plays in any browser, without a server and without a network.
+"""Records a plan as one HTML file that plays in any browser, without a server or a network.
 
-A stage of its own is built for it, so that the ones that people look at are not touched. viser keeps what it would
-have sent to a browser, with the times in between, and puts it into its client.
+The recording uses a stage of its own, so that the stages on view are not disturbed. viser keeps the messages that it
+would have sent to a browser, with their times, and embeds them in its client.
 """
 
 import html
@@ -14,27 +14,27 @@ from planner.robot.pr2 import load_robot
 from planner.task.plan import Plan
 
 RATES_HZ = (1.0, 30.0)
-"""So many frames a second may be asked for."""
+"""Range of frame rates (Hz)."""
 
 DEFAULT_RATE_HZ = 10.0
 
 HOLD_S = 1.0
-"""So long the last frame stays before the player begins again (s)."""
+"""Time that the last frame stays before the player starts again (s)."""
 
 _TITLE = re.compile(r"<title>.*?</title>", re.DOTALL)
 
 
 def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: bool) -> bytes:
-    """A solved plan as an HTML file; empty when it should stop before it is done.
+    """Return a solved plan as an HTML file; empty if stopped before the end.
 
     Args:
         plan: the plan.
-        rate_hz: how many frames a second, within `RATES_HZ`.
-        should_stop: asked before each frame.
-        is_dark: whether it is shown on a dark ground.
+        rate_hz: the frame rate, within `RATES_HZ`.
+        should_stop: called before each frame.
+        is_dark: whether the background is dark.
 
     Raises:
-        UnsolvedPlanError: there is nothing to play.
+        UnsolvedPlanError: the plan is not solved, so there is nothing to play.
     """
     timeline = Timeline.of(plan)
     stage = Stage(load_robot(plan.task.robot).card, plan.scene)

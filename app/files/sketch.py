@@ -1,4 +1,4 @@
-"""A drawing as it was read, whatever the format of its file: curves, and which of them mean folds."""
+"""A drawing as read from a file of any format: its curves, and which of them mean folds."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,9 +12,9 @@ class FoldLine:
 
     Attributes:
         kind: "blue" or "red".
-        curve: the line, in the direction in which it was drawn.
-        name: what it is called; None if it has no name.
-        grip_radius_m: how far round itself one grip holds the cloth (m); None: as the article's.
+        curve: the line, in the direction drawn.
+        name: its name, or None.
+        grip_radius_m: the radius of cloth that one grip holds (m); None for the article's.
     """
 
     kind: str
@@ -25,16 +25,16 @@ class FoldLine:
 
 @dataclass(frozen=True, eq=False)
 class Sketch:
-    """A drawing. Its y axis goes up.
+    """A drawing. Its y axis points up.
 
     Attributes:
-        curves: those that may be the outline, or a part of it.
+        curves: the curves that may be the outline, or part of it.
         folds: the lines that mean folds, in the file's order.
-        unit_m: how long one unit is (m); None: the file does not say.
-        why_no_unit: why not, as the beginning of a sentence.
-        title: what the drawing is called; None if it has no name.
-        kept: what Pleat wrote into a drawing that it exported, beside the lines.
-        notes: what is to be said about it, in sentences.
+        unit_m: the length of its unit (m); None if the file does not say.
+        why_no_unit: why the unit is unknown, as the beginning of a sentence.
+        title: its title, or None.
+        kept: the data that Pleat stored in a drawing that it exported, besides the lines.
+        notes: remarks on the drawing, in sentences.
     """
 
     curves: tuple[Curve, ...]

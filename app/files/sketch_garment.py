@@ -1,4 +1,4 @@
-"""From a drawing to a garment: which curve is the outline, where the folds are, how large it all is."""
+"""Turns a drawing into a garment: finds the outline, the folds and the scale."""
 
 import math
 import re
@@ -22,37 +22,37 @@ from planner.message import Message
 from planner.strict_model import LARGEST_M
 
 UNITS_M: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
-"""What a unit of a drawing may be said to be (m)."""
+"""Units that a drawing may have, by name (m)."""
 
 UNITS_MIN_MAX_M = (1e-9, 1e3)
-"""Drawings whose unit is shorter or longer are refused (m)."""
+"""Range of the length of a unit (m); other drawings are refused."""
 
 ODD_SIZES_M = (0.05, 4.0)
-"""A garment narrower or wider than this is doubted (m)."""
+"""Range of usual garment sizes (m); others give a warning."""
 
 LIKELY_M = (0.01, LARGEST_M)
-"""No garment is shorter or longer than this (m): the file's unit is wrong."""
+"""Range of possible garment sizes (m); others mean that the file's unit is wrong."""
 
 KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
-"""What an exported drawing keeps beside its lines: fields of a garment file."""
+"""Fields of a garment file that an exported drawing keeps besides its lines."""
 
 _NAME_MAX = 63
 _SHEET_MAX_M = 100.0
 
 
 Sizes: TypeAlias = dict[str, tuple[float, float]]
-"""For each unit that a drawing may be in, how wide and how high the garment would be (m)."""
+"""The width and height that the garment would have, for each unit that the drawing may have (m)."""
 
 
 @dataclass(frozen=True, slots=True)
 class SketchedGarment:
-    """A garment out of a drawing.
+    """A garment read from a drawing.
 
     Attributes:
         garment: the garment.
-        notes: what is to be said about how it came about, in sentences.
-        creases: on which cloth its fold lines were read; None where that makes no difference.
-        sizes: how large it would be in other units.
+        notes: remarks on how it was read, in sentences.
+        creases: the cloth on which its fold lines were read; None if it makes no difference.
+        sizes: the size that it would have in other units.
     """
 
     garment: Garment
@@ -64,19 +64,19 @@ class SketchedGarment:
 def garment_of(
     sketch: Sketch, name: str, units: str | None, scale: float, creases: Creases | None = None
 ) -> SketchedGarment:
-    """The garment that a drawing shows.
+    """Return the garment that a drawing shows.
 
     Args:
         sketch: the drawing.
-        name: what to call it if the drawing has no title.
-        units: what one of its units is, one of `UNITS_M`; None: what the file says.
-        scale: everything is so many times as large.
-        creases: on which cloth its fold lines are drawn; None: that on which more of them are legal.
+        name: the garment's name if the drawing has no title.
+        units: the drawing's unit, one of `UNITS_M`; None to take it from the file.
+        scale: the factor by which to enlarge everything.
+        creases: the cloth on which its fold lines are drawn; None for the reading that makes more of them legal.
 
     Raises:
-        UnitsNeededError: neither the file nor the caller says how long a unit is, or what the file says cannot be.
-        ImportedFileError: there is no outline in it, or it is too large.
-        GarmentError: the outline is none of a garment.
+        UnitsNeededError: neither the file nor the caller gives the unit, or the one in the file is impossible.
+        ImportedFileError: there is no outline, or it is too large.
+        GarmentError: the outline is not valid for a garment.
     """
     unit_m = UNITS_M[units] if units is not None else sketch.unit_m
     if unit_m is None:
@@ -108,7 +108,7 @@ def garment_of(
 
 
 def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:
-    """A garment with its fold lines on the cloth, and on which cloth they were read; adds to the notes."""
+    """Return a garment with its fold lines on the cloth, and on which cloth they were read; append to the notes."""
     ways: dict[Creases, ReadCreases] = {
         "folded": read_creases(garment.outline, garment.folds, "folded"),
         "flat": read_creases(garment.outline, garment.folds, "flat"),
@@ -136,7 +136,7 @@ def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tu
 
 
 def _is_alike(one: ReadCreases, other: ReadCreases) -> bool:
-    """Whether both ways of reading give the same folds, to the tolerance."""
+    """Return whether both readings give the same folds within tolerance."""
     return one.legal == other.legal and all(
         max(math.dist(a.start, b.start), math.dist(a.end, b.end)) <= SNAP_M
         for a, b in zip(one.folds, other.folds, strict=True)
@@ -144,7 +144,7 @@ def _is_alike(one: ReadCreases, other: ReadCreases) -> bool:
 
 
 def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[Message]) -> Garment:
-    """The garment that is drawn, with what an exported drawing keeps beside its lines if that is any good."""
+    """Return the drawn garment with the fields kept in an exported drawing, if they are valid."""
     beside = {name: kept[name] for name in KEPT_FIELDS if name in kept}
     try:
         return Garment.from_dict({**drawn, **beside})
@@ -157,14 +157,14 @@ def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[Mess
 
 
 def plain_name(title: str) -> str:
-    """A title as the name of a garment: small letters, digits and hyphens."""
+    """Return a title as a garment's name: small letters, digits and hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:_NAME_MAX].strip("-") or "imported"
 
 
 def _require_likely(sketch: Sketch, unit_m: float) -> None:
-    """Ask for the units where those that the file says make a garment of no possible size.
+    """Raise `UnitsNeededError` if the file's unit gives a garment of an impossible size.
 
-    Drawing programs write a unit into every file, whether somebody has chosen it or not.
+    Drawing programs write a unit into every file, even if nobody chose it.
     """
     sizes = _sizes(sketch, 1.0)
     longest_m = max(sizes["m"]) * unit_m
@@ -175,7 +175,7 @@ def _require_likely(sketch: Sketch, unit_m: float) -> None:
 
 
 def _sizes(sketch: Sketch, scale: float) -> Sizes:
-    """How large the garment would be in each unit (m)."""
+    """Return the garment's size in each unit (m)."""
     extent = _extent(sketch)
     with np.errstate(all="ignore"):
         span = float((extent.max(axis=0) - extent.min(axis=0)).max()) or 1.0
@@ -187,7 +187,7 @@ def _sizes(sketch: Sketch, scale: float) -> Sizes:
 
 
 def _require_size(points: FloatArray, most_m: float, what: str) -> None:
-    """Refuse what is too large, points of shape (n, 2), m."""
+    """Raise `ImportedFileError` if points, shape (n, 2), m, extend too far."""
     with np.errstate(all="ignore"):
         width, height = points.max(axis=0) - points.min(axis=0)
     if not max(width, height) <= most_m:
@@ -209,7 +209,7 @@ def _extent(sketch: Sketch) -> FloatArray:
 def _folds(
     sketch: Sketch, found: FoundOutline, unit_m: float, origin: FloatArray, notes: list[Message]
 ) -> Iterator[dict[str, Any]]:
-    """The folds in the file's order, as in a garment file; adds to the notes what is to be said about them."""
+    """Yield the folds in the file's order, as in a garment file; append remarks on them to the notes."""
     near = [line for line in sketch.folds if found.is_about(line.curve.extent * unit_m)]
     if len(near) < len(sketch.folds):
         notes.append(Message.plain(f"Fold lines away from the outline were left out: {len(sketch.folds) - len(near)}."))

@@ -1,4 +1,4 @@
-"""A document as it would be of a plan that nobody has drawn: what exports are made of."""
+"""Makes a document's state from a garment or a plan that no document holds, for export."""
 
 from dataclasses import replace
 
@@ -11,12 +11,12 @@ from planner.task.task import Task
 
 
 def state_of_garment(garment: Garment) -> DocumentState:
-    """Return a document in which a garment is drawn and nothing is planned."""
+    """Return the state of a document with this garment and no plan."""
     return DocumentState(1, draft_of(drawing_of(garment)))
 
 
 def state_of_plan(plan: Plan) -> DocumentState:
-    """Return a document in which a plan's garment is drawn and the plan is the answer."""
+    """Return the state of a document with a plan's garment and the plan as its answer."""
     task: Task = plan.task
     drawing = replace(
         drawing_of(task.garment, task.scene),

@@ -1,7 +1,7 @@
-"""Writes a garment as SVG: lengths in cm, the outline and the folds as lines, to be read again without loss.
+"""Writes a garment as SVG: lengths in cm, outline and folds as lines, to be read again without loss.
 
-Arrows show the direction of a fold; what lies to its left moves. The drawing's own coordinates are the article frame's
-in centimetres, with y down.
+Arrows show the direction of a fold; the cloth to its left moves. The drawing's coordinates are the article frame's in
+centimetres, with y down.
 """
 
 import json
@@ -22,7 +22,7 @@ _STROKE_CM = 0.25
 
 
 def svg_drawing(garment: Garment) -> str:
-    """The garment, folds included, as an SVG document."""
+    """Return the garment, folds included, as an SVG document."""
     points = [_cm(point) for point in garment.outline]
     ends = [_cm(end) for fold in garment.folds for end in (fold.start, fold.end)]
     xs, ys = zip(*points, *ends, strict=True)
@@ -72,5 +72,5 @@ def _joined(points: list[Point2]) -> str:
 
 
 def _text(title: str) -> str:
-    """A title as it may stand in XML, in which some characters must not be at all."""
+    """Return a title escaped for XML, with unprintable characters replaced."""
     return escape("".join(char if char.isprintable() else " " for char in title))

@@ -1,4 +1,4 @@
-"""Lengths in SVG, and how long one of its units is."""
+"""Reads lengths in SVG, and the length of an SVG drawing's unit."""
 
 import math
 import re
@@ -13,7 +13,7 @@ from planner.geometry.pose import FloatArray
 
 INCH_M = 0.0254
 PX_PER_INCH = 96.0
-"""CSS has 96 px to the inch, and that is what a px in SVG means when anything says how large the drawing is."""
+"""Pixels per inch, as CSS defines them. SVG uses the same px as soon as the drawing states its physical size."""
 
 _PX_M = INCH_M / PX_PER_INCH
 _IN_M = {
@@ -31,7 +31,7 @@ _LENGTH = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([a-z]*|%)\
 
 @dataclass(frozen=True, slots=True)
 class ViewBox:
-    """The part of the drawing that is seen, in its own units."""
+    """The visible part of the drawing, in its own units."""
 
     x: float
     y: float
@@ -41,12 +41,12 @@ class ViewBox:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sheet:
-    """The sheet on which a drawing is.
+    """The sheet on which a drawing lies.
 
     Attributes:
-        unit_m: how long one of its units is (m); None: it does not say.
-        stretch: how much longer a unit is along x and y where the sheet is not drawn to one scale; mostly 1.
-        view_box: the part that is seen; None: not said.
+        unit_m: the length of its unit (m); None if the file does not say.
+        stretch: factors on the unit along x and y if the sheet is not drawn to one scale; usually 1.
+        view_box: the visible part; None if the file does not say.
     """
 
     unit_m: float | None
@@ -55,10 +55,10 @@ class Sheet:
 
 
 def sheet_of(root: Element) -> Sheet:
-    """The sheet that the root element describes by width, height and viewBox.
+    """Return the sheet that the root element describes by width, height and viewBox.
 
     Raises:
-        ImportedFileError: its viewBox is none.
+        ImportedFileError: the viewBox is invalid.
     """
     box = _view_box(root)
     width_m, height_m = (_physical_m(root.attributes.get(name, "")) for name in ("width", "height"))
@@ -78,10 +78,10 @@ def sheet_of(root: Element) -> Sheet:
 
 
 def user_units(element: Element, name: str, default: float = 0.0) -> float:
-    """An attribute that is a length, in user units; physical lengths are so many px.
+    """Return a length attribute in user units; convert physical lengths as px.
 
     Raises:
-        ImportedFileError: it is no length, or a percentage.
+        ImportedFileError: it is a percentage, or not a length.
     """
     text = element.attributes.get(name)
     if text is None or text.strip() == "auto":
@@ -94,21 +94,21 @@ def user_units(element: Element, name: str, default: float = 0.0) -> float:
 
 
 def finite(value: float, element: Element) -> float:
-    """The value; raises `ImportedFileError` if it is beyond all numbers."""
+    """Return the value; raise `ImportedFileError` if it is not finite."""
     if not math.isfinite(value):
         raise broken(f"line {element.line}: a number of <{element.tag[:40]}> is too large")
     return value
 
 
 def numbers_in(text: str, element: Element) -> list[float]:
-    """All numbers in a list, however they are separated; raises `ImportedFileError` where there is anything else."""
+    """Return the numbers in a list, with any separators; raise `ImportedFileError` for anything else in it."""
     if _NUMBER.sub(" ", text).replace(",", " ").strip():
         raise broken(f"line {element.line}: {text[:40]!r} is no list of numbers")
     return [finite(float(number), element) for number in _NUMBER.findall(text)]
 
 
 def viewport(element: Element) -> FloatArray:
-    """What a nested element `svg` or a `symbol` does to the coordinates within it, shape (3, 3)."""
+    """Return the transform that a nested `svg` or `symbol` applies to its content, shape (3, 3)."""
     place: Mapping[str, float] = {name: user_units(element, name) for name in ("x", "y")}
     box = _view_box(element)
     width, height = (_plain(element, name) for name in ("width", "height"))
@@ -127,7 +127,7 @@ def _plain(element: Element, name: str) -> float | None:
 
 
 def _physical_m(text: str) -> float | None:
-    """A length with a physical unit (m); None for px, percentages and what is no length."""
+    """Return a length with a physical unit (m); None for px, percentages and anything that is not a length."""
     found = _length(text)
     return float(found[1]) * _IN_M[found[2].lower()] if found and found[2].lower() in _IN_M else None
 

@@ -1,4 +1,4 @@
-"""The shapes of an SVG drawing: what is drawn, with all groups, transforms and references worked out."""
+"""Lists the visible shapes of an SVG drawing, with groups, transforms and references resolved."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -14,8 +14,7 @@ from app.files.svg_style import StyleSheet, is_hidden, is_invisible
 from planner.geometry.pose import FloatArray
 
 SHAPES_MAX, VISITS_MAX, CHARACTERS_MAX = 5_000, 20_000, 8_000_000
-"""References can multiply shapes; beyond so many of them, of elements gone through, and of characters in their
-attributes a drawing is refused."""
+"""Largest numbers of shapes, of elements visited and of their attributes' characters; references can multiply them."""
 
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
 _REFERENCES_DEEP = 20
@@ -24,13 +23,13 @@ _QUARTERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shape:
-    """A shape as it is drawn.
+    """A shape as drawn.
 
     Attributes:
         element: the element that draws it.
-        data: its outline as the data of a path.
-        matrix: from its coordinates to the drawing's, shape (3, 3).
-        style: what it looks like.
+        data: its outline as path data.
+        matrix: the transform from its coordinates to the drawing's, shape (3, 3).
+        style: its style properties.
     """
 
     element: Element
@@ -40,10 +39,10 @@ class Shape:
 
 
 def shapes_of(root: Element) -> Iterator[Shape]:
-    """All shapes that are seen, in the order in which they are drawn.
+    """Yield all visible shapes, in drawing order.
 
     Raises:
-        ImportedFileError: a transform, a length or a reference cannot be followed, or there are too many shapes.
+        ImportedFileError: a transform, a length or a reference is invalid, or there are too many shapes.
     """
     for count, shape in enumerate(_Drawn(root).shapes()):
         if count >= SHAPES_MAX:
@@ -64,7 +63,7 @@ class _Drawn:
             yield from self._within(child, np.eye(3), style, 0)
 
     def _within(self, element: Element, outer: FloatArray, around: Mapping[str, str], deep: int) -> Iterator[Shape]:
-        """The shapes that an element draws within a matrix and a style, so many references deep."""
+        """Yield the shapes that an element draws within a transform and a style, `deep` references down."""
         self._visited += 1
         self._read += sum(len(value) for value in element.attributes.values())
         if self._visited > VISITS_MAX or self._read > CHARACTERS_MAX:
@@ -101,7 +100,7 @@ class _Drawn:
 
 
 def path_data(element: Element) -> str:
-    """The outline of a shape as the data of a path; empty for an element that draws none."""
+    """Return the outline of a shape as path data; empty for an element that draws none."""
     match element.tag:
         case "path":
             return element.attributes.get("d", "")
@@ -139,14 +138,14 @@ def _rectangle(element: Element) -> str:
 
 
 def _radii(element: Element) -> tuple[float, float]:
-    """The radii along x and y; one that is not given is as large as the other."""
+    """Return the radii along x and y; a missing radius equals the other."""
     rx, ry = user_units(element, "rx", math.nan), user_units(element, "ry", math.nan)
     rx, ry = (ry if math.isnan(rx) else rx), (rx if math.isnan(ry) else ry)
     return (0.0, 0.0) if math.isnan(rx) else (rx, ry)
 
 
 def _rounded(cx: float, cy: float, width: float, height: float, rx: float, ry: float) -> str:
-    """A rectangle of half this size, round its middle, grown by an ellipse; of no size, that ellipse."""
+    """Return a rectangle of this half size about its centre, grown by an ellipse; at size zero, the ellipse."""
     parts = []
     for sx, sy in _QUARTERS:
         side = (cx + sx * (width + rx), cy + sy * height)

@@ -1,4 +1,4 @@
-"""Reads SVG: closed paths may be the outline, open ones in blue or red are folds."""
+"""Reads SVG: closed paths are candidates for the outline; open paths in blue or red are folds."""
 
 import json
 import re
@@ -20,25 +20,25 @@ from planner.geometry.pose import FloatArray
 from planner.strict_model import LARGEST_M
 
 KEPT = "data-pleat"
-"""The attribute in which an exported drawing keeps what its lines do not say."""
+"""The attribute in which an exported drawing keeps the data that its lines do not show."""
 
 GRIP_RADIUS = "data-pleat-grip-radius-m"
-"""The same of a fold."""
+"""The attribute in which an exported fold line keeps its grip radius (m)."""
 
 SEGMENTS_MAX = 20_000
 
 _BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError, UserWarning)
-"""What svgpathtools raises on data that are none of a path; its warning is about arcs without a radius."""
+"""Exceptions that svgpathtools raises on invalid path data; its warning is about arcs without a radius."""
 
 _COMMAND = re.compile(r"[A-Za-z]")
 _Segment: TypeAlias = Line | QuadraticBezier | CubicBezier | Arc
 
 
 def read_svg(data: bytes) -> Sketch:
-    """The drawing in an SVG file.
+    """Return the drawing in an SVG file.
 
     Raises:
-        ImportedFileError: it is no SVG, or something in it cannot be read; says in which line.
+        ImportedFileError: the file is not SVG, or part of it cannot be read; the message gives the line.
     """
     root = read_markup(data)
     if root.tag != "svg":
@@ -69,13 +69,13 @@ def _others(count: int) -> str:
 
 
 def _upwards(sheet: Sheet) -> FloatArray:
-    """From the sheet's coordinates, y down, to those of a drawing, y up."""
+    """Return the matrix from the sheet's coordinates, y down, to those of a drawing, y up."""
     sx, sy = sheet.stretch
     return np.diag([sx, -sy, 1.0])
 
 
 def _curves(shape: Shape, upwards: FloatArray) -> Iterator[tuple[SvgCurve, bool]]:
-    """The subpaths of a shape, and whether each is closed."""
+    """Yield the subpaths of a shape, and whether each is closed."""
     if not set(_COMMAND.findall(shape.data)) <= set("MmZzLlHhVvCcSsQqTtAaEe"):
         raise _unread(shape, "there is a command in it that paths do not have")
     try:
@@ -91,7 +91,7 @@ def _curves(shape: Shape, upwards: FloatArray) -> Iterator[tuple[SvgCurve, bool]
 
 
 def _subpaths(segments: list[_Segment]) -> Iterator[list[_Segment]]:
-    """Segments that follow one another; where they are back at their start something new begins."""
+    """Yield the connected sequences of segments; a sequence also ends where it returns to its start."""
     subpath: list[_Segment] = []
     for segment in segments:
         if segment.start is None or segment.end is None:

@@ -1,6 +1,6 @@
-"""What SVG elements look like, as far as it matters: presentation attributes, style sheets, `style`, inheritance.
+"""Resolves the style of SVG elements: presentation attributes, style sheets, `style` and inheritance.
 
-Of style sheets the selectors that drawing programs write are understood: a name, a class, an id, and these joined.
+Of style sheets it understands the selectors that drawing programs write: a name, a class, an id, and combinations.
 """
 
 import re
@@ -11,11 +11,11 @@ from app.files.import_errors import broken
 from app.files.markup import Element
 
 INHERITED = ("stroke", "color", "visibility")
-"""The properties that are looked at and that pass on to what is within an element."""
+"""The properties used here that an element passes on to its content."""
 
 _OWN = ("display",)
 RULES_MAX = 300
-"""A style sheet with more rules is refused: each is looked at for each element."""
+"""Largest number of style rules: every rule is matched against every element."""
 
 _SIMPLE = re.compile(r"(?P<tag>[a-zA-Z][\w-]*|\*)?(?P<more>(?:[.#][\w-]+)*)")
 _PART = re.compile(r"[.#][\w-]+")
@@ -26,9 +26,9 @@ class Rule:
     """A rule of a style sheet.
 
     Attributes:
-        tag: the name that an element must have; None: any.
-        marks: the classes (with a dot) and ids (with a hash) that it must have.
-        properties: what it then looks like.
+        tag: the element name that it requires; None for any.
+        marks: the classes (with a dot) and ids (with a hash) that it requires.
+        properties: the style properties that it sets.
     """
 
     tag: str | None
@@ -37,24 +37,24 @@ class Rule:
 
     @property
     def weight(self) -> tuple[int, int, int]:
-        """The heavier rule wins: ids, classes, names."""
+        """The specificity: numbers of ids, classes and names; the larger wins."""
         ids = sum(mark.startswith("#") for mark in self.marks)
         return (ids, len(self.marks) - ids, int(self.tag is not None))
 
     def is_for(self, element: Element, marks: frozenset[str]) -> bool:
-        """Whether it is about an element that has these classes and this id."""
+        """Return whether the rule applies to an element with these classes and id."""
         return self.tag in (None, element.tag) and self.marks <= marks
 
 
 @dataclass(frozen=True, slots=True)
 class StyleSheet:
-    """All rules of a document, the lightest first."""
+    """All rules of a document, in order of increasing specificity."""
 
     rules: tuple[Rule, ...]
 
     @staticmethod
     def of(root: Element) -> "StyleSheet":
-        """The rules in all elements `style` of a document; raises `ImportedFileError` if there are too many."""
+        """Return the rules in all `style` elements of a document; raise `ImportedFileError` if there are too many."""
         sheets = [element.text for element in root.walk() if element.tag == "style"]
         rules = [rule for sheet in sheets for rule in _rules(_without_comments(sheet))]
         if len(rules) > RULES_MAX:
@@ -62,7 +62,7 @@ class StyleSheet:
         return StyleSheet(tuple(sorted(rules, key=lambda rule: rule.weight)))
 
     def style(self, element: Element, outer: Mapping[str, str]) -> dict[str, str]:
-        """What an element looks like within one that looks so."""
+        """Return the style of an element within an outer style."""
         found = {name: outer[name] for name in INHERITED if name in outer}
         found |= {name: element.attributes[name] for name in (*INHERITED, *_OWN) if name in element.attributes}
         marks = _marks(element)
@@ -74,7 +74,7 @@ class StyleSheet:
 
 
 def declared(text: str) -> dict[str, str]:
-    """The properties in a list like ``stroke: #00f; stroke-width: 2``."""
+    """Return the properties in a list such as ``stroke: #00f; stroke-width: 2``."""
     pairs = (part.partition(":") for part in text.split(";"))
     return {
         name.strip().lower(): value.replace("!important", "").strip().lower() for name, colon, value in pairs if colon
@@ -82,17 +82,17 @@ def declared(text: str) -> dict[str, str]:
 
 
 def is_hidden(style: Mapping[str, str]) -> bool:
-    """Whether an element is not displayed, nor anything within it."""
+    """Return whether an element and its content are not displayed."""
     return style.get("display") == "none"
 
 
 def is_invisible(style: Mapping[str, str]) -> bool:
-    """Whether an element is not seen; what is within it may be."""
+    """Return whether an element is invisible; its content may be visible."""
     return style.get("visibility") in ("hidden", "collapse")
 
 
 def _rules(sheet: str) -> list[Rule]:
-    """The rules of a sheet; those in a block such as @media count like any other."""
+    """Return the rules of a sheet; treat rules in a block such as @media like any others."""
     found = []
     for part in sheet.split("}"):
         before, _, body = part.rpartition("{")
