@@ -1,9 +1,9 @@
-"""Runs one piece of work in a process of its own, which is killed when nobody wants the answer any more.
+"""Runs one piece of work in a process of its own, and kills it when nobody needs the answer any more.
 
-Threads share one interpreter: two searches at once take half as much again in all, and everything else waits among
-them. Processes do not, and what runs there can be ended at any point, inside a library too. Its memory is given back
-then. A template process loads the planner and its kernels once; each piece of work runs in a copy of it, which costs a
-few milliseconds and some 20 MB (measured: a plan of 0.2 s takes 9 ms longer than in a thread).
+Threads share one interpreter: two searches at once take half as long again in total, and everything else waits for
+them. Processes do not, and can be ended at any point, even inside a library; their memory is freed then. A template
+process loads the planner and its kernels once; each piece of work runs in a fork of it, which costs a few milliseconds
+and some 20 MB (measured: a plan of 0.2 s takes 9 ms longer than in a thread).
 """
 
 import contextlib
@@ -30,10 +30,10 @@ Tell = Callable[[Any], None]
 
 _TEMPLATE = "app.jobs.template"
 _LOOK_EVERY_S = 0.02
-"""How often it is looked whether to stop (s)."""
+"""Period of the check whether to stop (s)."""
 
 _STARTS_MAX = 50
-"""Attempts to start a process."""
+"""Largest number of attempts to start a process."""
 
 _NEWS, _ANSWER, _ERROR = "news", "answer", "error"
 _context = multiprocessing.get_context("forkserver")
@@ -51,12 +51,12 @@ class LostProcessError(Exception):
 
 
 def ignore(_: object) -> None:
-    """Take no news."""
+    """Ignore news."""
 
 
 @functools.cache
 def template_is_ready() -> threading.Event:
-    """Start the template process, once; the event is set when it has loaded all, which takes seconds."""
+    """Start the template process, once; return an event that is set after loading, which takes seconds."""
     is_ready = threading.Event()
     threading.Thread(target=_load_template, args=(is_ready,), name="template", daemon=True).start()
     return is_ready
@@ -64,8 +64,8 @@ def template_is_ready() -> threading.Event:
 
 def _load_template(is_ready: threading.Event) -> None:
     _context.set_forkserver_preload([_TEMPLATE])
-    resource_tracker.ensure_running()  # it would let Ctrl-C through again
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the server, which ends the rest
+    resource_tracker.ensure_running()  # started later, it would unblock Ctrl-C again
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # only the server handles Ctrl-C, and ends the rest
     first = _context.Process(target=ignore, args=(None,), daemon=True)
     first.start()
     first.join()
@@ -79,17 +79,17 @@ def run_apart(
     *arguments: P.args,
     **options: P.kwargs,
 ) -> Answer:
-    """Return what some work comes to in a process of its own.
+    """Return the result of work done in a process of its own.
 
     Args:
-        work: a function of a module. Its first argument is another, to which it may tell news.
-        should_stop: asked meanwhile; true kills the process.
-        on_news: given what the work tells.
-        arguments: the work's own.
-        options: likewise.
+        work: a module-level function. Its first argument is a function through which it can send news.
+        should_stop: called while waiting; true kills the process.
+        on_news: called with the news.
+        arguments: the further positional arguments of the work.
+        options: its keyword arguments.
 
     Raises:
-        StoppedError: it was stopped.
+        StoppedError: the work was stopped.
         LostProcessError: its process ended before it did.
         Exception: whatever the work raises.
     """
@@ -123,7 +123,7 @@ def run_apart(
 
 
 def _start(process: ForkServerProcess) -> None:
-    """Start a process; a template that was ended from outside is replaced once the system has noticed that."""
+    """Start a process; if the template was killed from outside, retry until the system has noticed and replaced it."""
     for _ in range(_STARTS_MAX):
         try:
             process.start()
@@ -137,7 +137,7 @@ def _start(process: ForkServerProcess) -> None:
 def _work(
     connection: Connection, work: Callable[..., Any], arguments: tuple[Any, ...], options: dict[str, Any]
 ) -> None:
-    """Do the work and send what comes of it, in the process that is its own."""
+    """Do the work and send its result; runs in the child process."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(BrokenPipeError):
         try:
@@ -145,12 +145,12 @@ def _work(
         except BrokenPipeError:
             raise
         except Exception as error:
-            error.add_note("".join(traceback.format_exception(error)))  # what is sent has no trace any more
+            error.add_note("".join(traceback.format_exception(error)))  # pickling drops the traceback
             connection.send((_ERROR, error))
 
 
 def _end_with_parent() -> None:
-    """End this process when the server has gone without a word."""
+    """End this process as soon as the server has ended."""
     parent = multiprocessing.parent_process()
     assert parent is not None
     multiprocessing.connection.wait([parent.sentinel])

@@ -1,8 +1,8 @@
-"""Lets long work step aside for short work.
+"""Makes long work pause for short work.
 
-All threads of a process share one interpreter. A search that runs beside an edit takes it away each time the edit
-calls into a library, and the edit of a hundredth of a second takes a tenth. So searches, which ask again and again
-whether they should stop, wait at these moments while anything short is under way.
+All threads of a process share one interpreter. A search that runs beside an edit takes it over each time the edit calls
+into a library, so an edit of 10 ms takes 100 ms. Searches ask often whether to stop; there they wait while any short
+work is in progress.
 """
 
 import threading
@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 GIVE_WAY_S = 0.1
-"""Longest wait at one such moment (s): without a pause in the short work long work gets on nevertheless."""
+"""Longest wait at one such point (s); it lets long work progress even if short work never pauses."""
 
 
 class Courtesy:
-    """Knows whether anything short is under way; may be used from any thread."""
+    """Tracks whether short work is in progress; safe to use from any thread."""
 
     def __init__(self) -> None:
-        """Begin with nothing under way."""
+        """Start with no short work in progress."""
         self._lock = threading.Lock()
         self._count = 0
         self._is_free = threading.Event()
@@ -25,7 +25,7 @@ class Courtesy:
 
     @contextmanager
     def short_work(self) -> Iterator[None]:
-        """Have long work wait meanwhile."""
+        """Make long work wait during this context."""
         with self._lock:
             self._count += 1
             self._is_free.clear()
@@ -38,5 +38,5 @@ class Courtesy:
                     self._is_free.set()
 
     def give_way(self) -> None:
-        """Wait while anything short is under way, but not for long."""
+        """Wait while short work is in progress, up to `GIVE_WAY_S`."""
         self._is_free.wait(GIVE_WAY_S)

@@ -1,6 +1,6 @@
-"""Work in threads of their own: never more at once than there are workers, and each can be stopped.
+"""Runs jobs in threads: at most as many at once as there are workers, each of them stoppable.
 
-The threads are daemons: work that is slow to notice that it should stop does not keep the program alive.
+The threads are daemons, so that a job that is slow to stop does not keep the program alive.
 """
 
 import math
@@ -20,21 +20,21 @@ Answer = TypeVar("Answer")
 ShouldStop = Callable[[], bool]
 
 PATIENCE_S = 1.5
-"""Wait for jobs that were stopped, when the server ends (s)."""
+"""Time to wait for stopped jobs when the server ends (s)."""
 
 _RETRY_S = (1, 60)
-"""The shortest and the longest wait that is told to whom comes too much (s)."""
+"""Range of the wait suggested to a client when the pool is full (s)."""
 
 _NEWS_SHARE = 0.2
-"""Share of the latest job in the mean duration of jobs."""
+"""Weight of the latest job in the moving average of durations."""
 
 
 @dataclass
 class BusyError(FoldingError):
-    """There is no room, or no time, for one more job.
+    """There is no room, or no time, for another job.
 
     Attributes:
-        retry_after_s: when there may be (s).
+        retry_after_s: the time after which to try again (s).
     """
 
     retry_after_s: int
@@ -44,26 +44,26 @@ class BusyError(FoldingError):
 
 
 class Job(Generic[Answer]):
-    """A piece of work that waits, runs or is done.
+    """A piece of work that is waiting, running or done.
 
     Attributes:
         future: its answer.
     """
 
     def __init__(self, work: Callable[[ShouldStop], Answer], courtesy: Courtesy) -> None:
-        """Work is given the question whether it should stop, to be asked now and then."""
+        """Take the work, a function that calls its argument from time to time to ask whether to stop."""
         self.future: Future[Answer] = Future()
         self._work = work
         self._courtesy = courtesy
         self._stop = threading.Event()
 
     def stop(self) -> None:
-        """Do without the answer."""
+        """Cancel the job."""
         self._stop.set()
         self.future.cancel()
 
     def run(self) -> None:
-        """Do the work in this thread, unless it was stopped before it began."""
+        """Do the work in this thread, unless the job was stopped before."""
         if not self.future.set_running_or_notify_cancel():
             return
         try:
@@ -77,7 +77,7 @@ class Job(Generic[Answer]):
 
 
 class JobPool:
-    """Takes jobs and does them in the order in which they came."""
+    """Runs jobs in the order in which they arrive."""
 
     def __init__(
         self, workers: int | None = None, waiting_max: int | None = None, courtesy: Courtesy | None = None
@@ -85,9 +85,9 @@ class JobPool:
         """Start no thread before the first job.
 
         Args:
-            workers: how many jobs run at once; by default as many as there are cores.
-            waiting_max: how many may wait for their turn; None: any number.
-            courtesy: what the jobs give way to.
+            workers: the number of jobs to run at once; by default the number of cores.
+            waiting_max: the number of jobs that may wait; None for no limit.
+            courtesy: tells when the jobs have to wait for short work.
         """
         self._workers = workers or os.cpu_count() or 1
         self._waiting_max = waiting_max
@@ -100,9 +100,9 @@ class JobPool:
         self._mean_s = 0.0
 
     def start(self, work: Callable[[ShouldStop], Answer]) -> Job[Answer]:
-        """Queue a piece of work; raises `BusyError` when as many wait as may.
+        """Queue a piece of work; raise `BusyError` if the queue is full.
 
-        Once the pool is closed the job is stopped at once: a thread begun for it would take another's word to end.
+        A closed pool stops the job at once: a new thread would take the end signal meant for another.
         """
         job = Job(work, self._courtesy)
         with self._lock:
@@ -126,16 +126,16 @@ class JobPool:
             return self._busy()
 
     def stop(self) -> None:
-        """Stop all jobs that run or wait."""
+        """Stop all running and waiting jobs."""
         with self._lock:
             stopped = tuple(self._open)
         for job in stopped:
             job.stop()
 
     def close(self, patience_s: float = PATIENCE_S) -> None:
-        """Stop everything that runs or waits, and wait a little for the threads to end.
+        """Stop all running and waiting jobs, and wait a little for the threads to end.
 
-        A thread that were still in compiled code when the interpreter ends could bring it down.
+        A thread still in compiled code when the interpreter ends could crash it.
         """
         with self._lock:
             self._is_closed = True
@@ -148,7 +148,7 @@ class JobPool:
             thread.join(max(0.0, deadline - time.monotonic()))
 
     def _waiting(self) -> int:
-        """Return how many jobs nobody works at; those that were stopped meanwhile are none."""
+        """Return the number of jobs that no thread has started, without the stopped ones."""
         return sum(1 for job in self._open if not job.future.running())
 
     def _busy(self) -> BusyError:

@@ -1,11 +1,11 @@
-"""Who works at what: short work never waits behind long work.
+"""Assigns work to lanes, so that short work never waits behind long work.
 
-- ``quick`` is for what takes some hundredths of a second. All the rest gives way to it.
-- ``files`` is for what takes up to some seconds: reading files, making them, sampling timelines.
+- ``quick`` is for work of some hundredths of a second. All other lanes give way to it.
+- ``files`` is for work of up to some seconds: reading files, making them, sampling timelines.
 - ``searches`` is for plans, suggestions and maps, in processes of their own.
-- ``live`` plans the documents that are open, in threads: it keeps what it found out from plan to plan.
+- ``live`` plans the open documents, in threads: it keeps its results from plan to plan.
 
-Each has its own workers and its own queue, which has an end where anybody may put work in.
+Each lane has its own workers and its own queue, which is limited where clients can add work.
 """
 
 import time
@@ -22,11 +22,11 @@ class Lanes:
     """The lanes of a server.
 
     Attributes:
-        courtesy: what is short announces itself here.
+        courtesy: tracks the short work in progress.
     """
 
     def __init__(self) -> None:
-        """Start no thread before it has work."""
+        """Start no thread before there is work."""
         self.courtesy = Courtesy()
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
         self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)

@@ -1,22 +1,25 @@
-"""What the template process holds, of which each piece of work gets a copy: imported there, and nowhere else."""
+"""The template process, of which each piece of work gets a fork: it loads the planner when imported.
+
+Only the fork server may import this module.
+"""
 
 import os
 import signal
 from importlib import import_module
 
 NICENESS = 5
-"""The server, which somebody waits for with a pointer in the hand, comes first."""
+"""Niceness of the work: the server comes first, because users wait for it while they drag."""
 
 _HELD = ("app.cli", "app.searches")
-"""The first is what the program's main module imports, which every copy runs again."""
+"""Modules to load. The program's main module imports `app.cli`, and every fork runs that again."""
 
 
 _LOOK_EVERY_S = 0.2
-"""How often it is looked whether the server is still there (s)."""
+"""Period of the check whether the server still runs (s)."""
 
 
 def _load() -> None:
-    """Load all that a piece of work may want, which takes seconds; end at once when the server ends meanwhile."""
+    """Load everything that work may need, which takes seconds; exit if the server ends meanwhile."""
     server = os.getppid()
     signal.signal(signal.SIGALRM, lambda *_: None if os.getppid() == server else os._exit(0))
     signal.setitimer(signal.ITIMER_REAL, _LOOK_EVERY_S, _LOOK_EVERY_S)

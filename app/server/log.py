@@ -1,7 +1,7 @@
 """The server's log: lines with time, level and source on standard error.
 
-A thread of its own writes them. A terminal that was stopped, or a pipe that nobody reads, then holds up that thread
-and not the server; lines for which there is no room any more are dropped.
+A separate thread writes them. A stopped terminal, or a pipe that nobody reads, then blocks that thread and not the
+server; lines that do not fit into the queue are dropped.
 """
 
 import logging
@@ -14,20 +14,20 @@ from contextlib import contextmanager, suppress
 from logging.handlers import QueueHandler
 
 LINES_MAX = 1000
-"""Lines that may wait to be written."""
+"""Largest number of lines waiting to be written."""
 
 _FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 _TIME_FORMAT = "%Y-%m-%dT%H:%M:%S%z"
 _LEVELS = {"app": logging.INFO, "uvicorn.access": logging.INFO, "uvicorn.error": logging.WARNING}
 _LAST_LINES_S = 0.2
-"""How long the last lines may take to be written when the server ends (s)."""
+"""Time to write the last lines when the server ends (s)."""
 
 Lines = queue.Queue[logging.LogRecord | None]
 
 
 @contextmanager
 def logging_to(descriptor: int) -> Iterator[None]:
-    """Write the log to an open file meanwhile, requests included."""
+    """Write the log, requests included, to an open file during this context."""
     lines: Lines = queue.Queue(LINES_MAX)
     root, handler = logging.getLogger(), _DroppingHandler(lines)
     writer = threading.Thread(target=_write, args=(lines, descriptor), name="log", daemon=True)
@@ -50,16 +50,16 @@ def standard_error() -> int:
 
 
 class _DroppingHandler(QueueHandler):
-    """Puts lines into a queue while it has room."""
+    """Queues lines while there is room."""
 
     def enqueue(self, record: logging.LogRecord) -> None:
-        """Never wait for room: whoever logs may be the loop that serves everybody."""
+        """Queue a line without ever waiting for room, since the caller may be the event loop."""
         with suppress(queue.Full):
             self.queue.put_nowait(record)
 
 
 def _write(lines: Lines, descriptor: int) -> None:
-    """Write until told to stop, past Python's buffer: its lock must be free when the interpreter ends."""
+    """Write lines until None arrives, bypassing Python's buffer: its lock must be free when the interpreter ends."""
     formatter = logging.Formatter(_FORMAT, _TIME_FORMAT)
     while (record := lines.get()) is not None:
         with suppress(OSError):

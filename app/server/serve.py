@@ -1,4 +1,4 @@
-"""Serves the designer on one address, until it is told to stop."""
+"""Serves the designer on one address until interrupted."""
 
 import ipaddress
 import socket
@@ -18,19 +18,22 @@ from planner.errors import FoldingError
 _LARGEST_MESSAGE = 4 << 20
 _GRACE_S = 1
 _SWITCH_S = 0.0001
-"""How long a thread keeps the interpreter (s). A request changes threads several times, each time waiting so long for a
-search that runs meanwhile; Python's own 5 ms would be felt."""
+"""Time for which a thread keeps the interpreter (s).
+
+A request changes threads several times and waits that long for a running search each time; Python's default of 5 ms
+would be noticeable.
+"""
 
 
 _Address: TypeAlias = tuple[socket.AddressFamily, tuple[Any, ...]]
 
 
 class ExposedError(FoldingError):
-    """Other machines would come in, and nobody has said that they may."""
+    """The address is open to other machines, and the settings do not allow that."""
 
 
 class _Server(uvicorn.Server):
-    """A server that says when it listens, and has work stopped before it waits for requests to end."""
+    """A server that announces when it listens, and stops jobs before it waits for open requests."""
 
     def __init__(self, config: uvicorn.Config, announce: Callable[[], None], stop_work: Callable[[], None]) -> None:
         super().__init__(config)
@@ -48,12 +51,12 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, announce: Callable[[str], None]) -> None:
-    """Serve until interrupted; `announce` is told the URL as soon as it answers.
+    """Serve until interrupted; call `announce` with the URL as soon as the server answers.
 
     Raises:
         ExposedError: the address is beyond loopback, and `Settings.insecure` is not set.
-        OSError: the address cannot be listened on.
-        UnusableFolderError: the data folder is none.
+        OSError: the address is not available.
+        UnusableFolderError: the data folder cannot be used.
         HeldFolderError: another server uses the data folder.
     """
     sys.setswitchinterval(_SWITCH_S)
@@ -84,7 +87,7 @@ def serve(settings: Settings, announce: Callable[[str], None]) -> None:
 
 
 def _address(settings: Settings) -> _Address:
-    """Return where to listen; raises `ExposedError`."""
+    """Return the address to listen on; raise `ExposedError`."""
     family, _, _, _, address = socket.getaddrinfo(settings.host, settings.port, type=socket.SOCK_STREAM)[0]
     if not settings.insecure and not ipaddress.ip_address(address[0]).is_loopback:
         raise ExposedError(

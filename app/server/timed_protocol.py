@@ -1,8 +1,8 @@
-"""HTTP that waits for nobody for ever.
+"""HTTP with a time limit for each part of a request.
 
-uvicorn limits how long a connection may be idle between two requests, and nothing else: one that opens and says
-nothing, or half a head, or half a body, is kept. Here each part has its time. It counts from the part's beginning, so
-that a byte now and then does not stretch it.
+uvicorn only limits the idle time between two requests. It keeps a connection that opens and sends nothing, or half a
+head, or half a body. Here each part has a time limit, counted from the part's beginning, so that sending a byte now and
+then does not extend it.
 """
 
 import asyncio
@@ -13,45 +13,45 @@ import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 HEAD_S = 10.0
-"""Time for the head of a request, from the connection or the first byte on (s)."""
+"""Time limit for the head of a request, from the connection or the first byte (s)."""
 
 BODY_S = 60.0
-"""Time for its body (s): 5 MB at 100 kB/s."""
+"""Time limit for its body (s): 5 MB at 100 kB/s take 50 s."""
 
 _TIME_IS_UP = {"title": "Request Timeout", "status": 408, "detail": "The request did not come to its end in time."}
 
 
 class TimedProtocol(H11Protocol):
-    """A connection that is closed when a request takes too long to come in."""
+    """A connection that closes when a request takes too long to arrive."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:  # noqa: ANN401
-        """Take what uvicorn gives."""
+        """Take uvicorn's arguments."""
         super().__init__(*arguments, **options)
         self._timer: asyncio.TimerHandle | None = None
         self._awaited: object = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begin to wait for a head."""
+        """Start waiting for a head."""
         super().connection_made(transport)
         self._await(h11.IDLE)
 
     def data_received(self, data: bytes) -> None:
-        """Take bytes; wait for what is missing then."""
+        """Process bytes, then wait for the missing part."""
         super().data_received(data)
         self._look()
 
     def on_response_complete(self) -> None:
-        """Wait for the next head once its first byte is there; until then uvicorn's own limit holds."""
+        """Wait for the next head once its first byte has arrived; until then uvicorn's own limit applies."""
         super().on_response_complete()
         self._look()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Wait no more."""
+        """Stop waiting."""
         self._await(None)
         super().connection_lost(exc)
 
     def _look(self) -> None:
-        """Go on waiting for what the request lacks, or for nothing: a websocket has taken over, or it is complete."""
+        """Wait for the missing part of a request, or stop waiting if it is complete or a websocket has taken over."""
         state, is_ours = self.conn.their_state, self.transport.get_protocol() is self
         is_partial = state is h11.SEND_BODY or (state is h11.IDLE and bool(self.conn.trailing_data[0]))
         awaited = state if is_ours and is_partial else None
@@ -66,7 +66,7 @@ class TimedProtocol(H11Protocol):
         self._timer = None if awaited is None else self.loop.call_later(limit_s, self._give_up)
 
     def _give_up(self) -> None:
-        """Say why, if nothing has been said yet, and hang up."""
+        """Send status 408 if no response has started, and close the connection."""
         if not self.transport.is_closing() and self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
             body = json.dumps(_TIME_IS_UP).encode()
             headers = [("content-type", "application/problem+json"), ("content-length", str(len(body)))]

@@ -1,7 +1,7 @@
 """The folder in which one server keeps garments and documents.
 
-Two servers on one folder would overwrite each other's documents, so a server locks its folder. The system drops the
-lock when the process ends, however it ends. Beside the lock stands who holds it, for whoever comes second.
+Two servers on one folder would overwrite each other's documents, so a server locks its folder. The system releases the
+lock when the process ends, however it ends. A file beside the lock says who holds it, for the error of a second server.
 """
 
 import json
@@ -22,14 +22,14 @@ from app.store.storage_error import ForbiddenStorageError, storage_error
 from planner.errors import FoldingError
 
 _PROBE = b"\0" * 4096
-"""Enough to need a block on the disk: a full one refuses it."""
+"""Content of the test file; large enough to need a disk block, so that a full disk refuses it."""
 
 _log = logging.getLogger(__name__)
 
 
 @dataclass
 class UnusableFolderError(FoldingError):
-    """A data folder that is none, or that cannot be made."""
+    """The data folder is not a folder, or cannot be made."""
 
     folder: Path
     why: str
@@ -57,10 +57,10 @@ class Holder:
     """The server that uses a folder.
 
     Attributes:
-        pid: its process.
-        host: the machine on which it runs.
-        since: when it started, UTC, as in RFC 3339.
-        url: where it answers; None as long as it does not.
+        pid: its process id.
+        host: its machine.
+        since: its start, UTC, as in RFC 3339.
+        url: its URL; None until it answers requests.
     """
 
     pid: int
@@ -78,12 +78,12 @@ class DataFolder:
 
     Attributes:
         path: the folder.
-        garments: where garments are.
-        documents: where documents are.
+        garments: the folder of garments.
+        documents: the folder of documents.
     """
 
     def __init__(self, path: Path) -> None:
-        """Nothing is touched yet."""
+        """Describe the folder without touching the disk."""
         self.path = path
         self.garments = path / "garments"
         self.documents = path / "documents"
@@ -91,12 +91,12 @@ class DataFolder:
 
     @contextmanager
     def held(self) -> Iterator[Callable[[str], None]]:
-        """Use the folder alone; gives the function that is to be told the server's URL.
+        """Hold the folder's lock; yield the function to call with the server's URL.
 
-        A folder in which nothing can be written is used without a lock.
+        A read-only folder is used without a lock.
 
         Raises:
-            UnusableFolderError: it is no folder, or cannot be made.
+            UnusableFolderError: it is not a folder, or cannot be made.
             HeldFolderError: another server uses it.
         """
         self._make()
@@ -115,7 +115,7 @@ class DataFolder:
 
         def announce(url: str | None) -> None:
             holder = Holder(os.getpid(), socket.gethostname(), since, url)
-            with suppress(OSError):  # the lock holds without it
+            with suppress(OSError):  # the lock works without it
                 write_at_once(self._holder, json.dumps(asdict(holder)).encode(), is_synced=False)
 
         announce(None)
@@ -127,7 +127,7 @@ class DataFolder:
             lock.release()
 
     def problem(self) -> str | None:
-        """Why nothing can be saved here now; None if it can."""
+        """Return why nothing can be saved here now; None if saving works."""
         for folder in (self.path, self.garments, self.documents):
             try:
                 self._try_writing(folder)
@@ -138,7 +138,7 @@ class DataFolder:
 
     def _try_writing(self, folder: Path) -> None:
         if folder != self.path and not folder.exists():
-            return  # it is made when the first is saved
+            return  # saving the first garment or document makes it
         with tempfile.TemporaryFile(dir=folder, prefix=".probe-") as file:
             file.write(_PROBE)
 

@@ -1,6 +1,6 @@
-"""Documents as Pleat wrote them before there were journals: one JSON object with the whole history.
+"""The document format before journals: one JSON object with the whole history.
 
-Such files are read still; with the first change a journal takes their place.
+Such files are still read; the first change replaces them with a journal.
 """
 
 from typing import Annotated, Literal
@@ -36,6 +36,6 @@ class DocumentModel(StrictModel):
     future: Annotated[list[_StepModel], Field(max_length=STEPS_MAX)]
 
     def history(self) -> History:
-        """Return the steps that can be undone and redone; raises `FieldError`."""
+        """Return the undo history; raise `FieldError` if a drawing in it is invalid."""
         past, future = (tuple(step.value() for step in steps) for steps in (self.past, self.future))
         return History(past, future)

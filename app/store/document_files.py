@@ -1,13 +1,13 @@
-"""The files of one document, and what can be read from them before its history is.
+"""The files of one document, and the data in them that can be read without its history.
 
 ======== ==========================================================================
 ending   content
 ======== ==========================================================================
 .journal the document (see `app.store.journal`)
-.head    what a list shows of the journal, and how long the journal must be at least
-.preview what a gesture that is going on has changed
+.head    the journal's list entry and least length
+.preview the drawing changed by a gesture in progress
 .json    a document of format 1 (see `app.store.document_file`); a journal supersedes it
-.broken  one that could not be read, put aside
+.broken  an unreadable file, renamed
 ======== ==========================================================================
 """
 
@@ -43,7 +43,7 @@ class UnknownDocumentError(FoldingError):
 
 @dataclass
 class NewerDocumentError(FoldingError):
-    """A document was written by a newer version of Pleat."""
+    """A newer version of Pleat wrote the document."""
 
     document_id: str
     format: int
@@ -56,7 +56,7 @@ class NewerDocumentError(FoldingError):
 
 
 class Head(StrictModel):
-    """What a list shows of a journal of so many bytes."""
+    """The list entry of a journal, and the journal's length when it was written (bytes)."""
 
     id: str
     generation: Annotated[int, Field(ge=0)]
@@ -67,7 +67,7 @@ class Head(StrictModel):
 
 
 class Preview(StrictModel):
-    """A gesture that is going on."""
+    """A gesture in progress."""
 
     version: Annotated[int, Field(ge=1)]
     label: str
@@ -76,10 +76,10 @@ class Preview(StrictModel):
 
 @dataclass(frozen=True, slots=True)
 class DocumentFiles:
-    """Where the files of a document are.
+    """The paths of a document's files.
 
     Attributes:
-        id: the document.
+        id: the document's id.
         folder: the folder of all documents.
     """
 
@@ -91,16 +91,16 @@ class DocumentFiles:
             raise UnknownDocumentError(self.id)
 
     def path(self, suffix: str) -> Path:
-        """Return where the file with this ending is."""
+        """Return the path of the file with this ending."""
         return self.folder / (self.id + suffix)
 
     @property
     def document(self) -> Path | None:
-        """The file that is the document; None if there is none that could be opened."""
+        """The file that holds the document; None if there is none to open."""
         return next((path for path in map(self.path, (JOURNAL, JSON)) if path.exists()), None)
 
     def head(self) -> Head | None:
-        """Return what stands beside the journal; None if that cannot be read, for it can be made again."""
+        """Return the journal's head; None if it cannot be read, since the journal can replace it."""
         try:
             return Head.model_validate_json(self.path(HEAD).read_bytes())
         except (OSError, ValueError):
@@ -108,12 +108,12 @@ class DocumentFiles:
 
 
 def preview_text(version: int, label: str, drawing: Drawing) -> bytes:
-    """Return the file of a gesture that is going on."""
+    """Return the content of the file for a gesture in progress."""
     return to_json({"version": version, "label": label, "drawing": drawing_to_dict(drawing)})
 
 
 def require_known_format(document_id: str, path: Path, data: bytes) -> None:
-    """Raise `NewerDocumentError` for a file of a format to come."""
+    """Raise `NewerDocumentError` if a file has a newer format."""
     known = document_file.FORMAT if path.suffix == JSON else journal.FORMAT
     found = format_of(data)
     if found is not None and found > known:
@@ -121,7 +121,7 @@ def require_known_format(document_id: str, path: Path, data: bytes) -> None:
 
 
 def format_of(data: bytes) -> int | None:
-    """Return the format that a file says it has; None if it says nothing of the kind."""
+    """Return the format number in a file, or None."""
     if at_start := _FORMAT_AT_START.match(data):
         return int(at_start[1])
     try:

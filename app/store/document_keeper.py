@@ -1,7 +1,7 @@
-"""Keeps one document on the disk.
+"""Saves one document to the disk.
 
-A commit adds a line to the document's journal, synced. Previews come many times a second: they go into a small file of
-their own, which outlives the end of this process and need not outlive a power failure.
+A commit adds a synced line to the document's journal. Previews come many times a second, so they go into a small file
+of their own, which survives the end of this process but need not survive a power failure.
 """
 
 import os
@@ -20,12 +20,12 @@ from app.store.storage_error import storing
 from app.store.tape import Tape, tape_of, whole
 
 _SLACK_BYTES = 1 << 16
-"""A journal may grow by so much, or else to twice its length, before it is begun anew."""
+"""Growth after which a journal is rewritten, unless its initial length is larger: then it may double (bytes)."""
 
 
 @dataclass(slots=True)
 class _Kept:
-    """What is on the disk: the drawings, their version, and where the journal ends that says so."""
+    """The saved state: the drawings, their version, and the journal's length."""
 
     version: int
     tape: Tape[Drawing]
@@ -35,34 +35,34 @@ class _Kept:
 
     @property
     def is_overgrown(self) -> bool:
-        """Whether the journal has grown so much that it is worth beginning anew."""
+        """Whether the journal has grown so much that it should be rewritten."""
         return self.bytes - self.base_bytes > max(_SLACK_BYTES, self.base_bytes)
 
 
 class DocumentKeeper:
-    """Writes the drafts of one document, one at a time."""
+    """Saves the drafts of one document, one at a time."""
 
     def __init__(self, files: DocumentFiles) -> None:
-        """Begin with a document of which nothing is on the disk."""
+        """Start with a document that is not on the disk."""
         self._files = files
         self._kept: _Kept | None = None
 
     @staticmethod
     def of_journal(files: DocumentFiles, journal: Journal, tape: Tape[Drawing]) -> "DocumentKeeper":
-        """Return what goes on with a journal that has just been read."""
+        """Return the keeper that continues a journal just read."""
         keeper = DocumentKeeper(files)
         keeper._kept = _Kept(journal.version, tape, journal.generation, journal.base_bytes, journal.whole_bytes)
         return keeper
 
     @staticmethod
     def of_older(files: DocumentFiles, version: int, tape: Tape[Drawing]) -> "DocumentKeeper":
-        """Return what goes on with a document of an older format."""
+        """Return the keeper that continues a document of an older format."""
         keeper = DocumentKeeper(files)
         keeper._kept = _Kept(version, tape)
         return keeper
 
     def keep(self, version: int, draft: Draft) -> None:
-        """Write a draft; raises `StorageError`, and then what was written before is still there."""
+        """Save a draft; raise `StorageError` if that fails, with the earlier state still saved."""
         with storing(f"document {self._files.id!r} could not be written, so the change was not made"):
             self._keep(version, draft)
 
@@ -70,7 +70,7 @@ class DocumentKeeper:
         gesture = draft.gesture
         if gesture is None:
             self._write(version, tape_of(draft.drawing, draft.history))
-            with suppress(OSError):  # a preview of an older version counts for nothing
+            with suppress(OSError):  # readers ignore a preview of an older version
                 self._files.path(PREVIEW).unlink()
             return
         before = tape_of(gesture.before, draft.history)
@@ -85,7 +85,7 @@ class DocumentKeeper:
             self._begin(_Kept(version, tape))
             return
         if self._kept.is_overgrown:
-            with suppress(OSError):  # it can go on growing
+            with suppress(OSError):  # the old journal still works
                 self._begin(self._kept)
         if not self._is_in_place(self._kept):
             self._files.folder.mkdir(parents=True, exist_ok=True)
@@ -93,14 +93,14 @@ class DocumentKeeper:
         self._append(self._kept, version, tape)
 
     def _is_in_place(self, kept: _Kept) -> bool:
-        """Return whether the journal is there and has all that is kept."""
+        """Return whether the journal exists and holds all saved changes."""
         try:
             return 0 < kept.bytes <= self._files.path(JOURNAL).stat().st_size
         except FileNotFoundError:
             return False
 
     def _begin(self, kept: _Kept) -> None:
-        """Write a journal that says what is kept, in place of the one before."""
+        """Write a new journal with the saved state, in place of the old one."""
         generation, now = kept.generation + 1, _now()
         line = change_line(kept.version, now, whole(kept.tape))
         text = start_line(self._files.id, generation) + line
@@ -108,14 +108,14 @@ class DocumentKeeper:
         kept.generation, kept.base_bytes, kept.bytes = generation, len(text), len(text)
         self._kept = kept
         self._write_head(kept, now)
-        with suppress(OSError):  # the journal counts
+        with suppress(OSError):  # readers prefer the journal
             self._files.path(JSON).unlink()
 
     def _append(self, kept: _Kept, version: int, tape: Tape[Drawing]) -> None:
         now = _now()
         line = change_line(version, now, kept.tape.change_to(tape))
         with self._files.path(JOURNAL).open("r+b") as file:
-            file.truncate(kept.bytes)  # behind that stands what a server did not finish
+            file.truncate(kept.bytes)  # drop a line that a killed server left unfinished
             file.seek(kept.bytes)
             try:
                 file.write(line)
@@ -138,7 +138,7 @@ class DocumentKeeper:
             "name": drawing.name,
             "changed_at": now,
         }
-        with suppress(OSError):  # the journal says the same
+        with suppress(OSError):  # it can be made again from the journal
             write_at_once(self._files.path(HEAD), to_json(head), is_synced=False)
 
 

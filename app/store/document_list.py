@@ -1,7 +1,7 @@
-"""The list of the documents in a folder, page by page.
+"""Lists the documents in a folder, page by page.
 
-To put thousands of documents in order takes no more than a look at the folder: what stands at the head of each is
-remembered until its files change. The documents of a page are then read whole, once: none looks well that is not.
+To sort thousands of documents, the list only scans the folder and caches each document's entry until its files change.
+Then it reads the documents of the requested page completely, once each, so that a damaged one is never shown as fine.
 """
 
 import os
@@ -19,13 +19,13 @@ _SHOWN = (JOURNAL, HEAD, JSON, BROKEN)
 
 @dataclass(frozen=True, slots=True)
 class DocumentEntry:
-    """A document as the list shows it.
+    """A document as listed.
 
     Attributes:
         id: its id.
         title: the garment's title; empty if the file cannot be read.
-        name: the garment's name; likewise.
-        changed_at: when it was changed last, UTC, as in RFC 3339; likewise.
+        name: the garment's name; empty if the file cannot be read.
+        changed_at: the time of the last change, UTC, as in RFC 3339; empty if the file cannot be read.
         problem: why it cannot be opened, or None.
     """
 
@@ -37,17 +37,17 @@ class DocumentEntry:
 
     @property
     def place(self) -> tuple[str, str]:
-        """Where it stands: later ones first, and last of all those that cannot be read."""
+        """The sort key: latest changed first, unreadable ones last."""
         return self.changed_at, self.id
 
 
 @dataclass(frozen=True, slots=True)
 class DocumentPage:
-    """A part of the list.
+    """A page of the list.
 
     Attributes:
         entries: the documents.
-        end: the place of the last of them; None if no others follow.
+        end: the place of the last of them; None on the last page.
     """
 
     entries: tuple[DocumentEntry, ...]
@@ -55,7 +55,7 @@ class DocumentPage:
 
 
 _Stamp = tuple[tuple[str, int, int], ...]
-"""Ending, time of the last change (ns) and size of a document's files."""
+"""Ending, time of the last change (ns) and size of each of a document's files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,17 +67,17 @@ class _Known:
 
 
 class DocumentList:
-    """The documents in a folder, the one changed last first."""
+    """The documents in a folder, the latest changed first."""
 
     def __init__(
         self, folder: Path, glance: Callable[[str], DocumentEntry], read: Callable[[str], DocumentEntry]
     ) -> None:
-        """Nothing has been looked at.
+        """Start without reading anything.
 
         Args:
             folder: the folder.
-            glance: tells as quickly as can be what to show of a document.
-            read: tells the same, and whether it can be read from beginning to end.
+            glance: returns a document's entry as quickly as possible.
+            read: returns a document's entry after reading all of it.
         """
         self._folder = folder
         self._glance = glance
@@ -86,12 +86,12 @@ class DocumentList:
         self._lock = threading.Lock()
 
     def ordered(self) -> list[DocumentEntry]:
-        """Return all documents after a glance."""
+        """Return the entries of all documents, after a glance at each."""
         with self._lock:
             return [known.entry for known in self._in_order()]
 
     def page(self, after: tuple[str, str] | None, count: int) -> DocumentPage:
-        """Return the documents that follow a place."""
+        """Return the documents after a place."""
         with self._lock:
             following = [known for known in self._in_order() if after is None or known.place < after]
             shown = [self._as_read(known) for known in following[:count]]
@@ -110,7 +110,7 @@ class DocumentList:
         return sorted(self._known.values(), key=lambda known: known.place, reverse=True)
 
     def _as_read(self, known: _Known) -> _Known:
-        """Return a document once it has been read; it keeps its place, so that no other is shown in its stead."""
+        """Return a document's entry after reading it, at its old place, so that the page does not shift."""
         if known.is_read:
             return known
         entry = self._read(known.entry.id)
@@ -118,14 +118,14 @@ class DocumentList:
         return replace(known, entry=entry)
 
     def _stamps(self) -> dict[str, _Stamp]:
-        """Return what the files of each document look like from outside."""
+        """Return the stamp of each document's files."""
         found: defaultdict[str, list[tuple[str, int, int]]] = defaultdict(list)
         with suppress(FileNotFoundError), os.scandir(self._folder) as files:
             for file in files:
                 document_id, dot, ending = file.name.rpartition(".")
                 if dot + ending not in _SHOWN or not ID_PATTERN.fullmatch(document_id):
                     continue
-                with suppress(FileNotFoundError):  # it has just been removed
+                with suppress(FileNotFoundError):  # it was removed meanwhile
                     status = file.stat()
                     found[document_id].append((dot + ending, status.st_mtime_ns, status.st_size))
         return {name: tuple(sorted(looks)) for name, looks in found.items() if {one[0] for one in looks} != {HEAD}}

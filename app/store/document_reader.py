@@ -1,4 +1,4 @@
-"""Reads documents, journals and those of the older format alike."""
+"""Reads documents, from journals and from files of the older format."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,12 +44,12 @@ class BrokenDocumentError(FoldingError):
 
 @dataclass(frozen=True, slots=True)
 class KeptDocument:
-    """A document as it was kept; a gesture that was going on is a step.
+    """A document as saved; a gesture in progress counts as a step.
 
     Attributes:
         version: its version.
-        draft: what is drawn.
-        keeper: what goes on keeping it.
+        draft: its drawing and history.
+        keeper: saves its further changes.
     """
 
     version: int
@@ -58,13 +58,13 @@ class KeptDocument:
 
 
 def read_document(files: DocumentFiles) -> KeptDocument:
-    """Return a document as it was kept.
+    """Return a document as saved.
 
     Raises:
         UnknownDocumentError: there is none.
-        NewerDocumentError: it was written by a newer version of Pleat.
-        BrokenDocumentError: its file is no document, and has been put aside if that was possible.
-        OSError: the system does not let it be read.
+        NewerDocumentError: a newer version of Pleat wrote it.
+        BrokenDocumentError: its file is damaged, and has been renamed if possible.
+        OSError: the system refuses to read it.
     """
     path = files.document
     if path is None:
@@ -76,18 +76,18 @@ def read_document(files: DocumentFiles) -> KeptDocument:
 
 
 def glance_at(files: DocumentFiles) -> DocumentEntry:
-    """Return what a list shows of a document, as quickly as can be."""
+    """Return the list entry of a document as quickly as possible, from its head if that is current."""
     head = files.head()
     try:
         if head is not None and head.bytes == files.path(JOURNAL).stat().st_size:
             return DocumentEntry(files.id, head.title, head.name, head.changed_at)
     except OSError:
-        pass  # without a journal it may be of the older format
+        pass  # without a journal it may have the older format
     return read_entry(files)
 
 
 def read_entry(files: DocumentFiles) -> DocumentEntry:
-    """Return what a list shows of a document; with a problem if it cannot be read from beginning to end."""
+    """Return the list entry of a document after reading all of it, with a problem if that fails."""
     path = files.document
     try:
         if path is None:
@@ -115,7 +115,12 @@ def _kept(files: DocumentFiles, path: Path) -> KeptDocument:
 
 
 def _content(files: DocumentFiles, path: Path) -> DocumentModel | Journal:
-    """Return what a file says; raises `NewerDocumentError`, or `ValueError` for one that is damaged."""
+    """Return the content of a file.
+
+    Raises:
+        NewerDocumentError: a newer version of Pleat wrote it.
+        ValueError: it is damaged.
+    """
     data = path.read_bytes()
     require_known_format(files.id, path, data)
     if path.suffix == JSON or (path.suffix == BROKEN and format_of(data) == document_file.FORMAT):
@@ -133,7 +138,7 @@ def _tape(content: DocumentModel | Journal) -> Tape[Drawing]:
 
 
 def _resumed(files: DocumentFiles, kept: KeptDocument) -> KeptDocument:
-    """Return the document with what a gesture had changed when the server ended; a broken file of it is dropped."""
+    """Return the document with the gesture in progress when the server ended, if its preview file is valid."""
     version, draft, keeper = kept.version, kept.draft, kept.keeper
     try:
         preview = Preview.model_validate_json(files.path(PREVIEW).read_bytes())
@@ -147,7 +152,7 @@ def _resumed(files: DocumentFiles, kept: KeptDocument) -> KeptDocument:
 
 
 def _put_aside(files: DocumentFiles, path: Path) -> str:
-    """Rename a file that cannot be read; returns what it is called now. Where that is not possible it is left."""
+    """Rename an unreadable file; return its new name, or the old one if renaming fails."""
     try:
         path.replace(files.path(BROKEN))
     except OSError:
@@ -156,7 +161,7 @@ def _put_aside(files: DocumentFiles, path: Path) -> str:
 
 
 def _missing(files: DocumentFiles) -> UnknownDocumentError | BrokenDocumentError:
-    """Return why there is no document: it has been put aside, or there never was one."""
+    """Return the error for a missing document: its file was renamed as broken, or it never existed."""
     broken = files.path(BROKEN)
     if not broken.exists():
         return UnknownDocumentError(files.id)
@@ -168,7 +173,7 @@ def _missing(files: DocumentFiles) -> UnknownDocumentError | BrokenDocumentError
 
 
 def _in_short(error: Exception) -> str:
-    """Return the first fault, without what it was found in."""
+    """Return the first fault, without its context."""
     if isinstance(error, ValidationError):
         return str(first_error(error, RequestError))
     return error.strerror or "the system refused" if isinstance(error, OSError) else str(error)

@@ -1,4 +1,4 @@
-"""The documents in a folder. A file that cannot be read is put aside and told of; the others can be opened still."""
+"""The document repository: a folder of documents. An unreadable file is renamed and reported; the others still open."""
 
 import secrets
 from collections.abc import Iterator
@@ -16,24 +16,24 @@ _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
 
 
 class DocumentShelf:
-    """The documents in a folder, which is made when the first is kept."""
+    """A repository of documents in a folder; saving the first one makes the folder."""
 
     def __init__(self, folder: Path) -> None:
-        """Remove what a server that was killed while it wrote has left."""
+        """Remove the temporary files of a server that was killed while it wrote."""
         self._folder = folder
         self._last = folder / ".last"
         self._list = DocumentList(folder, self._glance, self._entry)
-        with suppress(OSError):  # it does no harm
+        with suppress(OSError):  # leftover files do no harm
             for left in folder.glob(".?*-*"):
                 left.unlink(missing_ok=True)
 
     def page(self, after: tuple[str, str] | None, count: int) -> DocumentPage:
-        """Return a part of the list: the one changed last first, those that cannot be read at the end."""
+        """Return a page of the list, the latest changed documents first, unreadable ones last."""
         with storing("the documents could not be listed"):
             return self._list.page(after, count)
 
     def new_id(self) -> str:
-        """Return an id that no document has."""
+        """Return an unused id."""
         while True:
             document_id = "".join(secrets.choice(_LETTERS) for _ in range(8))
             files = DocumentFiles(document_id, self._folder)
@@ -41,24 +41,29 @@ class DocumentShelf:
                 return document_id
 
     def keeper(self, document_id: str) -> DocumentKeeper:
-        """Return what keeps a new document on the disk."""
+        """Return the keeper of a new document."""
         return DocumentKeeper(DocumentFiles(document_id, self._folder))
 
     def kept(self, document_id: str) -> KeptDocument:
-        """Return a document as it was kept.
+        """Return a document as saved.
 
         Raises:
             UnknownDocumentError: there is none.
-            NewerDocumentError: it was written by a newer version of Pleat.
-            BrokenDocumentError: its file is no document, and has been put aside if that was possible.
-            StorageError: the system does not let it be read.
+            NewerDocumentError: a newer version of Pleat wrote it.
+            BrokenDocumentError: its file is damaged, and has been renamed if possible.
+            StorageError: the system refuses to read it.
         """
         files = DocumentFiles(document_id, self._folder)
         with storing(f"document {document_id!r} could not be read"):
             return read_document(files)
 
     def remove(self, document_id: str) -> None:
-        """Remove a document; raises `UnknownDocumentError`, or `StorageError`, and then it is still there."""
+        """Remove a document.
+
+        Raises:
+            UnknownDocumentError: there is none.
+            StorageError: it could not be removed.
+        """
         files = DocumentFiles(document_id, self._folder)
         with storing(f"document {document_id!r} could not be removed"):
             found = [path for path in map(files.path, (BROKEN, JSON, JOURNAL)) if path.exists()]
@@ -66,13 +71,16 @@ class DocumentShelf:
                 raise UnknownDocumentError(document_id)
             for path in found:
                 path.unlink()
-        with suppress(OSError):  # the document is gone
+        with suppress(OSError):  # the document itself is removed already
             for path in map(files.path, (HEAD, PREVIEW)):
                 path.unlink(missing_ok=True)
             sync_folder(self._folder)
 
     def recent(self) -> Iterator[str]:
-        """Give the documents that can be opened, it seems, the one opened last first, then the one changed last."""
+        """Yield the ids of readable documents: the last opened one, then the others, latest changed first.
+
+        Judged by their list entries; opening one may still fail.
+        """
         last = ""
         with suppress(OSError, ValueError, UnknownDocumentError):
             last = self._last.read_text(encoding="utf-8")
@@ -83,7 +91,7 @@ class DocumentShelf:
         yield from (entry.id for entry in entries if entry.problem is None and entry.id != last)
 
     def remember_last(self, document_id: str) -> None:
-        """Remember which document was opened last; if that cannot be written, another one stays remembered."""
+        """Save which document was opened last; ignore a failure."""
         with suppress(OSError):
             write_at_once(self._last, document_id.encode(), is_synced=False)
 

@@ -1,4 +1,4 @@
-"""Files that are either wholly there or as they were before, whatever happens while they are written."""
+"""Writes files atomically: afterwards a file is either complete or as before, even if writing is interrupted."""
 
 import os
 import tempfile
@@ -6,13 +6,13 @@ from pathlib import Path
 
 
 def write_at_once(path: Path, content: bytes, *, is_synced: bool = True) -> None:
-    """The whole file or nothing of it.
+    """Write a file atomically.
 
     Args:
-        path: the file; its folder is there.
-        content: what it is to contain.
-        is_synced: whether it is on the disk when this returns, so that it outlives a power failure; otherwise it
-            outlives the end of this process.
+        path: the file; its folder must exist.
+        content: its content.
+        is_synced: whether to return only when it is on the disk, so that it survives a power failure; otherwise it
+            survives only the end of this process.
     """
     with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.stem}-", delete=False) as file:
         try:
@@ -29,7 +29,7 @@ def write_at_once(path: Path, content: bytes, *, is_synced: bool = True) -> None
 
 
 def sync_folder(folder: Path) -> None:
-    """Have a folder's entries on the disk."""
+    """Write a folder's entries to the disk."""
     if os.name != "posix":
         return
     handle = os.open(folder, os.O_RDONLY)

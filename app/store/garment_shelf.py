@@ -1,4 +1,4 @@
-"""The garments that can be asked for by name: the shipped ones, and one's own in a folder."""
+"""The garment repository: shipped garments, and the user's own in a folder."""
 
 import json
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, U
 
 @dataclass(frozen=True, slots=True)
 class ShelfEntry:
-    """A garment as the list shows it."""
+    """A garment as listed."""
 
     name: str
     title: str
@@ -22,23 +22,23 @@ class ShelfEntry:
 
 
 class GarmentShelf:
-    """Garments by name. Shipped ones come first and cannot be changed."""
+    """A repository of garments by name. Shipped garments come first and are read-only."""
 
     def __init__(self, folder: Path) -> None:
-        """One's own garments are in this folder, which is made when the first is saved."""
+        """Use a folder for the user's garments; saving the first one makes it."""
         self._folder = folder
 
     def entries(self) -> list[ShelfEntry]:
-        """All garments, the shipped ones first; own files that are no garment are left out."""
+        """Return all garments, shipped ones first; skip files that are not valid garments."""
         shipped = [ShelfEntry(name, load_garment(name).title, True) for name in shipped_garment_names()]
         return shipped + [ShelfEntry(own.name, own.title, False) for own in self._own()]
 
     def garment(self, name: str) -> Garment:
-        """The garment of this name.
+        """Return the garment with a name.
 
         Raises:
             UnknownGarmentError: there is none.
-            GarmentFileError: it is one's own and its file cannot be read, or is not valid.
+            GarmentFileError: its file in the user's folder cannot be read, or is invalid.
         """
         if name in shipped_garment_names():
             return load_garment(name)
@@ -48,11 +48,11 @@ class GarmentShelf:
         return _read(path)
 
     def save(self, garment: Garment) -> bool:
-        """Save or replace one's own garment; whether it is new. It is on the disk when this returns.
+        """Save or replace a garment in the user's folder, synced to the disk; return whether it is new.
 
         Raises:
-            ReadOnlyGarmentError: a shipped one has this name.
-            StorageError: it could not be written; what was there before still is.
+            ReadOnlyGarmentError: a shipped garment has this name.
+            StorageError: it could not be written; the earlier file is unchanged.
         """
         if garment.name in shipped_garment_names():
             raise ReadOnlyGarmentError(garment.name)
@@ -64,10 +64,10 @@ class GarmentShelf:
         return is_new
 
     def remove(self, name: str) -> None:
-        """Remove one's own garment.
+        """Remove a garment from the user's folder.
 
         Raises:
-            ReadOnlyGarmentError: it is a shipped one.
+            ReadOnlyGarmentError: it is a shipped garment.
             UnknownGarmentError: there is none.
             StorageError: it could not be removed.
         """
@@ -90,7 +90,7 @@ class GarmentShelf:
                 yield own
 
     def _path(self, name: str) -> Path:
-        """Where one's own garment is; a name that is no name (or a path) is unknown, never looked up."""
+        """Return the path of a user's garment; raise `UnknownGarmentError` for an invalid name, such as a path."""
         if not NAME_PATTERN.fullmatch(name):
             raise UnknownGarmentError(name)
         return self._folder / f"{name}.json"

@@ -1,8 +1,8 @@
 """The journal of a document: a file that only grows.
 
-The first line says which document and which format it is. Every further line is one change of the document's tape (see
-`app.store.tape`) behind a checksum, the first of them the whole tape. A line counts once it ends: a last one that a
-server left unfinished when it was killed is left out. Now and then the journal is begun anew with the tape as it is.
+The first line names the document and the format. Each further line is one change of the document's tape (see
+`app.store.tape`) behind a checksum; the first of them is the whole tape. Reading skips a last line without an end, left
+unfinished by a killed server. From time to time the journal is rewritten with the current tape.
 """
 
 import zlib
@@ -22,11 +22,11 @@ FORMAT = 2
 _Count = Annotated[int, Field(ge=0)]
 _RawDrawing = dict[str, Any]
 _CHECKSUM_BYTES = 9
-"""Eight hexadecimal digits and a space."""
+"""Length of the checksum: eight hexadecimal digits and a space (bytes)."""
 
 
 class JournalStart(StrictModel):
-    """The first line: `generation` grows whenever the journal is begun anew."""
+    """The first line; `generation` increases with each rewriting of the journal."""
 
     format: Literal[2]
     id: str
@@ -39,7 +39,7 @@ class _SheetModel(StrictModel):
 
 
 class _ChangeModel(StrictModel):
-    """A line."""
+    """A line with a change."""
 
     version: Annotated[int, Field(ge=1)]
     changed_at: str
@@ -55,16 +55,16 @@ class _ChangeModel(StrictModel):
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """What a journal says.
+    """The content of a journal.
 
     Attributes:
-        id: the document.
-        generation: how often it has been begun anew.
+        id: the document's id.
+        generation: the number of times it has been rewritten.
         version: the document's version.
-        changed_at: when it was changed last, UTC, as in RFC 3339.
+        changed_at: the time of the last change, UTC, as in RFC 3339.
         raw_tape: the drawings as JSON.
         base_bytes: the length of its first two lines.
-        whole_bytes: the length of all whole lines.
+        whole_bytes: the length of all complete lines.
     """
 
     id: str
@@ -77,11 +77,11 @@ class Journal:
 
     @property
     def raw_drawing(self) -> _RawDrawing:
-        """What is drawn, as JSON."""
+        """The current drawing, as JSON."""
         return self.raw_tape.sheets[self.raw_tape.now].drawing
 
     def tape(self) -> Tape[Drawing]:
-        """Return the drawings; raises `ValueError` or `FieldError` for what is none."""
+        """Return the drawings; raise `ValueError` or `FieldError` for an invalid one."""
         sheets, now = self.raw_tape
         drawings = (DrawingModel.model_validate(sheet.drawing).value() for sheet in sheets)
         return Tape(tuple(Sheet(sheet.label, drawing) for sheet, drawing in zip(sheets, drawings, strict=True)), now)
@@ -109,9 +109,9 @@ def change_line(version: int, changed_at: str, change: TapeChange[Drawing]) -> b
 
 
 def read_journal(data: bytes) -> Journal:
-    """Return what a journal says; raises `ValueError` for one that is damaged."""
+    """Return the content of a journal; raise `ValueError` if it is damaged."""
     first, *lines = data.split(b"\n")
-    rest = lines.pop() if lines else b""  # behind the last line's end
+    rest = lines.pop() if lines else b""  # after the last line break
     start = JournalStart.model_validate_json(first)
     bodies = [_body(line) for line in lines]
     if bodies and bodies[-1] is None and not rest:
@@ -133,6 +133,6 @@ def read_journal(data: bytes) -> Journal:
 
 
 def _body(line: bytes) -> bytes | None:
-    """What a line says; None if it is damaged."""
+    """Return the content of a line; None if its checksum is wrong."""
     checksum, body = line[:_CHECKSUM_BYTES], line[_CHECKSUM_BYTES:]
     return body if checksum == b"%08x " % zlib.crc32(body) else None

@@ -1,4 +1,4 @@
-"""What the system refused when a file was to be read or written, told apart by what a person can do about it."""
+"""Errors of reading and writing files, grouped by their remedy."""
 
 import errno
 from collections.abc import Iterator
@@ -14,8 +14,8 @@ class StorageError(FoldingError):
     """A file could not be read or written.
 
     Attributes:
-        what: what failed, as the beginning of a sentence.
-        why: what the system says; without a path.
+        what: the failed operation, as the beginning of a sentence.
+        why: the system's reason, without a path.
     """
 
     what: str
@@ -27,13 +27,13 @@ class StorageError(FoldingError):
 
 
 class ForbiddenStorageError(StorageError):
-    """The file system is read-only, or the server's user may not do this."""
+    """The file system is read-only, or the server's user lacks permission."""
 
     remedy = ". Let the server's user read and write its data folder."
 
 
 class FullStorageError(StorageError):
-    """The disk or the user's share of it is full."""
+    """The disk or the user's quota is full."""
 
     remedy = ". Make room on the disk of the data folder."
 
@@ -43,7 +43,7 @@ _FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 def storage_error(what: str, error: OSError) -> StorageError:
-    """Return the error of an operation that the system refused."""
+    """Return the error for an operation that the system refused."""
     why = error.strerror or "the system refused"
     if error.errno in _FORBIDDEN:
         return ForbiddenStorageError(what, why)
@@ -52,7 +52,7 @@ def storage_error(what: str, error: OSError) -> StorageError:
 
 @contextmanager
 def storing(what: str) -> Iterator[None]:
-    """Raise `StorageError` for every `OSError` within; `what` is the beginning of its sentence."""
+    """Turn every `OSError` within into a `StorageError`; `what` begins its sentence."""
     try:
         yield
     except OSError as error:

@@ -1,7 +1,7 @@
-"""A document's drawings in a row: what undo goes back through, what is drawn, what redo goes forward through.
+"""A document's undo sequence: the drawings that undo goes back through, the current one, and those that redo restores.
 
-A step appends a drawing, undo and redo only move along the row. So from one change to the next nearly all of the row
-stays, and what a change adds to it is small: that is what a journal keeps.
+A step appends a drawing; undo and redo only move along the sequence. So a change leaves nearly all of it in place and
+adds little. A journal stores only these changes.
 """
 
 from itertools import pairwise, takewhile
@@ -13,18 +13,23 @@ from app.drawing.history import History, Step
 D = TypeVar("D")
 
 _DROPPED_MAX = 2
-"""Steps that one change makes at most, and so sheets that it may push out at the front."""
+"""Largest number of steps in one change, and so of sheets dropped at the front."""
 
 
 class Sheet(NamedTuple, Generic[D]):
-    """One drawing of the row, and what was done to the one before; of the first it says nothing."""
+    """A drawing of the sequence, and the label of the step that led to it; empty for the first."""
 
     label: str
     drawing: D
 
 
 class TapeChange(NamedTuple, Generic[D]):
-    """How a tape becomes another: so many sheets dropped at the front, the next ones kept, others added behind them."""
+    """The change from one tape to another.
+
+    The number of sheets dropped at the front, the number of the next ones kept, the sheets added behind them, and the
+    new
+    index.
+    """
 
     dropped: int
     kept: int
@@ -33,13 +38,13 @@ class TapeChange(NamedTuple, Generic[D]):
 
 
 class Tape(NamedTuple, Generic[D]):
-    """All sheets, and the index of the one that is drawn now."""
+    """All sheets, and the index of the current one."""
 
     sheets: tuple[Sheet[D], ...]
     now: int
 
     def changed(self, change: TapeChange[D]) -> "Tape[D]":
-        """Return the tape after a change; raises `ValueError` for a change of another tape."""
+        """Return the tape after a change; raise `ValueError` if the change does not fit this tape."""
         dropped, kept, added, now = change
         sheets = (*self.sheets[dropped : dropped + kept], *added)
         if len(sheets) != kept + len(added) or not 0 <= now < len(sheets):
@@ -53,7 +58,7 @@ class Tape(NamedTuple, Generic[D]):
         return TapeChange(dropped, kept, after.sheets[kept:], after.now)
 
     def _kept(self, after: "Tape[D]", dropped: int) -> int:
-        """How many sheets after the dropped ones begin another tape, too."""
+        """Return the number of sheets after the dropped ones with which the other tape begins."""
         old, new = self.sheets[dropped:], after.sheets
         if not old or old[0].drawing != new[0].drawing:
             return 0
@@ -61,12 +66,12 @@ class Tape(NamedTuple, Generic[D]):
 
 
 def whole(tape: Tape[D]) -> TapeChange[D]:
-    """Return the change that makes a tape out of nothing."""
+    """Return the change from an empty tape to this one."""
     return TapeChange(0, 0, tape.sheets, tape.now)
 
 
 def tape_of(drawing: Drawing, history: History) -> Tape[Drawing]:
-    """Return what is drawn, between what can be undone and what can be redone."""
+    """Return the tape of a drawing and its history."""
     steps = [*history.past, *reversed(history.future)]
     drawings = [*(step.drawing for step in history.past), drawing, *(step.drawing for step in reversed(history.future))]
     labels = ["", *(step.label for step in steps)]
@@ -74,7 +79,7 @@ def tape_of(drawing: Drawing, history: History) -> Tape[Drawing]:
 
 
 def history_of(tape: Tape[Drawing]) -> tuple[Drawing, History]:
-    """Return the drawing and the history that a tape was made of."""
+    """Return the drawing and the history of a tape."""
     sheets, now = tape
     past = tuple(Step(after.label, before.drawing) for before, after in pairwise(sheets[: now + 1]))
     future = tuple(Step(sheet.label, sheet.drawing) for sheet in reversed(sheets[now + 1 :]))
