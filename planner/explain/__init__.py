@@ -1,1 +1,1 @@
-"""Explaining: why there is no plan, and what would give one: questions put to planning."""
+"""Explain why there is no plan, and find what would give one, by asking planning again with causes removed."""

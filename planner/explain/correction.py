@@ -1,4 +1,4 @@
-"""Ways to remove a cause: what is changed, by how much, and what is said of it once it has been tried."""
+"""Ways to remove a cause: what changes, by how much, and the reason to tell once the change has been tried."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -19,20 +19,20 @@ from planner.task.reason import Code, Reason
 from planner.task.scene import SUPPORT_ANGLE_MAX_RAD
 
 FRICTION_MAX = 10.0
-"""No scene has a larger coefficient."""
+"""The largest friction coefficient that a scene allows."""
 
 _UPRIGHT = 0.5
-"""A direction with a larger component along z than this is up or down."""
+"""The component along z above which a direction counts as up or down."""
 
 _FURTHER_M = (0.001, 0.1, 0.3)
-"""Cloth that is moved just so far that it may lie there is tried so much further on too (m)."""
+"""Further distances by which cloth is moved where the least move only just allows it to lie there (m)."""
 
+# Drags go by 0.1 m, so between their places less than the shortfall may be enough.
 _BEYOND_M = (0.0, 0.025, 0.05, 0.1, 0.3)
-"""Where no shift was found that does, cloth is moved so much further than the point is short (m): drags go by 0.1 m, so
-between their places less may do."""
+"""Distances beyond the shortfall by which cloth is moved where no sufficient shift was found (m)."""
 
 _THIRD_HAND_CORNERS_MAX = 12
-"""Of cloth with more corners there are too many ways for three hands to hold it."""
+"""Corners of the cloth above which the ways for three hands to hold it are too many."""
 
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
 
@@ -42,13 +42,13 @@ class Way:
     """A way to remove a cause.
 
     Attributes:
-        kind: what is changed; two of one kind are not combined.
-        amounts: by how much, tried in turn, the last allows most; empty where the cause is there or not.
-        applied: a problem with the cause removed by an amount.
-        told: the reason once that was tried.
-        needed: the amount with which what was found would do as well, where that can be told.
-        exact: with so much less than the least that is told the fold cannot be done.
-        is_dream: whether no robot can be so changed: it shows what stands in the way all the same.
+        kind: what is changed; two ways of one kind are not combined.
+        amounts: by how much, tried in turn, the last the most permissive; empty where the change has no degree.
+        applied: applies the change by an amount to a problem.
+        told: makes the reason to tell once the amount was tried.
+        needed: the amount that the path found really needs, where that can be told.
+        exact: how exactly the least amount is found: with so much less the fold cannot be done.
+        is_dream: whether no robot can be changed like this; the way still shows what stands in the way.
     """
 
     kind: str
@@ -66,24 +66,24 @@ class Way:
 
 
 COLLISIONS_IGNORED = Way("collision", (), lambda relaxed, _: relaxed.with_collisions_ignored())
-"""What shows that nothing but the arms' touching something stands in the way."""
+"""Shows that nothing but collisions of the arms stands in the way."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidate:
-    """What may be a cause, and ways to remove it, those that a person can do first."""
+    """A possible cause, and ways to remove it, those first that a person can carry out."""
 
     reason: Reason
     ways: tuple[Way, ...]
 
 
 def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None) -> Iterator[Candidate]:
-    """What may keep a fold from being done, or with None the cloth from staying where it lies at the start.
+    """Yield what may keep a fold from being done, or the cloth from staying where it lies at the start.
 
     Args:
-        context: the problem, with what was met.
-        measured: what seems to stand in the way.
-        fold: the fold.
+        context: the planning context, with the obstacles met.
+        measured: the reasons that the search met.
+        fold: the fold; None for the cloth at the start.
     """
     mine = [reason for reason in measured if reason.fold == fold]
     if context.has_slipped and context.scene.friction < FRICTION_MAX:
@@ -128,7 +128,7 @@ def _friction(context: Context, slip: Reason) -> Way:
 
 
 def _slips_on_the_way(context: Context, fold: int | None, needed: float | None = None) -> Reason:
-    """That the cloth slips, in a drag that the fold would need or after it."""
+    """Return the reason that the cloth slips in a drag that the fold would need, or after it."""
     label = "" if fold is None else f"{context.sequence.folds[fold].label}: "
     text = f"{label}the cloth slips wherever it would be in reach; the friction is {context.scene.friction:.2f}"
     if needed is not None:
@@ -138,7 +138,7 @@ def _slips_on_the_way(context: Context, fold: int | None, needed: float | None =
 
 
 def _hands(context: Context, reason: Reason, fold: int) -> Iterator[Way]:
-    """Grips that hold more, in the fold alone or in drags too; stiffer cloth; hands that may be nearer; one more."""
+    """Yield wider grips in the fold alone or in drags too, hands closer together, stiffer cloth, and one more hand."""
     if reason.needed_grip_radius_m is None:
         yield _blue(fold)
         return
@@ -179,7 +179,7 @@ def _grip_radius(context: Context, fold: int, amounts: tuple[float, ...], needed
 
 
 def _stiffer(context: Context, fold: int) -> Way:
-    """Cloth so stiff that more of it holds itself."""
+    """Return the way of stiffer cloth, of which more holds itself."""
     now = context.scene.support_angle_rad
 
     def applied(relaxed: Relaxed, amount: float) -> Relaxed:
@@ -208,7 +208,7 @@ def _third_hand(context: Context, fold: int) -> Way:
 
 
 def _one_hands_radius(context: Context, fold: int) -> float:
-    """The radius with which one hand would hold all that a fold needs (m)."""
+    """Return the grip radius with which one hand would hold all that a fold needs (m)."""
     drawn, arms = context.sequence.folds[fold], len(context.reach.arm_names)
     vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
     return needed_radius(context.sequence.moving(fold), drawn.line, vertices, 1) if len(vertices) else 0.0
@@ -224,7 +224,7 @@ def _blue(fold: int) -> Way:
 
 
 def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
-    """The cloth moved so far that it lies as it must; of what reaches behind a line, that it can be carried."""
+    """Yield the cloth moved so that it lies as it must, or more cloth behind a line that can be carried."""
     if reason.fold is None:
         yield from _onto_table(context)
     elif reason.shift_m is not None and reason.shift_towards is not None:
@@ -236,7 +236,7 @@ def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
 
 
 def _onto_table(context: Context) -> Iterator[Way]:
-    """The cloth moved until all of it lies on the table, or as far on the way there as is enough."""
+    """Yield the cloth moved until all of it lies on the table, or as far on the way there as is enough."""
     room = Room.of(context.sequence.garment, context.placement, context.scene.table)
     x, y = room.nearest
     length = math.hypot(x, y)
@@ -245,7 +245,7 @@ def _onto_table(context: Context) -> Iterator[Way]:
 
 
 def _moved(kind: str, towards: Point3, by_m: float, further_m: tuple[float, ...] = ()) -> Way:
-    """The cloth moved in a direction of the table frame, by so much, or further by one of some lengths (m)."""
+    """Return the way of moving the cloth in a direction of the table frame, by `by_m` or by some lengths more (m)."""
 
     def applied(relaxed: Relaxed, amount: float) -> Relaxed:
         x, y, _ = (amount * part for part in towards)
@@ -256,7 +256,7 @@ def _moved(kind: str, towards: Point3, by_m: float, further_m: tuple[float, ...]
 
 
 def _reach(context: Context, reason: Reason) -> Iterator[Way]:
-    """The hands' way shifted, by moving cloth or robot; less comfort; arms of any length."""
+    """Yield the hands' path shifted by moving cloth or robot, a smaller comfort radius, and arms of any length."""
     comfort = list(_comfort(context, reason))
     if reason.cause == "comfort_only":
         yield from comfort
@@ -275,7 +275,7 @@ def _reach(context: Context, reason: Reason) -> Iterator[Way]:
 
 
 def _cone(context: Context) -> Way:
-    """Pinches that come from further round the cloth."""
+    """Return the way of a wider approach cone."""
     now = context.scene.approach_cone_rad
 
     def applied(relaxed: Relaxed, amount: float) -> Relaxed:
@@ -288,7 +288,7 @@ def _cone(context: Context) -> Way:
 
 
 def _comfort(context: Context, reason: Reason) -> Iterator[Way]:
-    """Less comfort, to be tried together with other ways where a point lacks more than all of it."""
+    """Yield a smaller comfort radius, tried with other ways where a point lacks more than all of it."""
     now = context.reach.comfort_m
     if now <= 0.0:
         return
@@ -315,7 +315,7 @@ def _shifts(context: Context, station: str, by_m: float, towards: Point3) -> Ite
 
 
 def _lifted(by_m: float, towards: Point3) -> Iterator[Way]:
-    """The table raised or lowered, or the torso the other way."""
+    """Yield the table raised or lowered, or the torso moved the other way."""
 
     def table_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
         scene = relaxed.context.scene

@@ -1,13 +1,13 @@
-"""Why there is no plan, tried: what has to be removed, together, so that a fold can be done, and no less of it.
+"""Find correction sets: minimal sets of changes that together allow a fold for which there is no plan.
 
 What seems to stand in a fold's way is measured where the fold was tried. Whether it is the cause shows when it is
-removed and the planner is asked again. Where one change is enough, each that is makes a set of its own; where none is,
-what still stands in the way then is removed too, until the fold can be done. Of what remains nothing can be left out,
-and of what can be had by degrees the least is found by halving.
+removed and the problem is planned again. Each single change that is enough is a set of its own. Where there is none,
+what still stands in the way is removed too, until the fold can be done. No member of a set can be left out, and the
+least amount of each change is found by bisection.
 
-Whether all is in reach takes a hundredth of the time that joint paths take, and what is not in reach has none. So
-sets are looked for, and their amounts halved, with collisions ignored; joint paths are asked for only with what has
-come of that. If they fail there, what the arms touch is part of the cause, or takes more of the same.
+Checking that all places are in reach takes a hundredth of the time that joint paths take, and what is out of reach has
+no joint paths. So sets and their amounts are found with collisions ignored, and joint paths are looked for only with
+the result. If they fail there, what the arms touch is part of the cause, or a larger amount is needed.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -24,29 +24,29 @@ from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
 
 ASKS_MAX = 80
-"""So often the planner is asked at most to find the reasons of one problem."""
+"""Trials that are made to find the reasons of one problem."""
 
 _MEMBERS_MAX = 3
-"""Sets of more causes are not looked for."""
+"""Causes in one set at most."""
 
 _SHIFTS = (("cloth", "station"), ("table", "torso"))
-"""Ways that shift what the hands do alike."""
+"""Ways that shift the hands' path alike."""
 
 _A_LITTLE_M = 0.003
-"""So much more is tried of a shift that was the least together with something else (m)."""
+"""Added to the least shift found together with another change, which is then tried alone (m)."""
 
 _SLACKS = ("comfort", "cone")
 """Ways that are tried together with a shift where no change alone is enough."""
 
 
 def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]) -> tuple[Reason, ...]:
-    """The reasons why a problem has no plan, those that were tried.
+    """Return the reasons why a problem has no plan, each tried.
 
     Args:
         base: the problem.
-        met: what became of it.
-        ask: tries problems.
-        is_enough: asked before each; true means that no more is tried.
+        met: its trial, with the reasons met.
+        ask: tries relaxed problems.
+        is_enough: polled before each trial; true ends them.
     """
     measured = met.measured()
     asked = _Asked(ask, is_enough)
@@ -66,16 +66,16 @@ def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]
 
 
 def untried(measured: Sequence[Reason]) -> tuple[Reason, ...]:
-    """Reasons of which only is known that they were met: no shift is told that nobody has tried."""
+    """Return reasons that were met but not tried, without their shifts."""
     return tuple(replace(reason, shift_m=None, shift_towards=None) for reason in measured)
 
 
 class _SpentError(Exception):
-    """There is nothing left of the budget."""
+    """The trials, or the time for them, are used up."""
 
 
 class _Asked:
-    """Asks, not for ever; a problem that cannot be put is none that helps."""
+    """Runs trials within limits; a change that gives no valid problem counts as no help."""
 
     def __init__(self, ask: Ask, is_enough: Callable[[], bool]) -> None:
         self._ask = ask
@@ -86,7 +86,7 @@ class _Asked:
     def __call__(
         self, way: Way, base: Relaxed, amount: float, folds: int, *, with_arms: bool
     ) -> tuple[Relaxed, Trial] | None:
-        """A problem with a cause removed, and what became of it; None where no such problem can be put."""
+        """Return a problem with a cause removed and its trial; None where the change gives no valid problem."""
         key = (way, base, amount, with_arms)
         if key not in self._known:
             changed = _applied(way, base, amount)
@@ -94,21 +94,21 @@ class _Asked:
         return self._known[key]
 
     def trial(self, relaxed: Relaxed, folds: int, *, with_arms: bool) -> Trial:
-        """What becomes of a problem; without arms it is enough that all is in reach."""
+        """Return the trial of a problem; without arms it is enough that all places are in reach."""
         if not self._left or self._is_enough():
             raise _SpentError
         self._left -= 1
         return self._ask(relaxed if with_arms else relaxed.with_collisions_ignored(), folds)
 
     def measured(self, trial: Trial) -> tuple[Reason, ...]:
-        """What stood in the way of a trial."""
+        """Return the reasons that a trial met."""
         if self._is_enough():
             raise _SpentError
         return trial.measured()
 
 
 def _applied(way: Way, base: Relaxed, amount: float) -> Relaxed | None:
-    """A problem with a cause removed; None where no such problem can be put."""
+    """Return a problem with a cause removed; None where the change gives no valid problem."""
     try:
         return way.applied(base, amount)
     except FoldingError:
@@ -117,7 +117,7 @@ def _applied(way: Way, base: Relaxed, amount: float) -> Relaxed | None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Member:
-    """A cause, the way in which it is removed, how much of that, and which other ways do as well with as much."""
+    """A cause, the way in which it is removed, the amount, and other ways that are enough with the same amount."""
 
     reason: Reason
     way: Way
@@ -130,20 +130,20 @@ class _Member:
 
 
 def _needed(way: Way, amount: float, trial: Trial) -> float:
-    """How much of an amount that is enough what was found with it really needs."""
+    """Return how much of a sufficient amount the path found with it really needs."""
     return amount if way.needed is None else min(way.needed(trial), amount)
 
 
 def _stays(relaxed: Relaxed) -> bool:
-    """Whether the cloth stays where it lies at the start."""
+    """Return whether the cloth stays where it lies at the start."""
     return relaxed.problem.unrest is None
 
 
 class _Corrections:
-    """The sets for one fold, or with None for all of a garment.
+    """The correction sets for one fold; for None, of the whole garment.
 
     Attributes:
-        is_but_touching: whether all is in reach, and nothing but what the arms touch stands in the way.
+        is_but_touching: whether all places are in reach, so that only what the arms touch stands in the way.
     """
 
     def __init__(self, base: Relaxed, fold: int | None, asked: _Asked) -> None:
@@ -157,7 +157,7 @@ class _Corrections:
         self._gives = "plan" if len(tuple(wanted)) == len(everything) else "fold"
 
     def sets(self, met: Trial, measured: tuple[Reason, ...]) -> list[tuple[Reason, ...]]:
-        """Sets of causes; of several each is enough. Empty where none was found."""
+        """Return sets of causes, each of which is enough; empty where none was found."""
         found: list[tuple[_Member, ...]] = []
         own = list(candidates(met.context, measured, self._fold))
         with suppress(_SpentError):
@@ -171,12 +171,12 @@ class _Corrections:
         return [self._told(members) for members in found] or [(told,) for told in self._at_rest(own)]
 
     def _repair(self, members: tuple[_Member, ...]) -> tuple[int, float]:
-        """How many things are to be removed, arms that nobody has counted as three, and how much is lacking in all."""
+        """Return the number of changes, in which one that no robot allows counts as three, and the total shortfall."""
         dreams = sum(2 for member in members if member.way.is_dream)
         return len(members) + dreams, sum(lacking(member.told, self._base.context) for member in members)
 
     def _enough(self, candidate: Candidate) -> Iterator[tuple[_Member, ...]]:
-        """A cause that is enough, removed in the first way that is, or that would be if nothing collided then."""
+        """Yield a cause that is enough, removed in the first way that works, or that would work but for collisions."""
         *ways, last = candidate.ways
         if last.is_dream and not self._is_enough(last, self._base, last.most, with_arms=False):
             return
@@ -198,7 +198,7 @@ class _Corrections:
             yield self._stretched(candidate, slacks) or (_Member(candidate.reason, last, last.most),)
 
     def _stretched(self, candidate: Candidate, slacks: Sequence[Way]) -> tuple[_Member, ...] | None:
-        """What a person may do less well than the rest, or two changes that bring into reach what neither does."""
+        """Return a less convenient change that is enough, or two that bring into reach what neither does alone."""
         with suppress(_SpentError):
             for way in slacks:
                 found, touched = self._least(way, self._base)
@@ -218,7 +218,7 @@ class _Corrections:
         return None
 
     def _alike(self, candidate: Candidate, way: Way, amount: float, base: Relaxed) -> tuple[str, ...]:
-        """Which other ways do as well with as much, where they are alike."""
+        """Return the alike ways that are also enough with the same amount."""
         alike = next((kinds for kinds in _SHIFTS if way.kind in kinds), ())
         others = (other for other in candidate.ways if other.kind in alike and other.kind != way.kind)
         return tuple(other.kind for other in others if self._is_enough(other, base, amount))
@@ -228,7 +228,10 @@ class _Corrections:
         return found is not None and found[1].is_possible
 
     def _least(self, way: Way, base: Relaxed) -> tuple[float | None, Reason | None]:
-        """The least amount of a change that is enough, and what the arms touch with it; None and none if none is."""
+        """Return the least sufficient amount, and what the arms touch with it; None where there is none.
+
+        Where collisions are what is left in the way, the amount is the least that brings all places into reach.
+        """
         is_in_reach = base is self._base and self.is_but_touching
         least = 0.0 if is_in_reach else self._first(way, base, 0.0, way.amounts or (0.0,), with_arms=False)
         if least is None or (way.amounts and least <= 0.0 and not is_in_reach):
@@ -243,7 +246,7 @@ class _Corrections:
         return (None, None) if touching is None else (least, touching)
 
     def _first(self, way: Way, base: Relaxed, low: float, amounts: Sequence[float], *, with_arms: bool) -> float | None:
-        """The least amount up to the first of some that is enough; None if none is."""
+        """Return the least amount up to the first sufficient one of some amounts; None if none is sufficient."""
         for amount in amounts:
             found = self._asked(way, base, amount, self._folds, with_arms=with_arms)
             if found is not None and found[1].is_possible:
@@ -252,7 +255,7 @@ class _Corrections:
         return None
 
     def _settled(self, way: Way, base: Relaxed, low: float, high: float, *, with_arms: bool) -> float:
-        """The least amount between one that is not enough and one that is: first just below, then halfway."""
+        """Return the least sufficient amount in an interval: try just below its upper end first, then halfway."""
         probe = high - way.exact
         with suppress(_SpentError):
             while high - low > way.exact + LENGTH_M:
@@ -267,9 +270,9 @@ class _Corrections:
     def _together(
         self, base: Relaxed, members: tuple[_Member, ...], own: Sequence[Candidate]
     ) -> list[tuple[_Member, ...]]:
-        """Causes that together are enough, found by removing one and looking what still stands in the way.
+        """Return sets that together are enough: remove one cause and look what still stands in the way.
 
-        Arms that reach everything come first: what else stands in the way is seen in no time then.
+        Arms that reach everything come first, since they soon show what else stands in the way.
         """
         kinds = {member.way.kind for member in members}
         onwards: list[tuple[tuple[_Member, ...], Relaxed, Trial]] = []
@@ -295,7 +298,7 @@ class _Corrections:
         return []
 
     def _shortened(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
-        """No member that can be left out; in place of arms of any length a shift that is enough, if there is one."""
+        """Leave out members that are not needed; replace arms of any length by a sufficient shift, if there is one."""
         with suppress(_SpentError):
             for member in members:
                 rest = tuple(other for other in members if other is not member)
@@ -311,7 +314,7 @@ class _Corrections:
         return members
 
     def _shifted(self, others: tuple[_Member, ...], tried: tuple[Relaxed, Trial]) -> Iterator[_Member]:
-        """The least shifts that are enough for what is out of reach once others are removed."""
+        """Yield the least shifts that are enough for what is out of reach once other causes are removed."""
         kinds = {member.way.kind for member in others}
         far = [r for r in self._asked.measured(tried[1]) if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
         for candidate in candidates(tried[1].context, tuple(far), self._fold):
@@ -322,7 +325,7 @@ class _Corrections:
                         break
 
     def _least_of(self, members: tuple[_Member, ...]) -> tuple[_Member, ...]:
-        """Of each member the least with which the others are enough, and what the arms touch then."""
+        """Reduce each member to the least with which the others are enough; add what the arms touch then."""
         least = self._halved(members, (0.0,) * len(members), with_arms=False)
         if any(member.way.is_dream or member.way is COLLISIONS_IGNORED for member in members):
             return least
@@ -337,7 +340,7 @@ class _Corrections:
         return (*least, _Member(touching, COLLISIONS_IGNORED, 0.0))
 
     def _halved(self, members: tuple[_Member, ...], lows: Sequence[float], *, with_arms: bool) -> tuple[_Member, ...]:
-        """Of each member in turn the least, more than an amount, with which the others are enough."""
+        """Reduce each member in turn to the least above its lower limit with which the others are enough."""
         settled = list(members)
         for number, (member, low) in enumerate(zip(members, lows, strict=True)):
             if member.way.amounts:
@@ -347,7 +350,7 @@ class _Corrections:
         return tuple(settled)
 
     def _at_rest(self, own: Sequence[Candidate]) -> Iterator[Reason]:
-        """What is enough for the cloth to stay at the start as it lies, if not for a plan."""
+        """Yield what lets the cloth stay as it lies at the start, though it may not give a plan."""
         for candidate in own if self._fold is None else ():
             for way in candidate.ways:
                 tried = ((amount, _applied(way, self._base, amount)) for amount in way.amounts)
@@ -368,7 +371,7 @@ class _Corrections:
         return tuple(replace(self._advised(member), change=change, gives=self._gives) for member in members)
 
     def _advised(self, member: _Member) -> Reason:
-        """A reason with what was tried and does."""
+        """Return a member's reason, with the advice that proved true when tried."""
         told, kind = member.told, member.way.kind
         shifts = tuple(k for pair in _SHIFTS for k in pair if k in (kind, *member.also))
         if told.code is not Code.OUT_OF_REACH or told.station is None or not (shifts or member.way.is_dream):
@@ -377,7 +380,7 @@ class _Corrections:
 
 
 def _further(members: tuple[_Member, ...]) -> Iterator[tuple[_Member, ...]]:
-    """Causes removed as they are, and then by the amounts beyond, as long as there are any."""
+    """Yield causes removed by their amounts, and then by their larger amounts, as long as there are any."""
     most = max((len(member.way.amounts) for member in members), default=0)
     for number in range(most):
         amounts = (member.way.amounts for member in members)

@@ -1,4 +1,4 @@
-"""The door of this room: why there is no plan, for whoever plans."""
+"""The entry point of this package: explains to planning why there is no plan."""
 
 from collections.abc import Callable, Collection, Iterable
 
@@ -15,7 +15,7 @@ from planner.task.reason import Reason
 
 
 class Explanation:
-    """Says why there is no plan; see `planner.planning.trial.Explainer`."""
+    """Explains why there is no plan; implements `planner.planning.trial.Explainer`."""
 
     def at_start(self, context: Context, unrest: Unrest) -> Reason:
         """Return the reason why cloth does not stay as it lies at the start."""
@@ -36,7 +36,7 @@ class Explanation:
     def tried(
         self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
     ) -> tuple[Reason, ...]:
-        """Return minimal sets of the reasons that were met, each tried."""
+        """Return minimal sets of the reasons met, each tried."""
 
         def ask(relaxed: Relaxed, folds: int) -> Trial:
             return try_folds(relaxed.searched, relaxed.may_collide, folds)
@@ -45,10 +45,10 @@ class Explanation:
 
 
 class FirstExplanation(Explanation):
-    """Says what was met, and tries none of it: for who will try changes anyway."""
+    """Returns the reasons met without trying any, for callers that try changes themselves."""
 
     def tried(
         self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
     ) -> tuple[Reason, ...]:
-        """Return the reasons that were met."""
+        """Return the reasons met."""
         return met.measured()

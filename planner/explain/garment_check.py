@@ -1,4 +1,4 @@
-"""Whether a garment's folds are legal, by how many grippers each can be held, and why at which corners."""
+"""Check whether a garment's folds are legal, how many grippers can hold each, and which corners need them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,11 +25,11 @@ class FoldCheck:
 
     Attributes:
         name: the fold's name.
-        is_red: whether it is folded with what the fold before it left held.
+        is_red: whether the fold uses the grips that the fold before it left.
         vertices: every corner of the part that moves, and why it must be held or need not be.
         grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
-        grips_needed: how many; None when more than there are hands.
-        problem: why the hands cannot hold it, with what would do; None if they can.
+        grips_needed: the number of grips; None when it exceeds the number of hands.
+        problem: why the hands cannot hold it, and what would help; None if they can.
     """
 
     name: str
@@ -45,7 +45,7 @@ class FoldCheck:
         return tuple(vertex.point for vertex in self.vertices if vertex.must_be_held)
 
     def to_dict(self) -> dict[str, Any]:
-        """The check as JSON."""
+        """Return the check as JSON."""
         return {
             "name": self.name,
             "kind": "red" if self.is_red else "blue",
@@ -60,10 +60,10 @@ class FoldCheck:
 
 @dataclass(frozen=True, slots=True)
 class GarmentCheck:
-    """What a garment is, and what all its folds need.
+    """The measures of a garment, and what all its folds need.
 
     Attributes:
-        points: how many points its outline has.
+        points: the number of points of its outline.
         size_m: the extents of its drawing along x and y (m).
         area_m2: its area (m^2).
         folds: one entry for each fold in the user's order.
@@ -80,7 +80,7 @@ class GarmentCheck:
         return all(fold.problem is None for fold in self.folds)
 
     def to_dict(self) -> dict[str, Any]:
-        """The check as JSON."""
+        """Return the check as JSON."""
         return {
             "outline": {"points": self.points, "size_m": list(self.size_m), "area_m2": self.area_m2},
             "is_holdable": self.is_holdable,
@@ -108,7 +108,7 @@ def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = 
 
 
 def _checks(context: Context) -> Iterator[FoldCheck]:
-    """Every fold, each with what the one before may leave held."""
+    """Yield the check of every fold, each with what the fold before it may leave held."""
     angle, arms = context.scene.support_angle_rad, len(context.reach.arm_names)
     left_held: list[tuple[Point2, ...]] = []
     for fold in context.sequence.folds:
@@ -134,7 +134,7 @@ def _checks(context: Context) -> Iterator[FoldCheck]:
 
 
 def _not_held(context: Context, done: int, fold: int, left_held: list[tuple[Point2, ...]]) -> Obstacle:
-    """That of what the fold before may leave held nothing suffices: the first of it is told of."""
+    """Return the obstacle that nothing that the fold before may leave held suffices, for the first such grips."""
     held = _as_held(left_held[0]) if left_held else ()
     return Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, State(done, (0.0, 0.0), 0, 0, held))
 

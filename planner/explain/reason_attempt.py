@@ -1,12 +1,12 @@
-"""What one attempt at a fold lacked: the point that was furthest out of reach, and by how much.
+"""Measure what one attempt at a fold lacked: the point furthest out of reach, and by how much.
 
-A hand follows its way in one orientation. So in each orientation the worst point counts, and the orientation in which
-it is least out of reach. Looked at are, each stricter than the one before, until something is lacking:
+A hand follows its path in one orientation. So each orientation counts by its worst point, and the orientation whose
+worst point is least out of reach decides. The checks get stricter until one of them finds a shortfall:
 
-1. start, apex and end of each hand's way, each from the back-off that suits it best;
-2. all of its waypoints;
-3. whether the base can drive from back-off to back-off while the hand rests;
-4. both hands' ways at once, from common back-offs.
+1. start, apex and end of each hand's path, each from the standoff that suits it best;
+2. all waypoints of each hand's path;
+3. whether the base can drive from standoff to standoff while the hand rests;
+4. both hands' paths at once, from common standoffs.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -23,14 +23,14 @@ from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.state import State
 
 _ORIENTATIONS_MAX, _PAIRED_MAX = 8, 4
-"""So many of the best orientations of a hand are looked at in the third and in the fourth way."""
+"""Orientations of a hand, the best first, that the third and the fourth check examine."""
 
 _FINEST_M = 0.002
-"""Shortfalls that differ by less are the same (m): each is settled to a millimetre."""
+"""Shortfalls that differ by less count as equal (m); each is found to a millimetre."""
 
 
 class Demand(StrEnum):
-    """What is asked of a point that is out of reach."""
+    """What a point that is out of reach must satisfy."""
 
     ALONE = "alone"
     ONE_ORIENTATION = "one orientation"
@@ -40,17 +40,17 @@ class Demand(StrEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Miss:
-    """The point of an attempt that is furthest out of reach, from where it is least so.
+    """The point of an attempt that is furthest out of reach, seen from where it is least so.
 
     Attributes:
         state: the state in which the attempt was made.
         trial: the attempt.
-        stands: the back-offs at which the base may be when it begins, as a bit mask.
-        grip: which grip.
-        waypoint: which of the trial's waypoints.
-        back_off: from where it is least so.
+        stands: the standoffs at which the base may be when it begins, as a bit mask.
+        grip: the index of the grip.
+        waypoint: the index of the waypoint in the trial.
+        back_off: the standoff from which the point is least out of reach.
         shortfall: by how much, and why.
-        demand: what is asked of it.
+        demand: what the point must satisfy.
     """
 
     state: State
@@ -69,20 +69,20 @@ class Miss:
 
 
 def miss_of(context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> Miss | None:
-    """What an attempt lacks; None if the arms can follow it after all.
+    """Return what an attempt lacks; None if the arms can follow it after all.
 
     Args:
-        context: the problem.
-        state: where it begins.
+        context: the planning context.
+        state: where the attempt begins.
         trial: the attempt.
-        stands: the back-offs at which the base may be when it begins, as a bit mask.
-        at_most_m: once something is known to lack as much (m), that is answered and no more is looked at.
+        stands: the standoffs at which the base may be when it begins, as a bit mask.
+        at_most_m: the shortfall from which on it is returned without looking for a larger one (m).
     """
     return _Attempt(context, state, trial, stands, at_most_m).miss()
 
 
 def explained(context: Context, miss: Miss) -> Miss:
-    """The same, with whether the point alone, turned as it likes, would be within reach."""
+    """Return the miss, with the demand `ALONE` if its point is as far out of reach in every orientation."""
     if miss.demand is not Demand.ONE_ORIENTATION:
         return miss
     stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.back_offs)
@@ -113,7 +113,7 @@ class _Attempt:
         return self._on_the_way(masks)
 
     def _worst_hand(self, ways: Iterable[tuple[int, Sequence[int]]]) -> Miss | None:
-        """The hand that lacks most at some of its waypoints, in one orientation."""
+        """Return the miss of the hand that lacks most at some of its waypoints, in one orientation."""
         worst: Miss | None = None
         for hand, waypoints in ways:
             worst = _worst((worst, self._in_one_orientation(hand, waypoints)))
@@ -139,7 +139,7 @@ class _Attempt:
         return Miss(self._state, self._trial, self._stands, hand, waypoint, back_off, shortfall, demand)
 
     def _masks(self, hand: int) -> NDArray[np.uint32]:
-        """For each approach and waypoint, on its own, the back-offs from which it is in comfort, shape (k, n)."""
+        """Return for each approach and waypoint by itself the standoffs within the comfort radius, shape (k, n)."""
         context, trial = self._context, self._trial
         points = context.in_base(self._state.station, trial.tools[hand])
         arm, approaches = trial.arms[hand], trial.approaches[hand]
@@ -150,18 +150,18 @@ class _Attempt:
         return np.hstack(columns)
 
     def _followed(self, masks: NDArray[np.uint32]) -> list[int]:
-        """The orientations in which a hand's whole way can be followed, those with the most freedom first."""
+        """Return the orientations in which a hand's whole path can be followed, those with the most freedom first."""
         able = [number for number, row in enumerate(masks) if self._stuck(row) is None]
         freedom = np.bitwise_count(masks).sum(axis=1, dtype=np.int64)
         return sorted(able, key=lambda number: -int(freedom[number]))
 
     def _on_the_way(self, masks: list[NDArray[np.uint32]]) -> Miss | None:
-        """What is lacking although every waypoint of each hand can be had in one orientation."""
+        """Return what is lacking although each hand can reach every waypoint in one orientation."""
         driving = _worst(self._driving(hand, rows) for hand, rows in enumerate(masks))
         return driving if driving is not None else self._together(masks)
 
     def _driving(self, hand: int, masks: NDArray[np.uint32]) -> Miss | None:
-        """What a hand lacks where the base cannot go on; None if it can in some orientation."""
+        """Return what a hand lacks where the base cannot drive on; None if it can in some orientation."""
         if self._followed(masks):
             return None
         complete = np.flatnonzero(masks.all(axis=1))[:_ORIENTATIONS_MAX]
@@ -170,7 +170,7 @@ class _Attempt:
         return _least(misses)
 
     def _stuck(self, row: NDArray[np.uint32]) -> tuple[int, int] | None:
-        """At which waypoint the base cannot go on, and where it is then; None if it can follow to the end."""
+        """Return the waypoint at which the base cannot drive on, and where it is then; None if there is none."""
         before = self._stands
         for waypoint, mask in enumerate(row):
             after = _spread(before, int(mask))
@@ -180,7 +180,7 @@ class _Attempt:
         return None
 
     def _lacking(self, hand: int, orientation: int, waypoint: int, back_offs: int, demand: Demand) -> Miss | None:
-        """What one tool point lacks in one orientation from some back-offs, given as a bit mask."""
+        """Return what one tool point lacks in one orientation from some standoffs, given as a bit mask."""
         context, trial = self._context, self._trial
         stands = _bits(back_offs)
         seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
@@ -191,7 +191,7 @@ class _Attempt:
         return self._miss(hand, waypoint, stands[found.seen_from], found, demand)
 
     def _together(self, masks: list[NDArray[np.uint32]]) -> Miss | None:
-        """What the hands lack at once, each alone having a way; None if they lack nothing."""
+        """Return what the hands lack together though each alone has a path; None if they lack nothing."""
         if len(masks) < 2:
             return None
         left, right = (self._followed(of_hand)[:_PAIRED_MAX] for of_hand in masks)
@@ -207,7 +207,7 @@ class _Attempt:
     def _held_up(
         self, stuck: tuple[int, int], rows: tuple[NDArray[np.uint32], NDArray[np.uint32]], orientations: tuple[int, int]
     ) -> Iterator[Miss | None]:
-        """What either hand lacks where both get stuck, from where the other has what it needs."""
+        """Yield what either hand lacks where both get stuck, from where the other has what it needs."""
         waypoint, before = stuck
         for hand, other in ((0, 1), (1, 0)):
             stands = _spread(before, int(rows[other][waypoint]))
@@ -220,13 +220,13 @@ def _bits(mask: int) -> list[int]:
 
 
 def _seen(context: Context, state: State, tool: FloatArray, back_offs: Sequence[int] | NDArray[np.int64]) -> FloatArray:
-    """A tool point of the table frame in the base frame from each of some back-offs, shape (n, 3), m."""
+    """Transform a tool point from the table frame to the base frame at each of some standoffs, shape (n, 3), m."""
     at_station = context.in_base(state.station, tool[None])
     return np.asarray(at_station + np.array(back_offs)[:, None] * np.array([BACK_OFF_STEP_M, 0.0, 0.0]))
 
 
 def _spread(seed: int, mask: int) -> int:
-    """The back-offs of a mask to which the base can drive within it from those of a seed."""
+    """Return the standoffs of a mask to which the base can drive within the mask from those of a seed."""
     seed &= mask
     while True:
         wider = (seed | seed << 1 | seed >> 1) & mask
@@ -236,10 +236,10 @@ def _spread(seed: int, mask: int) -> int:
 
 
 def _worst(misses: Iterable[Miss | None]) -> Miss | None:
-    """The miss that lacks most; of equals the first; None if there is none."""
+    """Return the miss that lacks most, the first of equals; None if there is none."""
     return max((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)
 
 
 def _least(misses: Iterable[Miss | None]) -> Miss | None:
-    """The miss that lacks least; of equals the first; None if there is none."""
+    """Return the miss that lacks least, the first of equals; None if there is none."""
     return min((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)

@@ -1,16 +1,16 @@
-"""What keeps one fold from being done, each cause on its own enough to mend.
+"""Find what keeps one fold from being done: causes of which each alone is worth removing.
 
-A fold can be tried in many ways: with the article here or there, from this station or that one, with free hands or with
-what a drag has left held. In each way one thing or several stand against it. A cause is what is the only thing that
-stands against some way: mend it and the fold can be done. Of each kind the mildest is named. If in every way several
-things stand against the fold, those of the way that comes nearest are named together.
+A fold can be tried in many ways: with the article here or there, from different stations, with free hands or with what
+a drag has left held. In each way one or several things stand against it. A cause is something that alone stands against
+some way: once it is removed, the fold can be done. The mildest of each kind is reported. If several things stand
+against the fold in every way, those of the way that comes nearest are reported together.
 
-A collision is met only where nothing else was wrong, so then it is the cause: one in the fold itself, or else one in
-a drag that it would need.
+A collision is met only where nothing else was wrong, so then it is the cause: a collision in the fold itself, or else
+in a drag that the fold would need.
 
-Hands that do not suffice hide the rest: without grips there is no path to ask about. So that is a cause only where no
-way is known that fails by one thing alone: what cannot be held with free hands may be within reach when a drag has left
-it held.
+Insufficient hands hide the rest, since without grips there is no path to check. They are therefore a cause only where
+no way fails by one other thing alone: what cannot be held with free hands may be within reach when a drag has left it
+held.
 """
 
 from collections.abc import Collection, Iterator
@@ -33,16 +33,16 @@ _GEOMETRY = (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE, Code.SLIPS)
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
 
 _LOOKED_AT_MAX, _EXAMINED_MAX = 60, 3
-"""Of so many of the mildest obstacles of a kind it is asked whether the cloth can be brought there, and so many that it
-can are examined."""
+"""Mildest obstacles of a kind for which it is checked whether the cloth can be brought there, and how many of those
+that pass are examined."""
 
 
 @dataclass(frozen=True, slots=True)
 class Causes:
-    """Why one fold cannot be done.
+    """The causes why one fold cannot be done.
 
     Attributes:
-        context: the problem, with what was met.
+        context: the planning context, with the obstacles met.
         fold: the fold.
         dones: the sets of folds done, as bit masks, after which it should have been done.
         places: where the cloth can be brought.
@@ -54,7 +54,7 @@ class Causes:
     places: Places
 
     def reasons(self) -> tuple[Reason, ...]:
-        """The causes, the smallest repair first."""
+        """Return the causes, the smallest repair first."""
         met = [o for o in self.context.obstacles.of(self.fold) if o.state is None or o.state.done in self.dones]
         collided = sorted((o for o in met if o.code is Code.COLLISION), key=lambda o: o.dragged_to is not None)
         if collided:
@@ -63,7 +63,7 @@ class Causes:
         return tuple(sorted(found, key=lambda reason: lacking(reason, self.context)))
 
     def _alone(self, met: list[Obstacle]) -> Iterator[Reason]:
-        """What stands alone against some way."""
+        """Yield what alone stands against some way."""
         miss = nearest_miss(self.context, self.fold, self.dones, self.places)
         if miss is not None:
             yield out_of_reach(self.context, self.fold, miss)
@@ -73,7 +73,7 @@ class Causes:
                 yield of_obstacle(self.context, cause)
 
     def _is_all_else_right(self, obstacle: Obstacle) -> bool:
-        """Whether nothing but an obstacle stands against the fold where it was met."""
+        """Return whether an obstacle is all that stands against the fold where it was met."""
         state = obstacle.state
         if state is None or len(list(geometric_obstacles(self.context, state, self.fold))) > 1:
             return False
@@ -85,18 +85,18 @@ class Causes:
         return any(can_follow(self.context, state.station, trial, stands) for trial in trials)
 
     def _hands(self, met: list[Obstacle]) -> Iterator[Reason]:
-        """The hands not sufficing, where nothing else is known to be wrong."""
+        """Yield that the hands do not suffice, where nothing else is known to be wrong."""
         lacks = [of_obstacle(self.context, o) for o in met if o.code in _GRIPS and self._is_only_held_up_by(o)]
         if lacks:
             yield min(lacks, key=lambda reason: lacking(reason, self.context))
 
     def _is_only_held_up_by(self, obstacle: Obstacle) -> bool:
-        """Whether nothing but its hands is known to stand against the fold where an obstacle was met."""
+        """Return whether only the hands are known to stand against the fold where an obstacle was met."""
         state = obstacle.state
         return state is None or next(geometric_obstacles(self.context, state, self.fold), None) is None
 
     def _together(self, met: list[Obstacle]) -> Iterator[Reason]:
-        """All that stands against the way that comes nearest, several things in each."""
+        """Yield all that stands against the way that comes nearest, if several things stand against each way."""
         states = [o.state for code in _GEOMETRY for o in self._mildest(met, code) if o.state is not None]
         states = states or [State(done, (0.0, 0.0), 0, 0) for done in sorted(self.dones)]
         ways = [self._all_in(state) for state in states]
@@ -107,19 +107,19 @@ class Causes:
                 yield out_of_reach(self.context, self.fold, miss)
 
     def _repair(self, way: tuple[list[Reason], Miss | None]) -> tuple[int, float]:
-        """How many things stand against a way, and how much is lacking in all."""
+        """Return how many things stand against a way, and the total shortfall."""
         against, miss = way
         lack = sum(lacking(reason, self.context) for reason in against)
         return len(against) + (miss is not None), lack + (0.0 if miss is None else miss.short_by_m)
 
     def _mildest(self, met: list[Obstacle], code: Code) -> list[Obstacle]:
-        """The mildest obstacles of a kind, of those met where the cloth can be brought and stays."""
+        """Return the mildest obstacles of a kind, among those met where the cloth can be brought and stays."""
         alike = sorted((o for o in met if o.code is code), key=lambda o: o.severity)[:_LOOKED_AT_MAX]
         real = (o for o in alike if o.state is not None and self.places.stands(o.state))
         return list(islice(real, _EXAMINED_MAX))
 
     def _all_in(self, state: State) -> tuple[list[Reason], Miss | None]:
-        """All that stands against the fold in a state, and what the hands lack there, if they suffice."""
+        """Return all that stands against the fold in a state, and what the hands lack there, if they suffice."""
         against = [of_obstacle(self.context, other) for other in geometric_obstacles(self.context, state, self.fold)]
         grips = None if state.held else grips_obstacle(self.context, state, self.fold)
         if grips is not None:

@@ -1,7 +1,7 @@
-"""What the arms cannot help touching: in a fold, or in a drag that some fold would need.
+"""Report collisions that the arms cannot avoid in a fold, or in a drag that some fold would need.
 
-Where the arms fail to drag the cloth, no fold has been tried: yet it is a fold that cannot be done. So a drag is told
-with each fold that would be within reach right after it, and with none where it would only lead to another drag.
+Where the arms fail to drag the cloth, no fold has been tried, yet it is a fold that cannot be done. So a drag is
+reported with each fold that would be within reach right after it, and with no fold where it only leads to another drag.
 """
 
 import math
@@ -26,12 +26,12 @@ _START = (0.0, 0.0)
 
 
 def collisions(context: Context, step: Step, contact: BlockingContact | None) -> Iterator[Obstacle]:
-    """A step that the arms cannot perform although its places are in reach, as what stands in the way of folds.
+    """Yield a step that the arms cannot perform, although its places are in reach, as obstacles to folds.
 
     Args:
-        context: the problem.
+        context: the planning context.
         step: a fold or a drag.
-        contact: what is in the arms' way, where that is known.
+        contact: the blocking contact, where it is known.
     """
     depth_m, own = math.inf if contact is None else contact.depth_m, step.details.get("fold")
     if own is not None:
@@ -43,7 +43,7 @@ def collisions(context: Context, step: Step, contact: BlockingContact | None) ->
 
 
 def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reason:
-    """A collision as a reason; `state` is that in which the fold or the drag begins."""
+    """Return a collision as a reason; `state` is the state in which the fold or the drag begins."""
     contact, station = obstacle.contact, context.scene.stations[state.station][0]
     label = "" if obstacle.fold is None else f"{context.sequence.folds[obstacle.fold].label}: "
     begin = f"{label}{_drag(obstacle, state)}from {station} "
@@ -77,19 +77,19 @@ def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reas
 
 
 def _touching(contact: BlockingContact) -> dict[str, Any]:
-    """What touches what, as values of a message."""
+    """Return a blocking contact as values of a message."""
     return {"arm": contact.arm, "at": list(contact.point), "parts": list(contact.parts), "depth_m": contact.depth_m}
 
 
 def _way(obstacle: Obstacle, state: State) -> list[float] | None:
-    """The drag in which the arms collide (m); None where they collide in the fold."""
+    """Return the drag in which the arms collide (m); None where they collide in the fold."""
     if obstacle.dragged_to is None:
         return None
     return [to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True)]
 
 
 def _drag(obstacle: Obstacle, state: State) -> str:
-    """The drag in which the arms collide, in words."""
+    """Return the drag in which the arms collide, in words."""
     way = _way(obstacle, state)
     if way is None:
         return ""
@@ -99,7 +99,10 @@ def _drag(obstacle: Obstacle, state: State) -> str:
 
 
 def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
-    """How far the cloth has been dragged when the arms collide: so far as the hand there has taken what it holds."""
+    """Return how far the cloth has been dragged when the arms collide.
+
+    Where the contact and the held point are known, it is how far the hand has taken what it holds.
+    """
     if obstacle.contact is None or obstacle.dragged_to is None or obstacle.point is None:
         return state.offset
     x, y = np.array(obstacle.contact.point[:2]) - context.placed(_START).to_outer(np.array(obstacle.point))
@@ -107,7 +110,7 @@ def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
 
 
 def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> Point2 | None:
-    """What the hand holds that collides, article frame (m)."""
+    """Return the point that the colliding hand holds, article frame (m)."""
     for grip in step.grips:
         if contact is not None and grip.arm == contact.arm:
             x, y = context.placed(step.before.offset).to_inner(np.array(grip.pick[:2]))
@@ -116,7 +119,7 @@ def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> P
 
 
 def _next_folds(context: Context, state: State) -> tuple[int, ...]:
-    """The folds that arms could do next that nothing is in the way of."""
+    """Return the folds that the arms could do next without an obstacle."""
     folds = context.sequence.folds
     return tuple(
         f for f in context.sequence.dag.available(state.done) if not folds[f].is_red and _is_next(context, state, f)

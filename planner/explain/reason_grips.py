@@ -1,8 +1,8 @@
-"""How wide a grip would have to hold, so that the hands there are suffice.
+"""Find how wide grips must hold so that the hands suffice.
 
-Of points in convex position that two discs cover, each disc can be given a run of neighbours: the line halfway between
-the discs' centres parts them. What must be held are corners of a convex hull, so it is enough to try all ways to cut
-their ring into two runs, and for each run the grip that is best for it.
+If two discs cover points in convex position, each disc can be given a sequence of neighbours, since the line halfway
+between the centres separates them. The points to hold are corners of a convex hull. So it is enough to try all ways to
+cut their ring into two sequences, with the best grip for each.
 """
 
 import math
@@ -17,19 +17,20 @@ from planner.geometry.segment import Segment
 from planner.geometry.smallest_circle import pair_centres
 from planner.geometry.tolerance import LENGTH_M
 
+# Beyond that only grips at the vertices are tried. The planner tries all of these too, so it can plan with the radius
+# found.
 _ALL_MAX, _PAIRS_MAX = 32, 64
-"""Up to so many vertices all candidates are tried, then those between two of them, beyond only those at the vertices:
-the planner has all of those too, so the radius will do."""
+"""Vertices up to which all candidate grips are tried, and up to which those between two vertices are tried."""
 
 
 def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips: int) -> float:
-    """A grip radius with which so many grips hold all vertices (m): the least, or for a great many little more.
+    """Return a grip radius with which the grips hold all vertices (m): the least, or slightly more for many vertices.
 
     Args:
         piece: the cloth whose boundary is gripped.
-        baseline: the part of its boundary that stays where it is: no grip goes there.
+        baseline: the part of its boundary that stays in place, where no grip goes.
         vertices: what must be held, shape (n, 2), m, at least one.
-        grips: how many hands there are; of more than two only two are counted on.
+        grips: the number of hands; of more than two only two are counted on.
     """
     candidates = _candidates(piece, baseline, vertices)
     middle = vertices.mean(axis=0)
@@ -41,14 +42,14 @@ def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips:
 
 
 def held_radius(held: Cover, vertices: FloatArray) -> float:
-    """The grip radius with which grips where they are hold all vertices (m); infinite without a grip."""
+    """Return the grip radius with which grips in place hold all vertices (m); infinite without a grip."""
     if not held:
         return math.inf
     return float(np.hypot(*(np.array(held)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0).max())
 
 
 def farthest_from(held: Cover, vertices: FloatArray) -> Point2:
-    """The vertex that is furthest from the grip nearest to it; the first without a grip."""
+    """Return the vertex furthest from the grip nearest to it; the first vertex without a grip."""
     index = 0
     if held:
         gaps = np.hypot(*(np.array(held)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0)
@@ -66,7 +67,7 @@ def _candidates(piece: Region, baseline: Segment, vertices: FloatArray) -> Float
 
 
 def _in_two_runs(distances: FloatArray) -> float:
-    """The least radius for two grips, from the distances of candidates to the ring of vertices, shape (m, n)."""
+    """Return the least radius for two grips, from the distances of candidates to the ring of vertices, shape (m, n)."""
     count = distances.shape[1]
     least = np.empty((count, count))
     """The least radius for a run that begins at the first index and has one more vertex than the second."""

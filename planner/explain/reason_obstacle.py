@@ -1,4 +1,4 @@
-"""What an obstacle says, as a reason: its numbers worked out, and what would do."""
+"""Turn obstacles into reasons: compute their numbers, and what would help."""
 
 import math
 from dataclasses import replace
@@ -19,17 +19,17 @@ from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 
 _MOVE_STEP_M, _MOVES = 0.02, 50
-"""Where it is not known how far cloth must be moved, it is tried in such steps (m), and so many."""
+"""Step of the moves tried where it is unknown how far cloth must be moved (m), and their number."""
 
 _UNKNOWN_M, _SLACK_M = 1.0, 1e-3
-"""The severity of what is not known, and how much further cloth is moved for a direction to count (m)."""
+"""Severity of an obstacle of unknown size, and how much further cloth is moved when a direction is checked (m)."""
 
 _LISTED_MAX = 4
-"""Of more points only the outermost are told."""
+"""Points that are listed in full; of more, only the outermost are named."""
 
 
 def of_obstacle(context: Context, obstacle: Obstacle) -> Reason:
-    """What an obstacle says, its numbers worked out."""
+    """Return an obstacle as a reason, with its numbers computed."""
     if obstacle.code is Code.COLLISION and obstacle.state is not None:
         return collision_reason(context, obstacle, obstacle.state)
     if obstacle.fold is not None and obstacle.state is not None:
@@ -44,14 +44,14 @@ def of_obstacle(context: Context, obstacle: Obstacle) -> Reason:
 
 
 def lacking(reason: Reason, context: Context) -> float:
-    """How much is lacking, for telling small repairs from large ones (m, or of the friction coefficient)."""
+    """Return how much is lacking, for ordering repairs by size (m, or of the friction coefficient)."""
     if reason.needed_friction is not None:
         return reason.needed_friction - context.scene.friction
     return math.inf if reason.short_by_m is None else reason.short_by_m
 
 
 def _at_rest(context: Context, obstacle: Obstacle) -> Reason:
-    """How the cloth would lie or slip."""
+    """Return an obstacle of cloth at rest as a reason: how it would lie or slip."""
     is_slip = obstacle.code is Code.SLIPS
     state = obstacle.state
     move: tuple[float, Point3] | None = None
@@ -80,9 +80,9 @@ def _at_rest(context: Context, obstacle: Obstacle) -> Reason:
 
 
 def _least_move(context: Context, obstacle: Obstacle, fold: int, state: State) -> tuple[float, Point3] | None:
-    """How far the cloth would have to lie elsewhere for an obstacle of its kind to be gone (m), and in which direction.
+    """Return how far the cloth must be moved for obstacles of this kind to disappear (m), and in which direction.
 
-    Tried are the directions along the table's edges; None where none helps.
+    The directions tried are those along the table's edges; None where none helps.
     """
     if math.isinf(obstacle.severity):
         return None
@@ -98,7 +98,7 @@ def _least_move(context: Context, obstacle: Obstacle, fold: int, state: State) -
 
 
 def _is_gone(context: Context, obstacle: Obstacle, fold: int, state: State, move: Point2) -> bool:
-    """Whether no obstacle of a kind is left with the cloth moved (m)."""
+    """Return whether no obstacle of the kind is left with the cloth moved (m)."""
     slack = 1.0 + _SLACK_M / max(math.hypot(*move), LENGTH_M)
     at = replace(state, offset=(state.offset[0] + slack * move[0], state.offset[1] + slack * move[1]))
     return all(other.code is not obstacle.code for other in geometric_obstacles(context, at, fold))
@@ -165,12 +165,12 @@ def _red_needs_hold(context: Context, fold: int, held: tuple[Point2, ...]) -> Re
 
 
 def _radii(radius_m: float, needed_m: float) -> dict[str, float]:
-    """The grip radius that is assumed and the one that would do, as values of a message (m)."""
+    """Return the assumed grip radius and the one that would be enough, as values of a message (m)."""
     return {"grip_radius_m": radius_m, "needed_grip_radius_m": needed_m}
 
 
 def _along(ordered: FloatArray) -> str:
-    """Points of the garment in the order in which they lie along a line: all of a few, else the outermost (m)."""
+    """List points of the garment in their order along a line: all of a few, otherwise the outermost (m)."""
     if len(ordered) <= _LISTED_MAX:
         return _list(ordered)
     (x0, y0), (x1, y1) = ordered[0], ordered[-1]
@@ -178,10 +178,10 @@ def _along(ordered: FloatArray) -> str:
 
 
 def _list(points: FloatArray) -> str:
-    """Points of the garment (m)."""
+    """List points of the garment (m)."""
     return f"{' and '.join(f'({x:.2f}, {y:.2f})' for x, y in points)} m of the garment"
 
 
 def _up(number: float) -> str:
-    """A number with three decimals that is not smaller."""
+    """Return a number rounded up to three decimals."""
     return f"{math.ceil(number * 1000.0 - LENGTH_M) / 1000.0:.3f}"

@@ -1,9 +1,9 @@
-"""Whether the cloth can be brought to where a reason says that it lay.
+"""Decide whether the cloth can be brought to where a reason says that it lay.
 
-The relaxation that proves a "no" quickly lets the article lie wherever drags lead and lets the hands hold whatever a
-drag could have left them with, whether or not the robot can make those drags. A reason should not: a person would try
-in vain to repair it there. So a place counts only if the search came to it, or one drag leads to it from the start or
-from where the search came to.
+The relaxation that quickly proves that a fold is impossible lets the article lie wherever drags lead and lets the hands
+hold whatever a drag could have left them with, whether or not the robot can make those drags. A reason must not, since
+a person would try in vain to repair it there. So a place counts only if the search reached it, or if one drag leads to
+it from the start or from a place that the search reached.
 """
 
 from collections.abc import Collection
@@ -24,14 +24,14 @@ _START = (0.0, 0.0)
 _Place = tuple[int, int]
 
 _AS_ONE = np.array([1 << 32, 1])
-"""What makes one number of a place to the grid."""
+"""The weights that turn a place on the grid into one number."""
 
 
 class Places:
-    """Answers whether situations can be brought about, and remembers."""
+    """Decides whether situations can be brought about; keeps the answers."""
 
     def __init__(self, context: Context, reached: Collection[Situation]) -> None:
-        """`reached`: the situations that the search came to."""
+        """Prepare the decision from the situations that the search reached."""
         self._context = context
         self._everywhere = (1 << context.back_offs) - 1
         self._drags = GDrag(context)
@@ -50,7 +50,7 @@ class Places:
             at[(x, y)] = at.get((x, y), 0) | (1 << back_off if held else self._everywhere)
 
     def worth_trying(self, attempt: Attempt) -> NDArray[np.int64]:
-        """Which of an attempt's places may have `stands`, by their indices; a quick first look."""
+        """Return the indices of an attempt's places that may have `stands`; a quick first check."""
         state = attempt.state
         able = [_as_one(np.array(list(self._reached_in(state)), dtype=np.int64))]
         if not state.held:
@@ -61,9 +61,9 @@ class Places:
         return np.flatnonzero(np.isin(_as_one(keys), np.concatenate(able)))
 
     def stands(self, state: State) -> int:
-        """The back-offs at which the base may be when a state's cloth lies and is held as it is, as a bit mask.
+        """Return the standoffs at which the base may be in a state's situation, as a bit mask.
 
-        0 where it cannot be brought about. With free hands the base may be anywhere.
+        The mask is 0 where the situation cannot be brought about. With free hands the base may be anywhere.
         """
         reached = self._reached_in(state).get(_key(state.offset), 0)
         if state.held:
@@ -74,19 +74,22 @@ class Places:
         return self._everywhere if any(self._left_by_drags(station, state) for station in stations) else 0
 
     def _reached_in(self, state: State) -> dict[_Place, int]:
-        """Where the search came to with the folds done that are done in a state, and the same held."""
+        """Return where the search came with the folds done and the grips of a state."""
         done, _, _, held, is_dragged, _ = situation(state)
         return self._reached.get((done, held, is_dragged), {})
 
     def _origins(self, done: int) -> dict[_Place, Point2]:
-        """Where the cloth may lie free before a drag, on the grid and in m, the start first."""
+        """Return where the cloth may lie free before a drag, on the grid and in m, the start first."""
         if done not in self._origins_at:
             free = [_key(_START), *self._reached.get((done, (), False), {})]
             self._origins_at[done] = {(x, y): (x * LENGTH_M, y * LENGTH_M) for x, y in free}
         return self._origins_at[done]
 
     def _led_to_by_any(self, done: int, station: int | None) -> NDArray[np.int64]:
-        """Where the cloth may lie free, or after one drag from a station (None: from any), each place as one number."""
+        """Return where the cloth may lie free, or after one drag from a station, each place as one number.
+
+        A station of None stands for any station.
+        """
         key = (done, station)
         if key not in self._able:
             shifts = np.vstack(self._shifts if station is None else self._shifts[station])
@@ -96,7 +99,7 @@ class Places:
         return self._able[key]
 
     def _is_taken(self, state: State) -> bool:
-        """Whether a drag from the start, by a robot at a state's station, takes the grips that are held in it."""
+        """Return whether a drag from the start, made at a state's station, takes the grips that the state holds."""
         key = (state.done, state.station)
         if key not in self._taken:
             towards = towards_robot(self._context, state.station)
@@ -105,7 +108,7 @@ class Places:
         return tuple(sorted(_key(held.point) for held in state.held)) in self._taken[key]
 
     def _left_by_drags(self, station: int, state: State) -> int:
-        """The back-offs at which drags from a station leave the base that lead to a state's situation."""
+        """Return the standoffs at which drags from a station leave the base when they lead to a state's situation."""
         origins = self._origins(state.done)
         for number, (x, y) in enumerate(_key(state.offset) - self._shifts[station]):
             before = origins.get((int(x), int(y)))
@@ -125,10 +128,10 @@ class Places:
 
 
 def _key(place: Point2) -> _Place:
-    """A place to the grid: dragging to and fro changes the last digits."""
+    """Round a place to the grid, since dragging to and fro changes the last digits."""
     return (grid_key(place[0]), grid_key(place[1]))
 
 
 def _as_one(places: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Places on the grid, shape (n, 2), as one number each."""
+    """Return places on the grid, shape (n, 2), as one number each."""
     return np.asarray(places.reshape(-1, 2) @ _AS_ONE)

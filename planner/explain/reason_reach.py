@@ -1,8 +1,8 @@
-"""Of all attempts at a fold that the arms could not follow: which came closest?
+"""Find which attempt at a fold came closest, among all that the arms could not follow.
 
-There are hundreds: stations, places that drags lead to, choices of grips and arms. What one of them truly lacks takes a
-few milliseconds to work out, a lower bound on it some microseconds. So they are gone through in the order of their
-bounds, and once a bound exceeds the least that was found, nothing better is left.
+There are hundreds: stations, places that drags lead to, choices of grips and arms. Computing what one attempt truly
+lacks takes a few milliseconds, a lower bound on it some microseconds. So the attempts are checked in the order of their
+bounds, and once a bound exceeds the least shortfall found, no better attempt is left.
 """
 
 import math
@@ -22,16 +22,16 @@ from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State
 
 CANDIDATES_MAX = 1000
-"""Where there are more, only those that are roughly least out of the arms' way are looked at."""
+"""Candidates examined; of more, only those that are roughly nearest to the arms' reach."""
 
 EXAMINED_MAX = 32
-"""So many of those with the least bounds are examined."""
+"""Candidates with the least bounds that are examined exactly."""
 
 _UNSURE_MAX = 8
-"""So many are examined before it is known whether the cloth can be brought there, which mostly takes longer."""
+"""Candidates examined before it is known whether the cloth can be brought there, which usually takes longer."""
 
 _EXTREMES = np.array([0.0, 1.0, 2.0])
-"""Start, apex and end of a fold."""
+"""The sweeps at start, apex and end of a fold."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,8 +40,8 @@ class _Candidate:
 
     Attributes:
         attempt: the attempt.
-        place: which of its places.
-        bound_m: how much it lacks at least (m).
+        place: the index of the place.
+        bound_m: a lower bound on the shortfall (m).
     """
 
     attempt: Attempt
@@ -50,15 +50,15 @@ class _Candidate:
 
     @property
     def state(self) -> State:
-        """The state with the article there."""
+        """The state with the article at the place."""
         return self.attempt.at(self.place)
 
 
 def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Places) -> Miss | None:
-    """What the attempt lacked that came closest of those against which nothing else spoke; None if there is none.
+    """Return what the closest attempt lacked, among those with no other obstacle; None if there is none.
 
     Args:
-        context: the problem, with the attempts made.
+        context: the planning context, with the attempts made.
         fold: the fold.
         dones: the sets of folds done, as bit masks, after which attempts count.
         places: where the cloth can be brought.
@@ -85,7 +85,7 @@ def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Pl
 
 
 def miss_in(context: Context, state: State, fold: int) -> Miss | None:
-    """What the attempt lacks that comes closest in a state, from whatever station; None if one lacks nothing."""
+    """Return what the closest attempt in a state lacks, from any station; None if one lacks nothing."""
     best: Miss | None = None
     for at in from_every_station(context, state):
         for trial in fold_trials(context, at, fold):
@@ -100,13 +100,13 @@ def miss_in(context: Context, state: State, fold: int) -> Miss | None:
 
 
 def from_every_station(context: Context, state: State) -> Iterator[State]:
-    """A state with the base at each station; what is held keeps it where it is."""
+    """Yield a state with the base at each station, or at its own station where something is held."""
     for station in (state.station,) if state.held else range(len(context.scene.stations)):
         yield State(state.done, state.offset, station, state.back_off, state.held, state.dragged)
 
 
 def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int) -> Iterator[_Candidate]:
-    """An attempt at those of its places where the cloth may be brought, with their bounds."""
+    """Yield an attempt at its places where the cloth may be brought, with their bounds."""
     worthy = places.worth_trying(attempt)
     if not len(worthy):
         return
@@ -124,7 +124,7 @@ def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int
 
 
 def _tools(attempt: Attempt, places: FloatArray) -> FloatArray:
-    """The tools at start, apex and end at some places, shape (grips, 3, places, 3), table frame (m)."""
+    """Return the tools at start, apex and end at some places, shape (grips, 3, places, 3), table frame (m)."""
     shift = places - np.array(attempt.state.offset)
     raised = np.column_stack([shift, np.full(len(shift), REST_HEIGHT_M)])
     swept = attempt.path.swept(attempt.points, _EXTREMES[:, None])
@@ -135,7 +135,7 @@ def _tools(attempt: Attempt, places: FloatArray) -> FloatArray:
 
 
 def _miss(context: Context, attempt: Attempt, state: State, stands: int, at_most_m: float) -> Miss | None:
-    """What an attempt lacks in one of its states; None if nothing."""
+    """Return what an attempt lacks in one of its states; None if nothing."""
     for trial in fold_trials(context, state, attempt.fold):
         if (trial.cover, trial.arms) == (attempt.cover, attempt.arms):
             return miss_of(context, state, trial, stands, at_most_m)

@@ -1,9 +1,9 @@
-"""How far would a hand's whole way have to be shifted, so that it is in reach?
+"""Find how far a hand's whole path must be shifted to be in reach.
 
-The point that is furthest out of reach says why an attempt failed. But mending that point alone may not do: the hands
-must follow all of their way. What mends an attempt for certain is to shift the whole of it as the robot sees it, which
-a person can do: sideways by moving the station or the cloth, up or down by the height of the table or the torso. The
-least such shift is looked for along the directions of `DIRECTIONS`, and each is tried as the planner would try it.
+The point that is furthest out of reach says why an attempt failed. But repairing that point alone may not be enough,
+since the hands must follow their whole path. A sure repair is to shift the whole path as the robot sees it, which a
+person can do: sideways by moving the station or the cloth, up or down by the height of the table or the torso. The
+least such shift is looked for along each of `DIRECTIONS`, and each shift is tried as the planner would try it.
 """
 
 import math
@@ -17,10 +17,10 @@ from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.fold_way import can_follow
 
 FURTHEST_M = 0.2
-"""No shift further than this is tried."""
+"""Largest shift that is tried (m)."""
 
 _STEP_M, _FINEST_M = 0.02, 0.001
-"""From one shift to the next, and how finely the least is settled (m)."""
+"""Step between the shifts tried, and how exactly the least shift is found (m)."""
 
 _SLANT = math.sqrt(0.5)
 
@@ -36,7 +36,7 @@ DIRECTIONS: tuple[Point3, ...] = (
     (0.0, 0.0, -1.0),
     (0.0, 0.0, 1.0),
 )
-"""Where a way is shifted, base frame: eight horizontal directions, down and up."""
+"""Directions in which a path is shifted, base frame: eight horizontal directions, down and up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class Remedy:
     """A shift that brings a whole attempt into reach.
 
     Attributes:
-        distance_m: how far (m).
+        distance_m: the distance (m).
         towards: the unit direction, base frame.
     """
 
@@ -53,7 +53,7 @@ class Remedy:
 
 
 def remedy(context: Context, miss: Miss) -> Remedy | None:
-    """The least shift tried that lets the arms follow an attempt; None if none does."""
+    """Return the least shift tried that lets the arms follow an attempt; None if none does."""
     attempt = _Shifted(context, miss)
     best: Remedy | None = None
     for towards in DIRECTIONS:
@@ -78,7 +78,7 @@ class _Shifted:
         self._extremes = (last // 2, last, 0)
 
     def least(self, towards: Point3, limit: float) -> float | None:
-        """The least shift along a direction, up to a limit, that will do; None if none does."""
+        """Return the least sufficient shift along a direction, up to a limit; None if there is none."""
         outer = np.array(towards) @ self._axes
         near, far, is_over = 0.0, _STEP_M, self._context.patience.is_over
         while far <= limit + _FINEST_M and not is_over():
@@ -109,10 +109,10 @@ class _Shifted:
         )
 
     def _is_in_reach(self, shift: FloatArray) -> bool:
-        """Whether the arms can follow the attempt, so shifted in the table frame."""
+        """Return whether the arms can follow the attempt, shifted in the table frame."""
         shifted = replace(self._trial, tools=self._trial.tools + shift)
         return can_follow(self._context, self._station, shifted, self._stands)
 
     def _seen(self, hand: int, shift: FloatArray) -> FloatArray:
-        """Apex, end and start of a hand's way in the base frame, shape (3, 3), m."""
+        """Return apex, end and start of a hand's path in the base frame, shape (3, 3), m."""
         return self._context.in_base(self._station, self._trial.tools[hand, list(self._extremes)] + shift)

@@ -1,4 +1,4 @@
-"""What was out of reach, as a sentence: where, by how much, why, and what would do."""
+"""Put into a sentence what was out of reach: where, by how much, why, and what would help."""
 
 import math
 from collections.abc import Mapping
@@ -18,14 +18,14 @@ from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 
 _SHORT_M = 0.0095
-"""Lengths shorter than this are told to the millimetre (m)."""
+"""Lengths below this are told to the millimetre (m)."""
 
 _OBLIQUE = 0.5
-"""A direction with a component smaller than this is not said to lead there."""
+"""A direction component below this is left out of the words."""
 
 
 def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
-    """What lacked where the attempt came closest."""
+    """Return what the closest attempt lacked, as a reason."""
     miss = explained(context, miss)
     found, trial = miss.shortfall, miss.trial
     label = context.sequence.folds[fold].label
@@ -82,7 +82,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
 
 
 class _Moment(StrEnum):
-    """Where on its way a hand is."""
+    """Where a hand is on its path."""
 
     PICK = "pick"
     PLACE = "place"
@@ -101,7 +101,7 @@ _AT = {
 
 
 def _moment(miss: Miss) -> _Moment:
-    """Where on its way the hand is that lacks something."""
+    """Return where on its path the hand is that lacks something."""
     last, sweep = len(miss.trial.sweeps) - 1, float(miss.trial.sweeps[miss.waypoint])
     if miss.waypoint == 0:
         return _Moment.PICK
@@ -113,12 +113,12 @@ def _moment(miss: Miss) -> _Moment:
 
 
 def height_words(z: float) -> str:
-    """How high over the table top a point is (m), or how far below it, as that of a hand where cloth hangs."""
+    """Return in words how high a point is over the table top (m); negative below it, where cloth hangs."""
     return f"{z:.2f} m over the table" if z >= 0.0 else f"{-z:.2f} m below the table's top"
 
 
 def _lack(context: Context, miss: Miss) -> str:
-    """By how much a point is out of reach, why, and where it would not be."""
+    """Return in words by how much a point is out of reach, and why."""
     found = miss.shortfall
     limit = None if found.joint is None else f"{found.joint} limit"
     demand = {
@@ -147,13 +147,13 @@ def _lack(context: Context, miss: Miss) -> str:
 
 
 def mended_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
-    """What was out of reach, with what was tried and does.
+    """Return what was out of reach, with the repair that was tried and works.
 
     Args:
-        reason: the reason, with how far all that the hands do must be shifted.
-        pose: the station's pose that it is seen from.
-        kinds: what can be moved so far: "cloth" or "station", "table" or "torso"; empty where nothing that was tried
-            does, but arms that are long enough would.
+        reason: the reason, with the shift that the hands' whole path needs.
+        pose: the pose of the station that it is seen from.
+        kinds: what can be moved by the shift: "cloth" or "station", "table" or "torso"; empty where nothing that was
+            tried works, but arms long enough would.
     """
     shift, towards = reason.shift_m, reason.shift_towards
     if not kinds or shift is None or towards is None:
@@ -176,27 +176,27 @@ def mended_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
 
 
 def reached_with_comfort(reason: Reason, comfort_m: float) -> Reason:
-    """What is in reach with less comfort, which was tried."""
+    """Return a reason with the smaller comfort radius that was tried and brings the point into reach."""
     advice = f"with {_down(comfort_m)} m of comfort it can be done"
     told = _advised(reason, advice, {"movable": None, "enough_comfort_m": comfort_m})
     return replace(told, comfort_m=comfort_m, shift_m=None, shift_towards=None)
 
 
 def reached_with_cone(reason: Reason, cone_rad: float) -> Reason:
-    """What is in reach with pinches from further round, which was tried."""
+    """Return a reason with the wider approach cone that was tried and brings the point into reach."""
     advice = f"with pinches from within {math.degrees(cone_rad):.0f} degrees of the way into the cloth it can be done"
     told = _advised(reason, advice, {"movable": None, "enough_cone_rad": cone_rad})
     return replace(told, shift_m=None, shift_towards=None)
 
 
 def _advised(reason: Reason, advice: str, values: Mapping[str, Any]) -> Reason:
-    """A reason that also says what would do."""
+    """Return a reason that also says what would help."""
     says = reason.says
     return replace(reason, says=Message(says.code, f"{says.text}; {advice}", {**says.values, **values}))
 
 
 def _where_to(towards: Point3) -> str:
-    """A direction of the base frame in words."""
+    """Return a direction of the base frame in words."""
     words = []
     for component, forwards, backwards in zip(
         towards,
@@ -210,12 +210,12 @@ def _where_to(towards: Point3) -> str:
 
 
 def dragged(state: State) -> dict[str, Any]:
-    """Where drags had brought the cloth, as values of a message."""
+    """Return where drags had brought the cloth, as values of a message."""
     return {"dragged": list(state.offset), "is_held": state.is_dragged}
 
 
 def carried(state: State) -> str:
-    """Where drags had brought the cloth."""
+    """Return where drags had brought the cloth, in words."""
     if math.hypot(*state.offset) <= LENGTH_M:
         return ""
     x, y = (LENGTH_M * round(c / LENGTH_M) + 0.0 for c in state.offset)
@@ -224,12 +224,12 @@ def carried(state: State) -> str:
 
 
 def _down(number: float) -> str:
-    """A number with three decimals that is not larger."""
+    """Return a number rounded down to three decimals."""
     return f"{math.floor(number * 1000.0 + LENGTH_M) / 1000.0:.3f}"
 
 
 def _turned(pose: Pose2, direction: Point3) -> Point3:
-    """A direction of a base's frame, in the table frame."""
+    """Rotate a direction from a base's frame to the table frame."""
     return _point(pose.to_outer(np.array(direction)) - pose.to_outer(np.zeros(3)))
 
 

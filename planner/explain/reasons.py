@@ -1,8 +1,7 @@
-"""Why there is no plan: for each fold that was never done, what stood in its way, where, and by how much.
+"""Report why there is no plan: for each fold that was never done, what stood in its way, where, and by how much.
 
-Folds that are blocked come first, each with its causes, the smallest repair first; folds that merely wait for them come
-last. Where every fold can be done, but not all of them one after the other, those are blocked that were left when the
-most were done.
+Blocked folds come first, each with its causes, the smallest repair first. Folds that only wait for them come last.
+Where every fold can be done, but not all of them in sequence, the blocked folds are those left when the most were done.
 """
 
 from collections.abc import Collection, Iterator
@@ -20,19 +19,19 @@ from planner.task.reason import Code, Reason
 
 
 def reasons(context: Context, reached: Collection[Situation], impossible: Collection[int]) -> tuple[Reason, ...]:
-    """The reasons once it is proven that there is no plan.
+    """Return the reasons once it is proven that there is no plan.
 
     Args:
-        context: the problem, with what was met on the way.
-        reached: the situations that the search came to.
-        impossible: folds that cannot be done even alone; then the search may have ended early. Empty: it has exhausted
-            all states.
+        context: the planning context, with the obstacles met.
+        reached: the situations that the search reached.
+        impossible: folds that cannot be done even alone, for which the search may have ended early; empty if the search
+            has exhausted all states.
     """
     return _Reasons(context, reached, impossible).all()
 
 
 def reason_at_start(context: Context, unrest: Unrest) -> Reason:
-    """Why there is no plan for cloth that does not stay as it lies at the start."""
+    """Return why there is no plan for cloth that does not stay as it lies at the start."""
     state = context.start
     spread, top = context.sequence.cloth(state.done).silhouette, context.table_in_article(state.offset)
     is_too_large = all(spread.contains(edge.start) for edge in top.edges)
@@ -43,7 +42,7 @@ def reason_at_start(context: Context, unrest: Unrest) -> Reason:
 
 
 def note_collision(context: Context, step: Step, contact: BlockingContact | None) -> None:
-    """Remember that the arms cannot perform a step although its places are in reach, and what is in their way."""
+    """Note that the arms cannot perform a step although its places are in reach, and the blocking contact."""
     for obstacle in collisions(context, step, contact):
         context.obstacles.note(obstacle)
 
@@ -61,12 +60,12 @@ class _Reasons:
         return (*causes, *self._of_no_fold(), *self._waiting(blocked))
 
     def _of_no_fold(self) -> Iterator[Reason]:
-        """A drag that the arms could not follow and that only another would have made useful, the mildest of them."""
+        """Yield the mildest drag that the arms could not follow and that only another drag would have made useful."""
         met = sorted(self._context.obstacles.of(None), key=lambda obstacle: obstacle.severity)
         yield from (of_obstacle(self._context, obstacle) for obstacle in met[:1])
 
     def _blocked(self) -> list[int]:
-        """The folds that could come next but cannot be done."""
+        """Return the folds that could come next but cannot be done."""
         if self._impossible:
             return sorted(self._impossible)
         achieved = 0
@@ -80,19 +79,19 @@ class _Reasons:
 
     @staticmethod
     def _furthest(dones: Collection[int]) -> set[int]:
-        """Those sets of folds, of several, with the most folds in them."""
+        """Return those sets of folds with the most folds in them."""
         most = max((done.bit_count() for done in dones), default=0)
         return {done for done in dones if done.bit_count() == most}
 
     def _causes(self, fold: int) -> tuple[Reason, ...]:
-        """Why a fold could not be done when the most others were."""
+        """Return why a fold could not be done when the most others were."""
         could = {done for done in self._dones if fold in self._next(done)}
         met = self._context.obstacles.dones(fold)
         found = Causes(self._context, fold, self._furthest(could & met or met), self._places).reasons()
         return found or (self._nothing_known(fold),)
 
     def _nothing_known(self, fold: int) -> Reason:
-        """A fold of which only is known that it was not done."""
+        """Return the reason for a fold of which nothing is known but that it was not done."""
         label = self._context.sequence.folds[fold].label
         says = Message("not_with_the_others", f"{label}: can be done, but not together with the others")
         return Reason(fold, Code.WAITS_FOR_FOLD, says)

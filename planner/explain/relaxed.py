@@ -1,4 +1,4 @@
-"""A planning problem with some of what stands in its way removed, and what became of it when it was tried."""
+"""A planning problem with some obstacles removed, and the interface for trying it."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -17,11 +17,11 @@ class Relaxed:
     """A planning problem with some causes removed.
 
     Attributes:
-        problem: the problem as far as a request can be changed.
-        change: the fields of the request that changed; None where it takes what no request can ask for.
+        problem: the problem, with all changes that a request can express.
+        change: the fields of the request that changed; None where no request can express the change.
         has_long_arms: whether every place is in reach.
-        more_hands: how many hands there are beyond the robot's; all reach every place then.
-        may_collide: whether the arms may go through anything.
+        more_hands: the number of hands beyond the robot's; with any, all hands reach every place.
+        may_collide: whether the arms may pass through anything.
     """
 
     problem: Problem
@@ -32,53 +32,53 @@ class Relaxed:
 
     @staticmethod
     def of(problem: Problem) -> "Relaxed":
-        """A problem as it is."""
+        """Return a problem as it is."""
         return Relaxed(problem, {})
 
     @property
     def context(self) -> Context:
-        """The problem's work."""
+        """The planning context."""
         return self.problem.context
 
     @property
     def searched(self) -> Problem:
-        """The problem to be searched; nothing is worked out yet."""
+        """The problem to search, with nothing computed yet."""
         return self.problem.with_long_arms(self.more_hands) if self.has_long_arms else self.problem.varied()
 
     def with_garment(self, garment: Garment) -> "Relaxed":
-        """Another garment; raises `FoldError` if a fold of it is not legal."""
+        """Replace the garment; raise `FoldError` if a fold of it is not legal."""
         return self._varied(self.problem.varied(garment=garment), {"garment": garment.to_dict()})
 
     def with_scene(self, scene: Scene) -> "Relaxed":
-        """Another scene; raises `SceneError` if the robot cannot be as it says."""
+        """Replace the scene; raise `SceneError` if the robot cannot be as it says."""
         return self._varied(self.problem.varied(scene=scene), {"scene": scene.to_dict()})
 
     def with_placement(self, placement: Pose2) -> "Relaxed":
-        """The article elsewhere on the table."""
+        """Place the article elsewhere on the table."""
         return self._varied(self.problem.varied(placement=placement), {"placement": placement.to_dict()})
 
     def with_comfort(self, comfort_m: float) -> "Relaxed":
-        """Another comfort radius (m)."""
+        """Replace the comfort radius (m)."""
         return self._varied(self.problem.varied(comfort_m=comfort_m), {"comfort_radius_m": comfort_m})
 
     def with_reach_behind(self, behind_m: float) -> "Relaxed":
-        """What reaches so far behind a line's extension can be carried all the same (m)."""
+        """Allow carrying cloth that reaches this far behind a line's extension (m)."""
         return replace(self, problem=self.problem.varied(behind_max_m=behind_m), change=None)
 
     def with_long_arms(self) -> "Relaxed":
-        """Every place in reach; then arms that are no robot's collide with nothing."""
+        """Put every place in reach; since such arms belong to no robot, collisions are ignored."""
         return replace(self, change=None, has_long_arms=True, may_collide=True)
 
     def with_more_hands(self, number: int) -> "Relaxed":
-        """So many hands more; they are no robot's, so all reach every place."""
+        """Add hands; since they belong to no robot, all hands reach every place."""
         return replace(self.with_long_arms(), more_hands=number)
 
     def with_grips_nearer(self, apart_m: float) -> "Relaxed":
-        """Hands that may be as near to each other as this (m)."""
+        """Allow hands to be as near to each other as this (m)."""
         return replace(self, problem=self.problem.varied(grips_apart_m=apart_m), change=None)
 
     def with_collisions_ignored(self) -> "Relaxed":
-        """Arms that may go through anything."""
+        """Let the arms pass through anything."""
         return replace(self, change=None, may_collide=True)
 
     def _varied(self, problem: Problem, fields: Mapping[str, Any]) -> "Relaxed":
@@ -86,4 +86,4 @@ class Relaxed:
 
 
 Ask = Callable[[Relaxed, int], Trial]
-"""Asked whether some folds, a bit mask, can be done."""
+"""Tries whether some folds of a relaxed problem, a bit mask, can be done."""

@@ -1,4 +1,4 @@
-"""A suggestion: a change to what was asked, and the plan that the change makes possible."""
+"""A suggestion: a change to the request, and the plan that the change makes possible."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,11 +17,11 @@ class Suggestion:
 
     Attributes:
         kind: "placement", "fold_line", "order", "station", "friction", "grip_radius" or "comfort_radius".
-        says: what to do, with the numbers; directions as the robot at the near edge of the table sees them.
-        change: fields to put into the plan request in place of its own.
-        size: how big the change is, for comparing within its kind: m, a count, or a coefficient.
+        says: what to do, with the numbers; directions as seen by the robot at the near edge of the table.
+        change: fields that replace those of the plan request.
+        size: the size of the change, for comparing within its kind: m, a count, or a coefficient.
         plan: the plan that proves it.
-        cost_s: what that plan costs (s).
+        cost_s: the cost of that plan (s).
     """
 
     kind: str
@@ -33,7 +33,7 @@ class Suggestion:
 
     @property
     def message(self) -> str:
-        """What to do, and what the plan then costs."""
+        """What to do, and the cost of the plan then."""
         return f"{self.says.text}: {self.cost_s:.1f} s"
 
     @property
@@ -42,7 +42,7 @@ class Suggestion:
         return self.kind in ASSUMPTIONS
 
     def to_dict(self) -> dict[str, Any]:
-        """The suggestion as JSON, without its plan."""
+        """Return the suggestion as JSON, without its plan."""
         return {
             "kind": self.kind,
             "is_assumption": self.is_assumption,

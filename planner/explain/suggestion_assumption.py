@@ -1,8 +1,8 @@
-"""What would have to be true of the world for there to be a plan: friction, grip radius, comfort.
+"""Suggest what would have to be true of the world for a plan to exist: friction, grip radius, comfort radius.
 
-Each is told in sensible steps, the least that gives a plan, which is tried as it is told. What the reasons found is
-tried first. Else the furthest is: friction and comfort only ever allow more the further they go, so if even that gives
-no plan, nothing less does, and if it does, the least is found by halving.
+Each is suggested in sensible steps: the least step that gives a plan, tried as it is told. The values that the reasons
+found are tried first, otherwise the furthest value. Friction and comfort radius only ever allow more the further they
+go. So if the furthest gives no plan, nothing less does; if it does, the least is found by bisection.
 """
 
 import math
@@ -18,17 +18,17 @@ from planner.task.reason import Reason
 from planner.task.task import Task
 
 FRICTION_STEPS, FRICTION_MAX = 100, 10.0
-"""How many steps there are in a friction coefficient of 1, and the largest that is tried."""
+"""Steps in a friction coefficient of 1, and the largest coefficient that is tried."""
 
 GRIP_RADIUS_STEPS_PER_M, GRIP_RADIUS_MAX_M = 1000, 0.5
-"""How many steps there are in a metre, and the largest grip radius that is tried (m)."""
+"""Steps in a metre, and the largest grip radius that is tried (m)."""
 
 COMFORT_STEP_M = 0.001
-"""From one comfort radius to the next (m)."""
+"""Step between comfort radii (m)."""
 
 
 def comforts(task: Task) -> Search:
-    """Look for the largest comfort radius below the one task for that gives a plan."""
+    """Look for the largest comfort radius below the requested one that gives a plan."""
     now = task.limits.comfort_radius_m
     steps = math.ceil(now / COMFORT_STEP_M - LENGTH_M)
     return _least(lambda step: _comfort(task, max(round(now - step * COMFORT_STEP_M, 6), 0.0)), 0, steps)
@@ -53,17 +53,17 @@ def grip_radii(task: Task, folds: Sequence[int], reasons: Sequence[Reason]) -> S
 
 
 def _step_above(steps: float) -> int:
-    """The first whole step that is no less."""
+    """Round up to a whole step."""
     return math.ceil(steps - LENGTH_M)
 
 
 def _step_below(steps: float) -> int:
-    """The last whole step that is no more."""
+    """Round down to a whole step."""
     return math.floor(steps + LENGTH_M)
 
 
 def _least(trial_at: Callable[[int], Trial], fails: int, most: int, first: Sequence[int] = ()) -> Search:
-    """The trial of the fewest steps that works, of those beyond some that fail; some are tried first, then the most."""
+    """Look for the fewest steps that work, beyond some that fail; try some steps first, then the most."""
     best: Proof | None = None
     works, is_known = most + 1, False
     for step in sorted({step for step in (*first, most) if fails < step <= most}):

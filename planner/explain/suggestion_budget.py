@@ -1,4 +1,4 @@
-"""The work that a search for suggestions may do, and how much of it one trial may take."""
+"""Limit the work of a search for suggestions, and of each of its trials."""
 
 from planner.explain.explanation import FirstExplanation
 from planner.planning.budget import Budget
@@ -8,11 +8,11 @@ from planner.task.plan import Plan
 from planner.task.task import Task
 
 SHORTEST_TRIAL_S = 1.0
-"""Less work would cut off most plans just before they are found (s, see `Budget`)."""
+"""Least work of a trial (s, see `Budget`); less would cut off most plans just before they are found."""
 
 _TRIALS_LEFT = 6
 _SETTING_UP_S = 0.01
-"""What it takes to put a request, of which nothing is counted: the folds are replayed (s)."""
+"""Work counted for preparing a request, which replays the folds (s); the planner counts none of it."""
 
 
 class TrialBudget:
@@ -23,28 +23,28 @@ class TrialBudget:
     """
 
     def __init__(self, whole: Budget) -> None:
-        """Begins with nothing spent of the whole."""
+        """Begin with nothing spent of the whole."""
         self._whole = whole
         self.spent_s = 0.0
 
     @property
     def is_late(self) -> bool:
-        """Whether the time is up, whatever work is left, or somebody wants no more."""
+        """Whether the time is up, whatever work is left, or the search was told to stop."""
         return self._whole.is_late
 
     @property
     def is_stopped(self) -> bool:
-        """Whether somebody wants no more."""
+        """Whether the search was told to stop."""
         return self._whole.should_stop()
 
     def has_spent(self, share: float) -> bool:
-        """Whether this share of the work has been done, or there is no more time."""
+        """Return whether this share of the work has been done, or the time is up."""
         return self.spent_s >= share * self._whole.work_limit_s or self.is_late
 
     def plan(self, task: Task, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
-        """Plan a task with so much work, or what is left if that is less; else with a fraction of what is left.
+        """Plan a task with limited work (s), by default a fraction of what is left, and never more than is left.
 
-        Only where reasons are asked for more ways are tried before there is said to be no plan.
+        Only where reasons are wanted are more ways tried before the answer is that there is no plan.
         """
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s

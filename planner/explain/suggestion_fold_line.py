@@ -1,4 +1,4 @@
-"""Suggesting to shift the line of a fold that cannot be done, across its own direction, as little as possible."""
+"""Suggest to shift the line of a fold that cannot be done, across its own direction, as little as possible."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -24,7 +24,7 @@ _DECIMALS = 5
 
 
 def fold_lines(task: Task, folds: Sequence[int]) -> Search:
-    """Look for the smallest shift of some folds, each alone and then all, to the side where less cloth moves first."""
+    """Look for the smallest shift of some folds, each alone and then all, first to the side where less cloth moves."""
     each = [_Shift(task, (fold,), sign) for fold in folds for sign in (1, -1)]
     sides = each + ([_Shift(task, tuple(folds), sign) for sign in (1, -1)] if len(folds) > 1 else [])
     for before_m, shift_m in zip((0.0, *STEPS_M), STEPS_M, strict=False):
@@ -50,7 +50,7 @@ class _Shift:
     sign: int
 
     def shifted(self, by_m: float) -> Trial | None:
-        """The trial of a shift of all their lines by as much; None where it is not legal."""
+        """Return the trial of shifting all their lines by a distance (m); None where it is not legal."""
         garment: Garment | None = self.task.garment
         says = []
         for fold in self.folds:
@@ -72,7 +72,7 @@ class _Shift:
         return Segment((x0 + dx, y0 + dy), (x1 + dx, y1 + dy))
 
     def _said(self, fold: int, by_m: float) -> Message:
-        """What is to be done to one of them."""
+        """Return the message that says how to shift one of the folds."""
         drawn, placement = self.task.garment.folds[fold], self.task.start.placement
         left = np.array(Segment(drawn.start, drawn.end).left)
         x, y = placement.to_outer(self.sign * left) - placement.to_outer(np.zeros(2))
@@ -81,10 +81,10 @@ class _Shift:
 
 
 def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:
-    """The garment with a fold along another line; None if that fold, or one after it, is then not legal.
+    """Return the garment with a fold along another line; None if that fold, or a later fold, is then not legal.
 
-    The folds after it keep their lines; where an end no longer meets the edge of the cloth it follows the edge along
-    the line.
+    Later folds keep their lines; where an end no longer meets the edge of the cloth it moves along the line to the
+    edge.
     """
     folds = garment.folds[:fold]
     try:
@@ -107,7 +107,10 @@ def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:
 
 
 def chord(silhouette: Region, line: Segment) -> Segment | None:
-    """The stretch of a whole line within a silhouette that has most in common with the segment given (m, rounded)."""
+    """Return the part of a line within a silhouette that overlaps most with the given segment (m, rounded).
+
+    The line extends beyond the segment.
+    """
     whole = Segment(line.at(-_FAR_M), line.at(line.length + _FAR_M))
     best, most_m = None, 0.0
     for ends in silhouette.overlaps_with(whole):

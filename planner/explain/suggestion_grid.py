@@ -1,4 +1,4 @@
-"""Where on the table a garment could be laid: a grid of placements, the garment wholly on the table."""
+"""Find where a garment can lie wholly on the table: a grid of placements."""
 
 import math
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ class Room:
 
     Attributes:
         low: the smallest move along x and y of the table frame (m).
-        high: the largest (m).
+        high: the largest move (m).
     """
 
     low: Point2
@@ -26,7 +26,7 @@ class Room:
 
     @staticmethod
     def of(garment: Garment, placement: Pose2, table: Table) -> "Room":
-        """The room round a garment with this placement."""
+        """Return the room around a garment with this placement."""
         points = placement.to_outer(np.array(garment.outline))
         (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
         x, y = table.depth_m / 2, table.width_m / 2
@@ -38,25 +38,25 @@ class Room:
         return any(high < low - LENGTH_M for low, high in zip(self.low, self.high, strict=True))
 
     def holds(self, dx_m: float, dy_m: float) -> bool:
-        """Whether the garment lies wholly on the table after this move."""
+        """Return whether the garment lies wholly on the table after this move."""
         moves = zip(self.low, (dx_m, dy_m), self.high, strict=True)
         return all(low - LENGTH_M <= by <= high + LENGTH_M for low, by, high in moves)
 
     @property
     def nearest(self) -> Point2:
-        """The smallest move that brings it wholly onto the table; (0, 0) if it lies there."""
+        """The smallest move that brings it wholly onto the table; (0, 0) if it already lies there."""
         x, y = (min(max(0.0, low), high) for low, high in zip(self.low, self.high, strict=True))
         return (x, y)
 
     def moves(self, step_m: float) -> Iterator[tuple[int, int]]:
-        """All moves by whole steps along x and y that the room holds, as numbers of steps."""
+        """Yield all moves by whole steps along x and y that the room holds, as numbers of steps."""
         if not self.is_none:
             columns, rows = (_steps(low, high, step_m) for low, high in zip(self.low, self.high, strict=True))
             yield from ((i, j) for i in columns for j in rows)
 
 
 def turned_in_place(garment: Garment, placement: Pose2, quarters: int) -> Pose2:
-    """The placement turned by quarter turns, the middle of the outline's bounding box staying where it is."""
+    """Turn a placement by quarter turns, keeping the middle of the outline's bounding box in place."""
     outline = np.array(garment.outline)
     middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
     turned = Pose2(placement.x_m, placement.y_m, placement.yaw_rad + quarters * math.pi / 2)

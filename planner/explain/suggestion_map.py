@@ -1,4 +1,4 @@
-"""What the plan costs wherever the garment could be laid: a map of the table."""
+"""Map the cost of the plan over all places on the table where the garment can lie."""
 
 from collections import deque
 from collections.abc import Callable
@@ -17,7 +17,7 @@ STEP_M = (0.02, 1.0)
 """The finest and the coarsest map (m)."""
 
 _FIRST_TRY_S, _MORE = 1.0, 4.0
-"""The work of a first try at a place (s, see `Budget`), and how many times as much the next may take."""
+"""The work of a first try at a place (s, see `Budget`), and the factor to the work of the next try."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,25 +26,25 @@ class Cell:
 
     Attributes:
         placement: the article frame in the table frame.
-        cost_s: what the plan costs (s); None: there is none.
+        cost_s: the cost of the plan (s); None if there is none.
     """
 
     placement: Pose2
     cost_s: float | None
 
     def to_dict(self) -> dict[str, float | None]:
-        """The cell as JSON."""
+        """Return the cell as JSON."""
         return {"x_m": self.placement.x_m, "y_m": self.placement.y_m, "cost_s": self.cost_s}
 
 
 @dataclass(frozen=True, slots=True)
 class PlacementMap:
-    """A grid of placements, all with one heading, the garment wholly on the table.
+    """A grid of placements with one heading, the garment wholly on the table.
 
     Attributes:
         step_m: the distance of neighbours (m).
         cells: the placements whose answer is known, by x, then y.
-        is_complete: whether these are all.
+        is_complete: whether all placements of the grid are known.
     """
 
     step_m: float
@@ -58,7 +58,7 @@ class PlacementMap:
         return self.cells[min(solved)[1]] if solved else None
 
     def to_dict(self) -> dict[str, Any]:
-        """The map as JSON."""
+        """Return the map as JSON."""
         best = self.best
         return {
             "step_m": self.step_m,
@@ -72,13 +72,13 @@ def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], 
     """Plan a garment at every place of a grid; work left over is given to places that need more.
 
     Args:
-        task: what is to be planned; the grid goes through its placement, and all placements have its heading. Its
-            limits of time and work are the budget of the whole map, its limit in states that of each plan.
+        task: the task; the grid goes through its placement, and all placements have its heading. Its limits of time and
+            work are the budget of the whole map, its limit in states that of each plan.
         step_m: the distance of neighbours (m, 0.02..1).
-        should_stop: asked while planning; true ends the map where it is.
+        should_stop: polled while planning; the map ends with what is known when it returns true.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: an option is out of range.
     """
     if not STEP_M[0] <= step_m <= STEP_M[1]:
@@ -94,13 +94,13 @@ def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], 
 
 
 def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
-    """Every other place along both axes first, so that a map cut short still shows the whole table."""
+    """Return a sort key for coarse places first, so that a map cut short still shows the whole table."""
     i, j = move
     return (i % 2 + j % 2, i, j)
 
 
 def _planned(task: Task, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
-    """The cells known when the work is done; what needs more than a first try waits for the others."""
+    """Return the cells known when the work is done; places that need more than a first try wait for the others."""
     waiting = deque((pose, _FIRST_TRY_S) for pose in poses)
     cells = []
     while waiting and not budget.has_spent(1.0):

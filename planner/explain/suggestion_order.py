@@ -1,7 +1,7 @@
-"""Suggesting another order of the same folds.
+"""Suggest another order of the same folds.
 
-The planner already tries every order that the Fold-DAG allows; they all give the same stack. So what is worth trying
-are orders that give another DAG, other layers, and yet the same outline in the end.
+The planner already tries every order that the Fold-DAG allows; they all give the same stack. So only orders are worth
+trying that give another DAG, hence other layers, and still the same outline in the end.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,7 +17,7 @@ from planner.message import Message
 from planner.task.task import Task
 
 SWAPS_MAX = 3
-"""Orders further than so many swaps of neighbours from the user's are not tried."""
+"""Swaps of neighbours between the user's order and an order that is tried, at most."""
 
 ORDERS_MAX = 60
 
@@ -26,11 +26,11 @@ Chain = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class _Order:
-    """An order of a garment's folds, the chains of red folds whole.
+    """An order of a garment's folds, in which chains of red folds stay whole.
 
     Attributes:
         chains: the folds, numbered as the user drew them.
-        swaps: how many neighbours were swapped to come here.
+        swaps: the number of swaps of neighbours from the user's order.
     """
 
     chains: tuple[Chain, ...]
@@ -62,7 +62,7 @@ def orders(task: Task) -> Search:
 
 
 def _other_orders(garment: Garment) -> Iterator[tuple[_Order, Garment]]:
-    """Legal orders with the same outline in the end, one for each other DAG."""
+    """Yield legal orders with the same outline in the end, one for each other DAG."""
     sequence = FoldSequence.of(garment)
     wanted = sequence.final.silhouette
     seen_dags = {frozenset(sequence.dag.edges)}
@@ -78,7 +78,7 @@ def _other_orders(garment: Garment) -> Iterator[tuple[_Order, Garment]]:
 
 
 def _by_swaps(chains: Sequence[Chain]) -> Iterator[_Order]:
-    """Orders by the number of swaps, the user's own left out."""
+    """Yield orders by the number of swaps, without the user's own."""
     front = [_Order(tuple(chains), 0)]
     seen = {front[0].chains}
     while front and len(seen) <= ORDERS_MAX:

@@ -1,4 +1,4 @@
-"""Suggesting another place on the table, nearest first, also turned; and in the end the best place seen."""
+"""Suggest another place on the table, the nearest first, also turned, and finally the best place seen."""
 
 import math
 from collections.abc import Iterator
@@ -12,18 +12,18 @@ from planner.message import Message
 from planner.task.task import Task
 
 STEP_M = 0.1
-"""The grid of placements; every other one is looked at first."""
+"""Step of the grid of placements (m); every other place is tried first."""
 
 NARROWED_TO_M = 0.05
 TURN_AS_M = 0.3
-"""To turn the garment is as much as to move it so far."""
+"""Length of a move that counts as much as turning the garment (m)."""
 
 _TURNS = {0: "", 1: "by 90 degrees to the left", 2: "by 180 degrees", 3: "by 90 degrees to the right"}
 
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """A place for the garment: turned by so many quarters, then moved (m)."""
+    """A place for the garment: turned by quarters, then moved (m)."""
 
     quarters: int
     dx_m: float
@@ -51,7 +51,7 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
 
     Args:
         task: the task.
-        known_cost_s: what its plan costs (s); then only a better place is told. None: it has none.
+        known_cost_s: the cost of its plan (s), which a suggestion must then beat; None if it has no plan.
     """
     to_beat, best = known_cost_s, None
     for place in _places(task):
@@ -71,7 +71,7 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
 
 
 def _nearer(task: Task, place: _Place, proof: Proof) -> Narrowing:
-    """The nearest place in the same direction that works."""
+    """Look for the nearest place in the same direction that works."""
     far_m = place.distance_m
     room = _room(task, place.quarters)
 
@@ -90,7 +90,7 @@ def _trial(task: Task, place: _Place) -> Trial:
 
 
 def _places(task: Task) -> list[_Place]:
-    """All places but the one where it lies: on the coarse grid first, and there the nearest."""
+    """Return all places except where the garment lies: the coarse grid first, nearest first."""
     found = [(is_coarse, place) for quarters in _TURNS for is_coarse, place in _turned_places(task, quarters)]
     found.sort(key=lambda one: (not one[0], one[1].size, one[1].dx_m, one[1].dy_m))
     return [place for _, place in found if place.size > NARROWED_TO_M / 2]

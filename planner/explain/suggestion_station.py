@@ -1,4 +1,4 @@
-"""Suggesting one more place where the robot may stand: the far side, the middles of the sides, mirror images."""
+"""Suggest one more place where the robot may stand: the far side, the middles of the sides, mirror images."""
 
 import math
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from planner.task.scene import STATIONS_MAX, Scene
 from planner.task.task import Task
 
 STAND_OFF_M = 0.15
-"""How far outside the table's edge the base's centre stands."""
+"""Distance of the base's centre outside the table's edge (m)."""
 
 _SAME_M = 0.05
 _SAME_RAD = 0.1
@@ -45,7 +45,7 @@ def _in_words(name: str, pose: Pose2) -> str:
 
 
 def _others(scene: Scene) -> Iterator[tuple[str, Pose2]]:
-    """Stations that the scene has not, each under a name of its own."""
+    """Yield stations that the scene does not have, each under a name of its own."""
     taken = dict(scene.stations)
     room = STATIONS_MAX - len(taken)
     poses: list[Pose2] = list(taken.values())
@@ -66,7 +66,7 @@ def _on_the_sides(scene: Scene) -> Iterator[tuple[str, Pose2]]:
 
 
 def _mirrored(scene: Scene) -> Iterator[tuple[str, Pose2]]:
-    """Every station on the other side of the table's axes."""
+    """Yield every station mirrored to the other side of the table's axes."""
     for name, pose in scene.stations:
         yield f"{name}_mirrored", Pose2(pose.x_m, -pose.y_m, -pose.yaw_rad)
         yield f"{name}_opposite", Pose2(-pose.x_m, pose.y_m, math.pi - pose.yaw_rad)

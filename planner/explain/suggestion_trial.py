@@ -1,8 +1,8 @@
-"""What one kind of suggestion asks to have tried, and what it says of the outcome.
+"""The protocol between a kind of suggestion and whoever plans its trials.
 
 Each kind is a generator, its *search*: it yields trials, is sent the plan of each, and yields a suggestion when it has
-found one. So a search reads as if it had all the time in the world, while somebody else shares out the time among
-the kinds. Sent None instead of a plan, there is no more time: it may tell what it still has, and returns.
+found one. So a search is written as if it had unlimited time, while the caller shares out the time among the kinds.
+When time is up, the caller sends None instead of a plan: the search may yield what it still has, and returns.
 """
 
 from collections.abc import Callable, Generator, Mapping
@@ -15,7 +15,7 @@ from planner.task.plan import Plan
 from planner.task.task import Task
 
 WORTH_TELLING_S = 1.0
-"""A second suggestion of a kind, or one where there is a plan already, saves at least this much (s)."""
+"""Least saving of a second suggestion of a kind, or of a suggestion where there is a plan already (s)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Trial:
         kind: the kind of suggestion that it would be.
         says: what to do.
         change: the fields of the request that change.
-        size: how big the change is.
+        size: the size of the change.
         task: the task with the change.
     """
 
@@ -38,7 +38,7 @@ class Trial:
 
 
 class Proof(NamedTuple):
-    """A trial that succeeded, its plan, and what that costs (s)."""
+    """A trial that succeeded, its plan, and the cost of that plan (s)."""
 
     trial: Trial
     plan: Plan
@@ -46,7 +46,7 @@ class Proof(NamedTuple):
 
     @staticmethod
     def of(trial: Trial, plan: Plan | None) -> "Proof | None":
-        """The trial as a proof, if its plan is solved."""
+        """Return the trial as a proof, if its plan is solved."""
         return None if plan is None or plan.cost_s is None else Proof(trial, plan, plan.cost_s)
 
     @property
@@ -55,7 +55,7 @@ class Proof(NamedTuple):
         return Suggestion(self.trial.kind, self.trial.says, self.trial.change, self.trial.size, self.plan, self.cost_s)
 
     def is_worth_more_than(self, cost_s: float) -> bool:
-        """Whether it is so much cheaper that it should be told as well."""
+        """Return whether it is so much cheaper that it should be suggested as well."""
         return self.cost_s < cost_s - WORTH_TELLING_S
 
 
@@ -66,14 +66,14 @@ Narrowing: TypeAlias = Generator[Trial | Suggestion, Plan | None, Proof]
 def narrowed(
     trial_at: Callable[[float], Trial | None], fails_at: float, works_at: float, proof: Proof, step: float
 ) -> Narrowing:
-    """Tell a change that works; then look for a smaller one, halving between it and one that fails, and tell that.
+    """Suggest a change that works; then look for a smaller one by bisection, and suggest that.
 
     Args:
-        trial_at: the trial of a change of some amount; None where there is none, which counts as failing.
+        trial_at: makes the trial of a change by some amount; None where there is none, which counts as failing.
         fails_at: an amount that does not work.
         works_at: an amount that does.
-        proof: that it does.
-        step: how exact the result is to be; amounts between are `fails_at` and whole multiples of it.
+        proof: the proof that it does.
+        step: the resolution of the result; amounts in between are `fails_at` plus whole multiples of it.
 
     Returns:
         The proof of the smallest amount that was seen to work.

@@ -1,8 +1,9 @@
-"""Where there is no plan: the smallest changes that give one, each planned to prove it.
+"""Suggest the smallest changes that give a plan where there is none, each proven by its plan.
 
-Every kind of change is a search of its own (see `suggestion_trial`). They take turns, one trial at a time: the next
-is whichever has done least work so far, so that none starves the others. What a person can change comes first, and
-assumptions about the world after it. A request that has a plan is only told of a better place on the table.
+Every kind of change is a search of its own (see `suggestion_trial`). The searches take turns, one trial at a time: the
+one that has done the least work comes next, so that none starves the others. Changes that a person can make come first,
+and assumptions about the world after them. For a request that has a plan, only a better place on the table is
+suggested.
 """
 
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -23,10 +24,10 @@ from planner.task.reason import Code
 from planner.task.task import Task
 
 TOLD_MAX = 3
-"""So many suggestions of one kind at most."""
+"""Suggestions of one kind at most."""
 
 Suggestions: TypeAlias = Generator[Suggestion, None, bool]
-"""Suggestions as they are found, and whether all changes were tried before the budget was spent."""
+"""Suggestions as they are found; returns whether all changes were tried before the budget was spent."""
 
 _FIRST_PLAN_SHARE = 0.5
 _CHANGES_SHARE = 0.6
@@ -39,18 +40,18 @@ def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, pl
     The task is planned before this returns, so that bad input raises here and not while iterating.
 
     Args:
-        task: what is to be planned; its limits of time and work are the budget of the whole search, its limit in
-            states that of each plan.
-        should_stop: asked while searching; true ends the suggestions.
+        task: the task; its limits of time and work are the budget of the whole search, its limit in states that of each
+            plan.
+        should_stop: polled while searching; true ends the suggestions.
         plan: the answer to the task, where it is known.
 
     Returns:
-        The suggestions as they are found, at most `TOLD_MAX` of a kind; in the end whether every change that could
-        have been tried was, before the budget was spent.
+        The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
+        possible change was tried before the budget was spent.
 
     Raises:
-        FoldError: a fold is not legal on the cloth as it is then.
-        RequestError: the task's start is none that its folds allow, or there is no such robot.
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
+        RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels()
     whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
@@ -60,7 +61,7 @@ def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, pl
 
 
 def _searched(task: Task, known: Plan, budget: TrialBudget) -> Suggestions:
-    """Let every kind of change have its turns, and in the end its last word."""
+    """Give every kind of change its turns, and in the end its last word."""
     if known.is_solved:
         changes, assumptions = [_Lane(placements(task, known.cost_s))], []
     else:
@@ -78,7 +79,7 @@ def _searched(task: Task, known: Plan, budget: TrialBudget) -> Suggestions:
 
 
 def _blocking(plan: Plan) -> tuple[int, ...]:
-    """The folds to blame, a few at most; those that merely wait for others only if there is nobody else."""
+    """Return the folds to blame, a few at most; those that only wait for others count only if there are no others."""
     about = [reason for reason in plan.reasons if reason.fold is not None]
     to_blame = [r for r in about if r.code is not Code.WAITS_FOR_FOLD] or about
     folds = {r.fold: None for r in to_blame if r.fold is not None} or range(len(plan.garment.folds))
@@ -90,7 +91,7 @@ def _lanes(*searches: Search) -> list["_Lane"]:
 
 
 def _by_turns(lanes: Sequence["_Lane"], budget: TrialBudget, share: float) -> Iterator[Suggestion]:
-    """Let the lane that has done least work go on, until this share of the budget is gone."""
+    """Continue the lane that has done the least work, until this share of the budget is spent."""
     while not budget.has_spent(share):
         running = [lane for lane in lanes if not lane.is_done]
         if not running:
@@ -99,7 +100,7 @@ def _by_turns(lanes: Sequence["_Lane"], budget: TrialBudget, share: float) -> It
 
 
 class _Lane:
-    """One kind's search, and what it has used.
+    """The search of one kind of change, and its work.
 
     Attributes:
         spent_s: the work that it has done (s).
@@ -114,7 +115,7 @@ class _Lane:
         self._told = 0
 
     def go_on(self, budget: TrialBudget) -> Iterator[Suggestion]:
-        """Have the next trial planned, and tell what it was good for."""
+        """Plan the next trial, and yield the suggestions that result."""
         begun_s = budget.spent_s
         found = [] if self._trial is not None else list(self._told_of(None))
         if self._trial is not None and not self.is_done:
@@ -123,12 +124,12 @@ class _Lane:
         yield from found
 
     def last_words(self) -> Iterator[Suggestion]:
-        """What it can still tell when there is no time for trials."""
+        """Yield the suggestions left when there is no time for trials."""
         while self._trial is not None and not self.is_done:
             yield from self._told_of(None)
 
     def _told_of(self, plan: Plan | None) -> Iterator[Suggestion]:
-        """Answer the search; what it tells before it wants its next trial."""
+        """Send a plan to the search, and yield its suggestions until it asks for its next trial."""
         while not self.is_done:
             try:
                 wish = self._search.send(plan)

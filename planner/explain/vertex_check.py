@@ -1,4 +1,4 @@
-"""Why a corner of the part that a fold moves must be held, or need not be (paper, Theorem 1).
+"""Check why a corner of the part that a fold moves must be held, or need not be (paper, Theorem 1).
 
 While it is folded the part stands over the fold line, held by the hands: "above" a corner is what lies further from the
 line. A corner must be held unless it is on the line, or is no corner of the convex hull, or has cloth above it.
@@ -28,10 +28,10 @@ class Support(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class VertexCheck:
-    """One corner of the part that a fold moves.
+    """A corner of the part that a fold moves.
 
     Attributes:
-        point: where it is before the fold, article frame (m).
+        point: its position before the fold, article frame (m).
         support: what holds it.
     """
 
@@ -45,12 +45,12 @@ class VertexCheck:
 
 
 def vertex_checks(part: Region, line: Segment, support_angle_rad: float) -> tuple[VertexCheck, ...]:
-    """Every corner of the part that moves, counter-clockwise.
+    """Return the check of every corner of the part that moves, counter-clockwise.
 
     Args:
         part: the silhouette of the part, article frame.
         line: the fold line; the part is to its left.
-        support_angle_rad: cloth within this angle of straight above counts as above (rad).
+        support_angle_rad: the angle from straight above within which cloth counts as above (rad).
     """
     free = _keys(must_hold(part, line.left, (line,), support_angle_rad))
     not_straight = _keys(must_hold(part, line.left, (), 0.0))
