@@ -1,8 +1,8 @@
-"""The document: the one object that owns what can change. It knows neither viser nor FastAPI.
+"""The document: the one object that owns the mutable state. It knows neither viser nor FastAPI.
 
-REST, page and stage are skins over it: they call its methods, and are told when it has changed. Its state is a value
-that is swapped under a lock, so a reader takes one and never sees half a change. A change of the drawing is on the disk
-before anybody sees it.
+REST, page and stage are thin layers over it: they call its methods and are notified of changes. Its state is an
+immutable value that is swapped under a lock, so that a reader never sees half a change. A change of the drawing is on
+the disk before anyone sees it.
 """
 
 import threading
@@ -45,16 +45,16 @@ class Document:
         clock: Callable[[], float] = time.monotonic,
         courtesy: Courtesy | None = None,
     ) -> None:
-        """A document that wants a plan.
+        """Start with a drawing that has no plan yet.
 
         Args:
-            draft: what is drawn, and how it came about.
-            version: the version to begin with.
-            keep: puts a draft onto the disk under the version that it is to have; called before anybody sees it. What
-                it raises stops the change.
+            draft: the drawing and its history.
+            version: the first version number.
+            keep: saves a draft under its new version; called before anyone sees the change. An exception from it
+            cancels
+                the change.
             clock: the wall clock (s).
-            courtesy: has searches wait while the drawing is changed: whoever changes it sees that at once, a plan comes
-                later anyway.
+            courtesy: makes searches wait while the drawing changes, since people see a change at once but a plan later.
         """
         self._clock = clock
         self._keep = keep
@@ -67,16 +67,16 @@ class Document:
 
     @property
     def state(self) -> DocumentState:
-        """The document now."""
+        """The current state."""
         return self._state
 
     @property
     def t_s(self) -> float:
-        """The time in the plan now (s)."""
+        """The current time in the plan (s)."""
         return self._state.playback.at(self._clock())
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
-        """Have a function called after every change, by whatever thread made it; returns the way out."""
+        """Call a function after every change, in the thread that made it; return the function that unsubscribes it."""
         with self._lock:
             self._listeners.append(listener)
 
@@ -87,40 +87,40 @@ class Document:
         return unsubscribe
 
     def edit(self, edit: Edit) -> DocumentState:
-        """Change the drawing; returns the state that this led to.
+        """Change the drawing; return the new state.
 
         Raises:
-            StaleVersionError: the change was made to another version than the current one.
+            StaleVersionError: the change is based on a version that is no longer current.
             EndedDocumentError: the document has been closed.
         """
         return self._redraw(lambda draft: draft.edited(edit, self._clock()), edit.base_version)
 
     def undo(self, base_version: int | None = None) -> DocumentState:
-        """Take the last step back, a gesture that is going on as a whole; raises `StaleVersionError`."""
+        """Undo the last step, or a gesture in progress as a whole; raise `StaleVersionError`."""
         return self._redraw(Draft.undone, base_version)
 
     def redo(self, base_version: int | None = None) -> DocumentState:
-        """Take the step again that was undone last; raises `StaleVersionError`."""
+        """Redo the step undone last; raise `StaleVersionError`."""
         return self._redraw(Draft.redone, base_version)
 
     def end(self, remove: Callable[[], None] = lambda: None) -> None:
-        """Refuse all further changes of the drawing: nobody would see them.
+        """Refuse all further changes of the drawing.
 
         Args:
-            remove: called first, while nothing changes; what it raises lets the document go on.
+            remove: called first, while nothing can change; if it raises, the document stays usable.
         """
         with self._edits:
             remove()
             self._has_ended = True
 
     def settle(self, version: int, task: Task, plan: Plan, plan_id: str, *, is_final: bool = True) -> None:
-        """Put in an answer to a task that was asked at a version, and play it; one that comes too late is dropped."""
+        """Store the plan for a task given at a version, and play it; drop it if it is late."""
 
         def change(state: DocumentState) -> DocumentState:
             belongs_to = state.version if state.task == task else version
             is_late = state.answer is not None and belongs_to < state.answer.version
             is_from_elsewhere = version == state.version and state.task not in (None, task)
-            if is_late or is_from_elsewhere:  # meanwhile another start of the same drawing was asked for
+            if is_late or is_from_elsewhere:  # another start was chosen for the same drawing meanwhile
                 return state
             answer = Answer(belongs_to, task, plan, plan_id, is_final)
             answered = state.answered(answer)
@@ -129,7 +129,7 @@ class Document:
         self._change(change)
 
     def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
-        """Put in what the folds of a drawing need; for another drawing it is dropped."""
+        """Store the grips that the folds of a drawing need; ignore them if the drawing has changed."""
 
         def change(state: DocumentState) -> DocumentState:
             return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
@@ -137,11 +137,11 @@ class Document:
         self._change(change)
 
     def fail(self, version: int, failure: str) -> None:
-        """Put in that a version has no answer at all."""
+        """Store why a version has no answer."""
         self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def stop_planning(self) -> None:
-        """Do without an answer to this version, or without a better one, if that is still being worked out."""
+        """Stop waiting for an answer to this version, or for a better one."""
 
         def change(state: DocumentState) -> DocumentState:
             if state.is_planning:
@@ -153,14 +153,14 @@ class Document:
         self._change(change)
 
     def plan_again(self) -> None:
-        """Want an answer to a version that has none because planning was stopped or has failed."""
+        """Request an answer to a version for which planning was stopped or failed."""
         self._change(lambda state: replace(state, failure=None) if state.failure else state)
 
     def plan_from(self, step: int) -> None:
-        """Plan what is left after a step of the plan shown, counted from 0; -1 is before the first.
+        """Plan the rest after a step of the plan shown, counted from 0; -1 is before the first.
 
         Raises:
-            RequestError: there is no plan for the drawing as it is, or it has no such step.
+            RequestError: there is no plan for the current drawing, or it has no such step.
         """
 
         def change(state: DocumentState) -> DocumentState:
@@ -175,11 +175,11 @@ class Document:
         self._change(change)
 
     def plan_from_start(self) -> None:
-        """Plan from before all folds again, as drawn."""
+        """Plan all folds again, from the drawing's own start."""
         self._change(lambda state: state.started_at(None, self._clock()))
 
     def look_longer(self) -> None:
-        """Want more work done for this version's answer, where that may come to a better one."""
+        """Request more search for this version, if that may improve its answer."""
 
         def change(state: DocumentState) -> DocumentState:
             if state.answer is None or not state.may_look_longer:
@@ -190,11 +190,11 @@ class Document:
         self._change(change)
 
     def play(self) -> None:
-        """Let time run; without a solved plan nothing happens."""
+        """Start playing; without a solved plan, do nothing."""
         self._change_playback(lambda playback: playback.played(self._clock()))
 
     def pause(self) -> None:
-        """Stop time."""
+        """Stop playing."""
         self._change_playback(lambda playback: playback.paused(self._clock()))
 
     def seek(self, t_s: float) -> None:
@@ -202,15 +202,15 @@ class Document:
         self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
 
     def rewind(self) -> None:
-        """Stop time at the start."""
+        """Stop playing and go to the start."""
         self._change_playback(lambda playback: playback.paused(self._clock()).sought(self._clock(), 0.0))
 
     def set_speed(self, speed: float) -> None:
-        """Let time run faster or slower."""
+        """Set the playback's speed."""
         self._change_playback(lambda playback: playback.sped(self._clock(), speed))
 
     def set_theme(self, *, is_dark: bool) -> None:
-        """Show the document on a dark ground or on a light one."""
+        """Set whether the background is dark."""
         self._change(lambda state: replace(state, is_dark=is_dark))
 
     def stop_at_end(self) -> None:
@@ -220,7 +220,7 @@ class Document:
             self.pause()
 
     def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
-        """Change the draft; one change at a time, for only this makes new versions."""
+        """Change the draft; the lock `_edits` allows one change at a time, and only this method makes new versions."""
         with self._edits, self._courtesy.short_work():
             if self._has_ended:
                 raise EndedDocumentError

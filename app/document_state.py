@@ -1,4 +1,4 @@
-"""What a document is at one instant: a drawing and its history, the answer to it, the clock."""
+"""The state of a document at one instant: a drawing and its history, the answer to it, and the playback."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,14 +17,14 @@ from planner.task.world_state import WorldState
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """A plan, and what it answers.
+    """A plan, and the task that it answers.
 
     Attributes:
         version: the document's version that it belongs to.
-        task: what was asked, whatever may be spent on it.
+        task: the task.
         plan: the plan.
-        plan_id: the name under which it can be read.
-        is_final: whether nothing better is looked for any more.
+        plan_id: the id under which the plan can be read.
+        is_final: whether the search for a better plan has ended.
     """
 
     version: int
@@ -41,12 +41,12 @@ class Answer:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Film:
-    """What is played.
+    """The plan on show, with the trajectory's timeline.
 
     Attributes:
         version: the document's version that it belongs to.
         plan: the plan.
-        timeline: what robot and cloth do at every moment.
+        timeline: the samples of robot and cloth at every time.
     """
 
     version: int
@@ -56,12 +56,12 @@ class Film:
 
 @dataclass(frozen=True, slots=True)
 class HeldFold:
-    """What one fold needs.
+    """The vertices and grips of one fold.
 
     Attributes:
         must_hold: the vertices that must be held, article frame (m).
-        grips: the grips that hold them (m); empty when the arms do not suffice.
-        grips_needed: how many; None when more than there are arms.
+        grips: the grips that hold them (m); empty if there are too few arms.
+        grips_needed: the number of grips; None if there are too few arms.
     """
 
     must_hold: tuple[Point2, ...]
@@ -71,11 +71,11 @@ class HeldFold:
 
 @dataclass(frozen=True, slots=True)
 class Checks:
-    """What the folds need, fold by fold.
+    """The vertices and grips of the folds.
 
     Attributes:
         version: the document's version that they belong to.
-        folds: one for each legal fold.
+        folds: the entries, one for each legal fold.
     """
 
     version: int
@@ -87,18 +87,18 @@ class DocumentState:
     """A document at one instant.
 
     Attributes:
-        version: grows with every change of the draft.
-        draft: what is drawn, and how it came about.
+        version: increases with every change of the draft.
+        draft: the drawing and its history.
         answer: the latest answer; it may belong to an older version.
-        committed: the latest answer to a drawing that was committed.
-        before: the one before that to another task, for comparing.
-        film: what is played; it may belong to an older version.
-        checks: what the folds need.
-        start: the state of the world from which the folds are planned; None: from before all of them, as drawn.
-        failure: why the planner gave no answer at all to this version.
-        is_thorough: whether more work than usual is done for this version's answer, since somebody asked for that.
-        playback: the clock.
-        is_dark: whether it is shown on a dark ground; of several pages, the last one to say decides.
+        committed: the latest answer to a committed drawing.
+        before: the committed answer before that, to another task, for comparison.
+        film: the plan on show; it may belong to an older version.
+        checks: the grips that the folds need.
+        start: the world state from which to plan; None for the state before all folds, as drawn.
+        failure: why this version has no answer.
+        is_thorough: whether a user has requested more search than usual for this version.
+        playback: the playback.
+        is_dark: whether the background is dark; the last page to set it decides for all.
     """
 
     version: int
@@ -116,17 +116,17 @@ class DocumentState:
 
     @property
     def solution(self) -> Solution:
-        """The drawing, and what it comes to."""
+        """The drawing, solved."""
         return self.draft.solution
 
     @property
     def drawing(self) -> Drawing:
-        """What is drawn."""
+        """The drawing."""
         return self.draft.drawing
 
     @property
     def task(self) -> Task | None:
-        """What is to be planned; None while something is wrong with the drawing."""
+        """The task to plan; None while the drawing has problems."""
         garment, drawing = self.solution.garment, self.drawing
         if garment is None:
             return None
@@ -140,33 +140,33 @@ class DocumentState:
 
     @property
     def plan_on_show(self) -> Plan | None:
-        """The solved plan on show for this version, if a quicker one is being looked for."""
+        """The solved plan on show for this version while the search for a quicker one goes on, or None."""
         answer = self.answer
         is_shown = answer is not None and self.is_answered and not answer.is_final
         return answer.plan if answer is not None and is_shown and answer.plan.is_solved else None
 
     @property
     def may_look_longer(self) -> bool:
-        """Whether more work than was done for the answer may come to a better one."""
+        """Whether more search may improve this version's answer."""
         if self.is_thorough or self.answer is None or not self.is_answered or not self.answer.is_final:
             return False
         return self.answer.plan.statistics.is_cut_short
 
     @property
     def is_planning(self) -> bool:
-        """Whether the answer is still being worked out."""
+        """Whether the answer is still being searched for."""
         return not (self.is_answered or self.failure or self.solution.problems)
 
     def redrawn(self, draft: Draft, now_s: float) -> "DocumentState":
-        """The next version, at a time of the wall clock (s).
+        """Return the next version, at a wall-clock time (s).
 
-        An answer to the same question is an answer to it too; the plan of a garment of another name is none of it.
+        An answer stays valid if the task is the same. A garment of another name starts without answers.
         """
         version = self.version + 1
         after = replace(self, version=version, draft=draft, start=None, failure=None, is_thorough=False)
         if draft.drawing.name != self.drawing.name:
             after = replace(after, answer=None, committed=None, before=None)
-        elif self.start is not None:  # what is left of a plan is nothing to compare whole plans with
+        elif self.start is not None:  # whole plans cannot be compared with the rest of one
             after = replace(after, committed=None, before=None)
         answer, task = after.answer, after.task
         if task is None or answer is None:
@@ -181,7 +181,7 @@ class DocumentState:
         return after.answered(renewed) if after.film is not None else after.answered(renewed).filmed(renewed, now_s)
 
     def started_at(self, start: WorldState | None, now_s: float) -> "DocumentState":
-        """Planned from another state of the world on, None: as drawn, at a time of the wall clock (s)."""
+        """Return the state planned from another world state, None for the drawing's start, at a wall-clock time (s)."""
         if start == self.start:
             return self
         after = replace(self, start=start, answer=None, committed=None, before=None, film=None)
@@ -189,14 +189,14 @@ class DocumentState:
         return replace(after, playback=playback, failure=None, is_thorough=False)
 
     def filmed(self, answer: Answer, now_s: float) -> "DocumentState":
-        """With the answer's plan played, at a time of the wall clock (s); nothing is played where there is none."""
+        """Return the state that plays an answer's plan, at a wall-clock time (s), or nothing if it is not solved."""
         if not answer.plan.is_solved:
             return replace(self, film=None, playback=self.playback.lasting(now_s, 0.0))
         film = Film(answer.version, answer.plan, Timeline.of(answer.plan))
         return replace(self, film=film, playback=self.playback.lasting(now_s, film.timeline.duration_s))
 
     def answered(self, answer: Answer) -> "DocumentState":
-        """With an answer; that to a committed drawing is remembered, for comparing with the next."""
+        """Return the state with an answer; keep an answer to a committed drawing for comparison with the next."""
         after = replace(self, answer=answer)
         if self.draft.gesture is not None or answer.version != self.version:
             return after

@@ -1,4 +1,4 @@
-"""What must be held in each fold of a drawing, and where to grip; also in those that come before an illegal one."""
+"""Finds, for each fold of a drawing, the vertices to hold and the grips; also if a later fold is illegal."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from planner.cloth.must_hold import must_hold
 
 
 def held_folds(solution: Solution, arms: int) -> Iterator[HeldFold]:
-    """For each legal fold in the user's order what has to be held, by so many arms."""
+    """Yield, for each legal fold in the user's order, what a number of arms has to hold."""
     if solution.replay is None:
         return
     drawing = solution.drawing

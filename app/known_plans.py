@@ -1,4 +1,4 @@
-"""The ways of folding that a document's plans have taken lately: what may do for the next drawing."""
+"""Remembers the plans that a document had lately, since they may fit its next drawing."""
 
 from collections import OrderedDict
 from typing import TypeAlias
@@ -12,14 +12,17 @@ _Way: TypeAlias = tuple[tuple[object, ...], ...]
 
 
 class KnownPlans:
-    """The latest plan of each way, a way being what is done from which station in which order."""
+    """The latest plan for each sequence of primitives and stations."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Start empty."""
         self._plans: OrderedDict[_Way, FoundPlan] = OrderedDict()
 
     def add(self, found: FoundPlan) -> None:
-        """Remember a plan if it is solved, in place of the one before of its way; the way not met for longest goes."""
+        """Remember a solved plan in place of the previous one with its sequence.
+
+        Drop the sequence added least recently if there are too many.
+        """
         if not found.plan.is_solved:
             return
         way = tuple((step.kind, step.fold, step.base.station) for step in found.plan.steps)
@@ -29,7 +32,7 @@ class KnownPlans:
             self._plans.popitem(last=False)
 
     def of(self, plan: Plan | None) -> FoundPlan | None:
-        """Return what a plan was found with, if it is remembered."""
+        """Return the found plan that holds a plan, if it is remembered."""
         return next((found for found in self._plans.values() if found.plan is plan), None)
 
     def by_cost(self) -> list[FoundPlan]:

@@ -1,7 +1,7 @@
-"""The search for a document's plan, as it goes on behind a drawing.
+"""Plans a document in the background while it is being drawn.
 
-Mostly the plan that was shown last still does, with the new measures, or else some plan is found greedily. That takes
-much less time than to find the quickest, so it is shown first, and replaced if the search comes to another.
+Usually the plan shown last still works for the new drawing, or a greedy search finds one. Both take much less time than
+finding the quickest plan, so the result is shown first, and replaced if the full search finds another.
 """
 
 import threading
@@ -28,12 +28,12 @@ class Show(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Begun:
-    """A search that has begun.
+    """A search in progress.
 
     Attributes:
-        task: what is to be planned.
-        remembered: the answer, where it is known from before.
-        known: some plan that does.
+        task: the task.
+        remembered: the answer, if it is known already.
+        known: a valid plan for the task, or None.
         like: plans for other drawings.
     """
 
@@ -44,22 +44,22 @@ class Begun:
 
 
 class LiveSearch:
-    """Plans one document's drawings, and keeps what it found from plan to plan. May be used from any thread."""
+    """Plans one document's drawings, and reuses results from plan to plan. Safe to use from any thread."""
 
     def __init__(self) -> None:
-        """Begin with nothing known."""
+        """Start without known plans."""
         self._lock = threading.Lock()
         self._known = KnownPlans()
         self._remembered: OrderedDict[Task, FoundPlan] = OrderedDict()
 
     def find_soon(self, task: Task, shown: Plan | None, show: Show, should_stop: Callable[[], bool]) -> Begun:
-        """Begin to plan a task, and show a plan made of those that are known if that goes quickly.
+        """Start planning a task, and show a plan derived from known ones if that is quick.
 
         Args:
             task: the task.
-            shown: the plan that is shown for it already, if there is one.
+            shown: the plan on show for it, if any.
             show: shows a plan.
-            should_stop: asked again and again; true ends the search.
+            should_stop: called often; true ends the search.
         """
         with self._lock:
             remembered, like, known = self._remembered.get(task), self._known.by_cost(), self._known.of(shown)
@@ -70,9 +70,9 @@ class LiveSearch:
     def _quick(
         self, task: Task, like: list[FoundPlan], show: Show, should_stop: Callable[[], bool]
     ) -> FoundPlan | None:
-        """Show a plan made of those that are known for as many folds; None if none was found soon.
+        """Show a plan derived from known ones with the same number of folds; return None if there is none soon.
 
-        Where there are more folds than before, or fewer, a search tells mostly as soon what is the quickest.
+        With another number of folds, a full search usually finds the quickest plan just as soon.
         """
         same = [found for found in like if len(found.plan.garment.folds) == len(task.garment.folds)]
         found = quick_plan(task, like=same, should_stop=should_stop) if same else None
@@ -81,13 +81,13 @@ class LiveSearch:
         return found
 
     def find_quickest(self, begun: Begun, work_limit_s: float, show: Show, should_stop: Callable[[], bool]) -> None:
-        """Find and show the quickest plan for what was begun; nothing is shown once the search should stop.
+        """Find and show the quickest plan; show nothing once the search should stop.
 
         Args:
-            begun: as `find_soon` gave it.
-            work_limit_s: how much work may be done (s, see `Limits`).
+            begun: the search that `find_soon` started.
+            work_limit_s: the limit on the work (s, see `Limits`).
             show: shows a plan.
-            should_stop: asked again and again; true ends the search.
+            should_stop: called often; true ends the search.
         """
         found = begun.remembered
         if found is None:
@@ -100,7 +100,7 @@ class LiveSearch:
                 should_stop=should_stop,
             )
         if not should_stop():
-            if not found.plan.statistics.is_cut_short:  # else with more work there may be a better one
+            if not found.plan.statistics.is_cut_short:  # more work may improve a plan that was cut short
                 self._remember(begun.task, found)
             self._tell(found, show, should_stop, is_final=True)
 

@@ -1,4 +1,4 @@
-"""A document that is open: with its planner, and, once somebody looks at it, its stage and its player."""
+"""An open document: with its planner and, once someone views it, its stage and its player."""
 
 import threading
 import time
@@ -18,7 +18,7 @@ ROBOT = "pr2"
 
 
 class OpenDocument:
-    """What belongs to an open document.
+    """An open document and everything that belongs to it.
 
     Attributes:
         id: the document's id.
@@ -26,7 +26,7 @@ class OpenDocument:
     """
 
     def __init__(self, document_id: str, document: Document, pool: JobPool, plans: PlanStore) -> None:
-        """Its plan is being made from now on."""
+        """Open a document and start planning it."""
         self.id = document_id
         self.document = document
         self._card = load_robot(ROBOT).card
@@ -38,7 +38,7 @@ class OpenDocument:
         self._goodbyes: list[Callable[[], None]] = []
 
     def show(self) -> Stage:
-        """Its stage; the first who asks waits until it is built."""
+        """Return its stage; the first call builds it."""
         with self._lock:
             if self._shown is None:
                 stage = Stage(self._card, self.document.state.drawing.scene)
@@ -48,13 +48,13 @@ class OpenDocument:
 
     @property
     def unused_s(self) -> float:
-        """How long nobody has used it (s); 0 while somebody does."""
+        """The time since its last use (s); 0 while it is in use."""
         with self._lock:
             return 0.0 if self._users else time.monotonic() - self._used_s
 
     @contextmanager
     def in_use(self, say_goodbye: Callable[[], None] = lambda: None) -> Iterator[None]:
-        """Keep it open meanwhile; `say_goodbye` is called if the document is removed nevertheless."""
+        """Keep the document open during this context; call `say_goodbye` if it is removed nevertheless."""
         with self._lock:
             self._users += 1
             self._goodbyes.append(say_goodbye)
@@ -67,19 +67,19 @@ class OpenDocument:
                 self._used_s = time.monotonic()
 
     def say_goodbye(self) -> None:
-        """Tell everybody who uses it that it is no more."""
+        """Tell all users that the document was removed."""
         with self._lock:
             goodbyes = tuple(self._goodbyes)
         for say_goodbye in goodbyes:
             say_goodbye()
 
     def touch(self) -> None:
-        """Somebody has just used it."""
+        """Record a use."""
         with self._lock:
             self._used_s = time.monotonic()
 
     def close(self) -> None:
-        """End all that."""
+        """Close the document, its planner, its player and its stage."""
         with self._lock:
             shown, self._shown = self._shown, None
         self.document.end()

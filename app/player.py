@@ -1,4 +1,4 @@
-"""The player: shows a document on its stage, 30 times a second while it plays and somebody watches."""
+"""The player: shows a document on its stage, 30 times a second while it plays and someone watches."""
 
 import logging
 import threading
@@ -17,11 +17,13 @@ from planner.task.scene import Scene
 UPDATES_PER_S = 30.0
 _UNWATCHED_PERIOD_S = 0.25
 PATIENCE_S = 0.3
-"""So long the stage waits with a drawing that has changed for its plan, and then shows both at once: to draw costs a
-browser most of all, and the board comes first."""
+"""Time for which the stage waits for the plan of a changed drawing, to show both at once (s).
+
+Drawing the stage is the most expensive work of a browser, and the board comes first.
+"""
 
 REST_S = 0.4
-"""Where software draws the stage it follows a hand that draws only when that has rested for so long."""
+"""Pause in a gesture after which a stage drawn by software follows it (s)."""
 
 _CLOSING_S = 1.0
 
@@ -29,18 +31,18 @@ _log = logging.getLogger(__name__)
 
 
 class Player:
-    """A thread that is the only one to write on a stage.
+    """A thread with exclusive access to a stage.
 
-    What visitors of the stage ask for is done by the same thread, before it draws.
+    It also handles the requests of the stage's visitors, before it draws.
     """
 
     def __init__(self, document: Document, stage: Stage, desk: Desk | None = None) -> None:
-        """Start showing at once; ends with `close`.
+        """Start showing at once; `close` ends it.
 
         Args:
-            document: what is shown.
-            stage: where.
-            desk: those who edit on the stage.
+            document: the document.
+            stage: the stage.
+            desk: the requests of those who edit on the stage.
         """
         self._document = document
         self._stage = stage
@@ -69,7 +71,7 @@ class Player:
         self._thread.join(_CLOSING_S)
 
     def _run(self) -> None:
-        """Bring the stage up to date again and again; what fails is drawn anew once, then with the next change."""
+        """Update the stage in a loop; after a failure redraw everything once, then at the next change."""
         has_failed = False
         while True:
             self._changed.wait(self._period_s())
@@ -88,7 +90,7 @@ class Player:
                 has_failed = False
 
     def _period_s(self) -> float | None:
-        """How long to wait when nothing changes (s); None: for ever."""
+        """Return the time to wait if nothing changes (s); None for no limit."""
         now_s = time.monotonic()
         if not self._document.state.playback.is_playing:
             return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
@@ -122,7 +124,7 @@ class Player:
         self._document.stop_at_end()
 
     def _is_to_rest(self, state: DocumentState) -> bool:
-        """Whether what was shown before is left there, since to draw would hold up the hand that draws."""
+        """Return whether to leave the stage as it is, because drawing it would slow down a gesture."""
         if state.draft.gesture is None or not self._stage.is_drawn_by_software:
             if self._moved is not None:
                 self._moved = self._waits_until_s = None
@@ -135,11 +137,11 @@ class Player:
         return now_s < rests_at_s
 
     def _has_left(self, state: DocumentState, film: Film) -> bool:
-        """Whether the drawing has gone on from a film that stands at its beginning: the cloth is shown as drawn."""
+        """Return whether the drawing has changed while the plan stands at its start: then show the cloth as drawn."""
         return film.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
 
     def _show_spread(self, state: DocumentState) -> None:
-        """Show the garment spread out; while the drawing is none that could lie there, what was shown before stays."""
+        """Show the garment spread out; while the drawing is invalid, leave the stage as it is."""
         spread, scene = state.solution.spread, state.drawing.scene
         stations = dict(scene.stations)
         base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
@@ -154,14 +156,14 @@ class Player:
         self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)
 
     def _show_bare(self, scene: Scene, base: Pose2) -> None:
-        """Show the robot at a table without cloth: nothing is drawn, or nothing yet that could lie there."""
+        """Show the robot at a table without cloth, for an empty or still invalid drawing."""
         if base != self._bare:
             self._spread, self._plan, self._bare, self._waits_until_s = None, None, base, None
             self._stage.show_scene(scene)
             self._stage.show_bare(base)
 
     def _is_to_wait(self, state: DocumentState) -> bool:
-        """Whether a film of what is drawn is soon to be had, and there is something to look at meanwhile."""
+        """Return whether a plan for the drawing will come soon, and the stage has something to show until then."""
         answer = state.answer if state.is_answered else None
         is_filmed_soon = state.is_planning or (answer is not None and answer.plan.is_solved)
         if not is_filmed_soon or (self._spread is None and self._plan is None):

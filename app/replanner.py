@@ -1,8 +1,8 @@
-"""Plans a document anew whenever its drawing changes. The latest wins.
+"""Plans a document again whenever its drawing changes. The latest version wins.
 
-A search for an older drawing is stopped, with one exception. While somebody drags, the next drawing may come before
-anything is found, and stopping each for the next would never show a plan. So during a gesture a search is given a
-little time to find the first, and that is shown as what it is: a plan for an older version.
+A new version stops the search for an older one, with one exception. During a gesture, new versions may arrive faster
+than any search finds a plan, so that no plan would ever appear. So a search then gets a little time to find its first
+plan, which is shown as a plan for an older version.
 """
 
 import logging
@@ -22,30 +22,30 @@ from planner.errors import FoldingError, SceneError
 from planner.task.plan import Plan
 
 WORK_S, LONGER_WORK_S = 10.0, 60.0
-"""How much work a search may do, and one that was asked to look longer (s of the machine of `planner.planning.budget`).
+"""Limits on the work of a search, and of one extended by the user (s on the machine of `planner.planning.budget`).
 
-Not the clock but this ends it, so that what is shown in the end does not depend on how busy the machine was.
+Work and not time limits a search, so that its result does not depend on how busy the machine is.
 """
 
 PATIENCE_S = 0.5
-"""So long after it began a search for a first plan may go on although a preview has made it out of date (s)."""
+"""Time after its start for which a search for a first plan may outlive its version during a gesture (s)."""
 
 _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
 class Resting:
-    """Nothing is left to be done for the drawing."""
+    """There is nothing left to plan."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Searching:
-    """A drawing is being planned.
+    """A search for a plan is in progress.
 
     Attributes:
-        asked: the document when that began.
+        asked: the document's state at its start.
         job: the work.
-        is_behind: whether a hand that draws has gone on since, and the search has a little time left.
+        is_behind: whether a gesture has gone on since, so that the search has little time left.
     """
 
     asked: DocumentState
@@ -57,7 +57,7 @@ Phase: TypeAlias = Resting | Searching
 
 
 class Replanner:
-    """Watches a document."""
+    """Plans one document as it changes."""
 
     def __init__(self, document: Document, pool: JobPool, plans: PlanStore, arms: int) -> None:
         """Start the first search at once, in the pool."""
@@ -74,13 +74,13 @@ class Replanner:
         self._look()
 
     def close(self) -> None:
-        """Search no more."""
+        """Stop searching."""
         self._unsubscribe()
         with self._lock:
             self._rest()
 
     def _look(self) -> None:
-        """Follow a change of the document."""
+        """React to a change of the document."""
         state = self._document.state
         with self._lock:
             seen, self._seen = self._seen, state
@@ -94,7 +94,7 @@ class Replanner:
                 self._follow(state)
 
     def _follow(self, state: DocumentState) -> None:
-        """Go on with another version, or with one whose answer is asked for again."""
+        """Continue with another version, or with one that needs its answer again."""
         match self._phase:
             case Searching(asked, job) if state.task is not None and asked.task == state.task:
                 self._phase = Searching(asked, job, is_behind=False)
@@ -104,7 +104,7 @@ class Replanner:
                 self._begin(state)
 
     def _begin(self, state: DocumentState) -> None:
-        """Do what is left to be done for a version, in place of what is being done."""
+        """Start the remaining work for a version, in place of the current work."""
         self._rest()
         if not _is_settled(state):
             self._phase = Searching(state, self._pool.start(partial(self._work, state, time.monotonic())))
@@ -115,7 +115,7 @@ class Replanner:
         self._phase = Resting()
 
     def _has_ended(self, state: DocumentState) -> None:
-        """Begin what is wanted by now, once a search has ended."""
+        """Start the next work after a search has ended."""
         with self._lock:
             if isinstance(self._phase, Searching) and self._phase.asked is state:
                 self._begin(self._document.state)
@@ -150,7 +150,7 @@ class Replanner:
         self._has_ended(state)
 
     def _plan(self, state: DocumentState, first: list[Plan], is_unwanted: ShouldStop) -> None:
-        """Show plans for a version, each better than the one before; those that may be bettered go to `first`."""
+        """Show plans for a version, each better than the previous one; append those that are not final to `first`."""
 
         def show(plan: Plan, *, is_final: bool) -> None:
             if not is_final:
@@ -172,7 +172,10 @@ class Replanner:
             self._document.put_checks(state.drawing, tuple(held_folds(state.solution, self._arms)))
 
     def _publish(self, asked: DocumentState, plan: Plan, *, is_final: bool) -> None:
-        """Show the plan; one never shown, or made for a preview and shown no more, need not be readable by its id."""
+        """Show a plan, and drop the plans that nobody needs to read by id.
+
+        These are plans that were never shown, and plans for previews that are shown no more.
+        """
         assert asked.task is not None, "what has no task is not planned"
         before, plan_id = self._document.state.answer, self._plans.add(plan)
         self._document.settle(asked.version, asked.task, plan, plan_id, is_final=is_final)
@@ -187,7 +190,7 @@ class Replanner:
 
 
 def _is_settled(state: DocumentState) -> bool:
-    """Whether nothing is left to be done for a version."""
+    """Return whether a version needs no more work."""
     if state.failure is not None:
         return True
     if state.checks is None or state.checks.version != state.version:

@@ -1,4 +1,4 @@
-"""Where the files that go to the browser are."""
+"""Locates the files served to the browser."""
 
 from pathlib import Path
 
@@ -6,6 +6,6 @@ _HERE = Path(__file__).resolve().parent
 
 
 def static_dir() -> Path:
-    """The folder of the page: in an installed package inside it, in a checkout beside the packages."""
+    """Return the page's folder: inside an installed package, beside the packages in a checkout."""
     installed = _HERE / "static"
     return installed if installed.is_dir() else _HERE.parent / "static"

@@ -1,4 +1,4 @@
-"""Work that may take long, as it runs in a process of its own: it takes and gives what can be sent there."""
+"""The functions that run in processes of their own; their arguments and results are picklable."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -23,19 +23,19 @@ class Suggested:
 
 
 def plan(_: Tell, task: Task) -> Plan:
-    """Plan, as `make_plan` does."""
+    """Plan a task, as `make_plan` does."""
     return make_plan(task)
 
 
 def read_plan(_: Tell, data: dict[str, Any]) -> Plan:
-    """Read a plan file, and replay the plan; raises what is wrong with it, naming the step."""
+    """Read a plan file and replay the plan; raise the first error, naming the step."""
     plan = Plan.from_dict(data)
     require_replay(plan)
     return plan
 
 
 def suggest(tell: Tell, task: Task) -> bool:
-    """Tell None once the request is found good, then each suggestion; return whether all changes were tried."""
+    """Send None once the request is valid, then each suggestion; return whether all changes were tried."""
     found = suggestions(task)
     tell(None)
     while True:
@@ -47,7 +47,7 @@ def suggest(tell: Tell, task: Task) -> bool:
 
 
 def map_places(_: Tell, task: Task, step_m: float) -> PlacementMap:
-    """Plan wherever the garment could be laid, as `placement_map` does."""
+    """Plan for every placement of the garment, as `placement_map` does."""
     return placement_map(task, step_m=step_m)
 
 

@@ -1,4 +1,4 @@
-"""How the server is set up: by the command line, or or by variables such as ``PLEAT_HOST`` and ``PLEAT_DATA``."""
+"""The server's settings, from the command line or from variables such as ``PLEAT_HOST`` and ``PLEAT_DATA``."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,11 +13,11 @@ class Settings(BaseSettings):
 
     Attributes:
         host: the address to listen on.
-        origin: where a proxy shows the pages, as in ``https://example.org``, if it passes this name on as `Host`.
-        root_path: the prefix below which a proxy shows them, as in ``/pleat``.
-        insecure: whether to listen where other machines come in, though nobody is asked who they are.
-        port: the port; 0 lets the system pick a free one, and is replaced by that before anything is served.
-        data: the folder for one's own garments and documents.
+        origin: the origin at which a proxy serves the pages, as in ``https://example.org``, if it sends that as `Host`.
+        root_path: the prefix below which a proxy serves the pages, as in ``/pleat``.
+        insecure: whether to accept other machines, without authentication.
+        port: the port; 0 lets the system pick a free one, which replaces it before serving starts.
+        data: the folder for the user's garments and documents.
     """
 
     model_config = SettingsConfigDict(env_prefix="PLEAT_", frozen=True)

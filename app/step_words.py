@@ -1,11 +1,11 @@
-"""The words for a step of a plan, made from its data."""
+"""Describes a step of a plan in words."""
 
 from planner.cloth.garment import Garment
 from planner.task.plan import PlanStep
 
 
 def step_words(step: PlanStep, garment: Garment) -> str:
-    """Return what a step does in a few words; empty for a kind without words."""
+    """Return a few words on what a step does; empty for a kind without words."""
     details = step.details
     match step.kind:
         case "fold":

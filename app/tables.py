@@ -1,4 +1,4 @@
-"""What the command line prints for people."""
+"""The tables that the command line prints."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -22,7 +22,7 @@ _SUPPORTS = {
     Support.CLOTH_NEARLY_ABOVE: "need not, held by the cloth nearly straight above",
     Support.WITHIN_THE_HULL: "need not, held by the cloth on both sides: no corner of the convex hull",
 }
-"""In words, those first that must be held."""
+"""Reasons in words, those for corners that must be held first."""
 
 _WHY = (
     '"Above" leads away from the fold line: so the part hangs while it is folded. A corner of its convex hull must be '
@@ -31,7 +31,7 @@ _WHY = (
 
 
 def plan_table(plan: Plan) -> Table:
-    """A solved plan: one row for each primitive."""
+    """Return a solved plan as a table, one row for each primitive."""
     table = _table(f"{plan.garment.title}: {len(plan.primitives)} primitives, {plan.cost_s:.2f} s")
     for name, is_number in (
         ("primitive", False),
@@ -56,7 +56,7 @@ def plan_table(plan: Plan) -> Table:
 
 
 def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
-    """The Fold-DAG: each fold, and the folds that it waits for."""
+    """Return the Fold-DAG as a table: each fold, and the folds that must precede it."""
     table = _table(f"{garment.title}: {len(garment.folds)} folds")
     table.add_column("fold", justify="right")
     table.add_column("name")
@@ -69,7 +69,7 @@ def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
 
 
 def check_table(garment: Garment, report: GarmentCheck) -> Table:
-    """For each fold by how many grippers it can be held, and which corners must be held, and why."""
+    """Return for each fold the number of grippers it needs, and the corners that must be held, with the reasons."""
     width, height = report.size_m
     table = _table(
         f"{garment.title}: a good file, {len(report.folds)} legal fold{'' if len(report.folds) == 1 else 's'}; "
@@ -90,7 +90,7 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
 
 
 def _corners(fold: FoldCheck) -> Iterator[str]:
-    """The corners that must be held, then those that need not be, each with the reason."""
+    """Yield the corners that must be held, then those that need not, each group with its reason."""
     for support, why in _SUPPORTS.items():
         points = [vertex.point for vertex in fold.vertices if vertex.support is support]
         if points:
@@ -98,14 +98,14 @@ def _corners(fold: FoldCheck) -> Iterator[str]:
 
 
 def _held_at(fold: FoldCheck, radius_m: float) -> str:
-    """Where the hands take hold, or what keeps them from it."""
+    """Return where the hands grip, or what prevents it."""
     if fold.problem is not None or not fold.grips:
         return fold.problem or "nothing must be held"
     return f"held at {_points(fold.grips)}: a grip holds what is within {radius_m:g} m"
 
 
 def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
-    """What would give a plan, or a quicker one: what a person can change first, as the suggestions come."""
+    """Return the changes that would give a plan, or a quicker one; those a person can make come before assumptions."""
     table = _table(f"{garment.title}: {len(found)} suggestion{'' if len(found) == 1 else 's'}")
     table.add_column("kind")
     table.add_column("what")
@@ -136,13 +136,13 @@ def _base(base: dict[str, Any]) -> str:
 
 
 def _grip(grip: dict[str, Any]) -> str:
-    """An arm, and where its tool goes in the plane of the table (m)."""
+    """Return an arm, and its tool's positions at pick and place in the plane of the table (m)."""
     (x, y, _), (to_x, to_y, _) = grip["pick"], grip["place"]
     return f"{grip['arm']} ({x:.3f}, {y:.3f}) to ({to_x:.3f}, {to_y:.3f})"
 
 
 def _points(points: Sequence[Point2]) -> str:
-    """The first few points (m), and how many more there are."""
+    """Return the first few points (m), and the number of the others."""
     shown = " ".join(f"({x:.3f}, {y:.3f})" for x, y in points[:_POINTS_SHOWN])
     more = len(points) - _POINTS_SHOWN
     return f"{shown} and {more} more" if more > 0 else shown

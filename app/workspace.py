@@ -1,4 +1,4 @@
-"""All that the server holds while it runs: garments, documents, plans, searches."""
+"""Everything that a running server holds: garments, documents, plans, and the lanes for work."""
 
 import logging
 import threading
@@ -20,7 +20,7 @@ from planner.errors import FoldingError
 
 FIRST_GARMENT = "t-shirt"
 UNUSED_S = 60.0
-"""So long a document stays open that nobody uses (s)."""
+"""Time after which an unused document is closed (s)."""
 
 _LOOK_EVERY_S = 10.0
 
@@ -28,18 +28,18 @@ _log = logging.getLogger(__name__)
 
 
 class Workspace:
-    """One for each server.
+    """The workspace of a server.
 
     Attributes:
-        folder: where garments and documents are.
-        garments: the garments that can be asked for by name.
-        documents: the documents on the disk.
+        folder: the data folder.
+        garments: the garment repository.
+        documents: the document repository.
         plans: the plans made so far.
-        lanes: where all is done that takes time.
+        lanes: the workers for everything that takes time.
     """
 
     def __init__(self, settings: Settings) -> None:
-        """Nothing is open yet."""
+        """Start with no open document."""
         self.folder = DataFolder(settings.data)
         self.garments = GarmentShelf(self.folder.garments)
         self.documents = DocumentShelf(self.folder.documents)
@@ -50,7 +50,7 @@ class Workspace:
         self._closing = threading.Event()
 
     def start(self) -> None:
-        """Open the document that the page shows first, and from now on close what nobody uses."""
+        """Open the document that the page shows first, and start closing unused ones."""
         try:
             self.opened(self.first()).show()
         except FoldingError as error:
@@ -59,7 +59,7 @@ class Workspace:
         threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
 
     def first(self) -> str:
-        """The document to begin with: the last one, or a new one when there is none that can be opened."""
+        """Return the id of the document to show first: the last one opened, or a new one if none can be opened."""
         with self._lock:
             for document_id in self.documents.recent():
                 try:
@@ -69,7 +69,7 @@ class Workspace:
             return self.create(drawing_of(self.garments.garment(FIRST_GARMENT))).id
 
     def create(self, drawing: Drawing) -> OpenDocument:
-        """A new document, open and on the disk."""
+        """Return a new document, open and saved."""
         with self._lock:
             document_id = self.documents.new_id()
             draft = draft_of(drawing)
@@ -78,13 +78,13 @@ class Workspace:
             return self._open_as(document_id, KeptDocument(1, draft, keeper))
 
     def opened(self, document_id: str) -> OpenDocument:
-        """A document, opened if it is not open.
+        """Return an open document; open it if necessary.
 
         Raises:
-            UnknownDocumentError: there is none of this id.
+            UnknownDocumentError: there is none with this id.
             NewerDocumentError: a newer version of Pleat wrote it.
-            BrokenDocumentError: its file cannot be read.
-            StorageError: the system does not let it be read.
+            BrokenDocumentError: its file is damaged.
+            StorageError: the system refuses to read it.
         """
         with self._lock:
             if document_id not in self._open:
@@ -94,11 +94,11 @@ class Workspace:
             return opened
 
     def remove(self, document_id: str) -> None:
-        """Remove a document for good; who uses it is told.
+        """Remove a document for good, and tell its users.
 
         Raises:
-            UnknownDocumentError: there is none of this id.
-            StorageError: it could not be removed; then nothing has changed for anybody.
+            UnknownDocumentError: there is none with this id.
+            StorageError: it could not be removed; nothing has changed.
         """
         with self._lock:
             opened = self._open.get(document_id)
@@ -112,7 +112,7 @@ class Workspace:
             opened.close()
 
     def close_unused(self, unused_s: float = UNUSED_S) -> None:
-        """Close the documents that nobody has used for so long (s)."""
+        """Close the documents that have been unused for longer than a time (s)."""
         with self._lock:
             unused = [opened for opened in self._open.values() if opened.unused_s > unused_s]
             for opened in unused:
@@ -121,7 +121,7 @@ class Workspace:
             opened.close()
 
     def close(self) -> None:
-        """Stop every search and close every document."""
+        """Stop all work and close all documents."""
         self._closing.set()
         self.lanes.close()
         with self._lock:

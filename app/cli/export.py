@@ -40,7 +40,7 @@ def export(
 
 
 def _made(kind: Export, source: str, rate_hz: float) -> tuple[bytes, str]:
-    """Return a file and its usual name."""
+    """Return a file's content and its default name."""
     found = load_source(source)
     with blaming(source):
         if isinstance(found, Garment):

@@ -1,4 +1,4 @@
-"""``pleat dag`` and ``pleat check``: what there is to know of a garment without a robot."""
+"""``pleat dag`` and ``pleat check``: information about a garment that needs no robot."""
 
 import typer
 

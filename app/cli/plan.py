@@ -34,7 +34,7 @@ PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan f
 
 
 class HeuristicName(StrEnum):
-    """What the search may know about the way that is left."""
+    """The lower bound on the remaining cost that the search uses."""
 
     ARM_TIME = "arm_time"
     ZERO = "zero"
@@ -119,7 +119,7 @@ def timeline(
 
 
 def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, name: str) -> Task:
-    """Return the task of a garment, or that of a plan with what the options say in place of its own."""
+    """Return the task of a garment, or that of a plan with the given options changed."""
     with blaming(name):
         if isinstance(source, Garment):
             return Task.of(source, scene, **options)
@@ -131,7 +131,7 @@ def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, nam
 
 
 def _going_on(task: Task, path: Path, after_step: int | None, *, has_scene: bool) -> Task:
-    """Return a task that starts where a plan is after a step; with the plan's scene, unless there is another."""
+    """Return the task with the start taken from a plan after a step, and the plan's scene unless another is given."""
     with blaming(path):
         before = read_plan(path)
         start = before.state_after(len(before.steps) - 1 if after_step is None else after_step)
@@ -155,7 +155,7 @@ def _print_suggestions(answer: Plan) -> None:
 
 
 def _status(answer: Plan) -> int:
-    """The exit status for a plan; says why there is none."""
+    """Return the exit status for a plan; print why there is none."""
     if answer.status == "budget_exceeded":
         bound = answer.statistics.bound_s
         errors.print("The budget ran out" + (f"; no plan is quicker than {bound:.2f} s" if bound else ""))

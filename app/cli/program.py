@@ -1,4 +1,4 @@
-"""The program: its options, its output, and how it ends.
+"""The program's shared options, output and exit codes.
 
 Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the budget ran out.
 """
@@ -40,25 +40,25 @@ JsonOption = Annotated[
 
 
 def garment_of(source: str) -> Garment:
-    """Return the garment that is named, in a garment file or in a plan file; ends the program if there is none."""
+    """Return the garment by name, from a garment file or from a plan file; exit the program if there is none."""
     found = load_source(source)
     return found.garment if isinstance(found, Plan) else found
 
 
 def load_source(source: str) -> Garment | Plan:
-    """Return the garment or the plan that is named; ends the program if there is none."""
+    """Return the garment or the plan by name or file; exit the program if there is none."""
     with blaming(source):
         return load(source)
 
 
 def write_json(answer: Any, target: str | None) -> None:  # noqa: ANN401
-    """Write JSON to a file or to standard output; to None, nothing."""
+    """Write JSON to a file or to standard output; do nothing for None."""
     if target is not None:
         write_text(json.dumps(answer, indent=1) + "\n", target)
 
 
 def write_text(text: str, target: str) -> None:
-    """Write text to a file or to standard output; ends the program where the file cannot be written."""
+    """Write text to a file or to standard output; exit the program if the file cannot be written."""
     if target == STANDARD_OUTPUT:
         typer.echo(text, nl=False)
         return
@@ -68,7 +68,7 @@ def write_text(text: str, target: str) -> None:
 
 @contextmanager
 def refusing(target: object) -> Iterator[None]:
-    """End the program with the name of a file that the system refuses."""
+    """Exit the program with the file's name if the system refuses to write it."""
     try:
         yield
     except OSError as error:
@@ -77,7 +77,7 @@ def refusing(target: object) -> Iterator[None]:
 
 @contextmanager
 def blaming(source: object) -> Iterator[None]:
-    """Have bad input end the program with the file, the field and what is wrong with it."""
+    """Exit the program on bad input, printing the file, the field and the problem."""
     try:
         yield
     except RequestError as error:
@@ -97,6 +97,6 @@ _OPTIONS = frozenset(
 
 
 def failure(message: str) -> typer.Exit:
-    """Print why the program ends, and return the exception that ends it."""
+    """Print why the program ends; return the exception that ends it."""
     errors.print(message)
     return typer.Exit(BAD_INPUT)

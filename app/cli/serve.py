@@ -28,7 +28,7 @@ def serve(
     ] = None,
 ) -> None:
     """Serve the designer until Ctrl-C."""
-    from app.server.serve import serve as serve_settings  # takes a second: only when it is needed
+    from app.server.serve import serve as serve_settings  # here, because this import takes a second
 
     proxy = {"root_path": root_path, "origin": origin}
     given: dict[str, Any] = {"host": host, "port": port, "data": data, "insecure": insecure, **proxy}

@@ -1,4 +1,4 @@
-"""The moment that overlays are about: where robot and cloth are then, and what is folded already."""
+"""The moment that overlays show: the poses of robot and cloth, and the folds done so far."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,25 +18,25 @@ from planner.task.scene import Scene
 
 
 class NoClothError(FoldingError):
-    """There is no cloth to lay anything over."""
+    """There is no cloth for an overlay."""
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment, of a plan or of the article as it is drawn.
+    """A moment of a plan, or of the article as drawn.
 
     Attributes:
         scene: the scene.
-        comfort_m: how much slack every reach has (m).
+        comfort_m: the comfort radius (m).
         base: the base in the table frame.
-        station: the station where it stands; None while it is on its way.
-        back_off_m: how far it has backed off from there (m).
+        station: the base's station; None while it drives.
+        back_off_m: its standoff from the station (m).
         placement: the article frame in the table frame.
         cloth: the stack as it lies there.
         done: the folds done, in the user's order.
-        plan: the plan; None for the article as it is drawn.
-        frame: the plan's frame; None for the article as it is drawn.
-        reason: why there is no plan for it, the first reason that names a place; None where none does.
+        plan: the plan; None for the article as drawn.
+        frame: the sample of the plan; None for the article as drawn.
+        reason: the first reason with a position why there is no plan, or None.
     """
 
     scene: Scene
@@ -53,7 +53,7 @@ class Moment:
 
     @cached_property
     def table(self) -> TableInArticle:
-        """The table top as the article sees it."""
+        """The table top in the article frame."""
         return TableInArticle.seen_from(self.placement, self.scene.table)
 
     @property
@@ -62,17 +62,17 @@ class Moment:
         return self.in_article(self.base)
 
     def in_article(self, pose: Pose2) -> Pose2:
-        """A pose of the table frame in the article frame."""
+        """Return a pose of the table frame in the article frame."""
         x, y = self.placement.to_inner(np.array([pose.x_m, pose.y_m]))
         return Pose2(float(x), float(y), pose.yaw_rad - self.placement.yaw_rad)
 
     def to_article(self, points: FloatArray) -> FloatArray:
-        """Points of the table frame, shape (..., 2) or (..., 3), in the article frame."""
+        """Return points of the table frame, shape (..., 2) or (..., 3), in the article frame."""
         return self.placement.to_inner(points)
 
 
 def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
-    """A time in the plan that is played (s), kept within it; without a plan, the article as it is drawn.
+    """Return the moment at a time in the plan shown (s), clamped to its duration; without a plan, the article as drawn.
 
     Raises:
         NoClothError: nothing is drawn yet.
@@ -102,11 +102,11 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
 
 
 def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float) -> Moment:
-    """The article as it is drawn, the robot at a station, by default the one where it starts.
+    """Return the moment of the article as drawn, with the robot at a station, by default its start.
 
     Raises:
         NoClothError: nothing is drawn yet.
-        RequestError: there is no such station, or the base cannot back off so far.
+        RequestError: there is no such station, or the standoff is out of range.
     """
     drawing = state.drawing
     stations = dict(drawing.scene.stations)
@@ -131,7 +131,7 @@ def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float
 
 
 def _station(scene: Scene, base: Pose2) -> tuple[str | None, float]:
-    """The station at which a base stands, and how far it has backed off from it (m); none, 0 while it is between."""
+    """Return the station of a base and the standoff from it (m); None and 0 while it drives."""
     for name, pose in scene.stations:
         back, aside = -pose.to_inner(np.array([base.x_m, base.y_m]))
         is_turned = abs(wrapped_angle(base.yaw_rad - pose.yaw_rad)) > EDGE_RAD
@@ -141,7 +141,7 @@ def _station(scene: Scene, base: Pose2) -> tuple[str | None, float]:
 
 
 def _reason(state: DocumentState) -> Reason | None:
-    """The first reason with a place why there is no plan for what is drawn."""
+    """Return the first reason with a position why there is no plan for the drawing."""
     if state.answer is None or not state.is_answered:
         return None
     return next((reason for reason in state.answer.plan.reasons if reason.point is not None), None)

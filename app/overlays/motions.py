@@ -1,4 +1,4 @@
-"""Where a plan leads: the base's way, and the paths of the hands."""
+"""Overlays of a plan's motions: the path of the base, and the paths of the hands."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -15,7 +15,7 @@ from planner.task.plan import Plan, PlanStep
 
 
 def base_overlay(moment: Moment) -> dict[str, Any] | None:
-    """The base's way from the first primitive to the last, as JSON, article frame; None without a plan."""
+    """Return the base's path over all primitives, as JSON, article frame; None without a plan."""
     if moment.plan is None or moment.frame is None:
         return None
     parts = [_base_points(moment.plan, number) for number in range(len(moment.plan.steps))]
@@ -30,7 +30,10 @@ def base_overlay(moment: Moment) -> dict[str, Any] | None:
 
 
 def paths_overlay(moment: Moment) -> list[dict[str, Any]] | None:
-    """The paths of the hands, as JSON, each in the article frame as it lies when its primitive begins."""
+    """Return the paths of the hands, as JSON; None without a plan.
+
+    Each path is in the article frame as it lies when its primitive starts.
+    """
     if moment.plan is None:
         return None
     found = []
@@ -42,7 +45,7 @@ def paths_overlay(moment: Moment) -> list[dict[str, Any]] | None:
 
 
 def _base_points(plan: Plan, number: int) -> FloatArray:
-    """Return where the base is at the start and the end of each phase of a step, table frame, shape (n, 2), m."""
+    """Return the base's positions at the start and the end of each phase of a step, table frame, shape (n, 2), m."""
     return np.array([(pose.x_m, pose.y_m) for phase in _phases(plan, number) for pose in phase.base])
 
 
@@ -52,13 +55,13 @@ def _phases(plan: Plan, number: int) -> list[Phase]:
 
 
 def _without_stops(points: FloatArray) -> FloatArray:
-    """The points of a way, each of them once as long as nothing moves."""
+    """Return the points of a path without consecutive duplicates."""
     moved = np.hypot(*np.diff(points, axis=0).T) > LENGTH_M
     return np.asarray(points[np.concatenate([[True], moved])])
 
 
 def _gone(passed: FloatArray, first: int, base: FloatArray) -> int:
-    """How many points of the way the base has passed that is on one of its stretches, none before the first."""
+    """Return the number of points that a base on the path has passed, at least `first`."""
     best, gone = np.inf, first
     for number in range(first, len(passed)):
         (ax, ay), (bx, by) = passed[number - 1], passed[number]
@@ -102,7 +105,7 @@ def _plane(point: Sequence[float] | FloatArray) -> list[float]:
 
 
 def _bends(path: FloatArray) -> FloatArray:
-    """The points of a path in space at which it turns, and its ends, shape (n, 3), m."""
+    """Return the corners of a path in space, and its ends, shape (n, 3), m."""
     kept = [path[0]]
     for point, following in pairwise(path[1:]):
         along, ahead = point - kept[-1], following - point

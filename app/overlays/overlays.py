@@ -1,4 +1,4 @@
-"""What can be laid over the board to see why a plan is as it is."""
+"""All overlays that the board can show to explain a plan."""
 
 from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
@@ -20,11 +20,11 @@ from planner.geometry.region import Region
 from planner.robot.pr2 import load_robot
 
 NOTCH_M, FRINGE_M = 0.04, 0.1
-"""Of a region within reach notches narrower than this are filled, and what is narrower than that is left out (m)."""
+"""Widths below which notches of a reach region are filled, and parts of it left out (m)."""
 
 
 def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> dict[str, Any]:
-    """Overlays at a moment, as JSON, in the article frame; those not shown are null."""
+    """Return the overlays at a moment, as JSON, in the article frame; those not in `shown` are null."""
     frame = moment.frame
     is_in_order = moment.done == tuple(range(len(moment.done)))
     return {
@@ -55,11 +55,11 @@ def _robot(moment: Moment) -> dict[str, Any]:
 
 
 def _reach(moment: Moment) -> list[dict[str, Any]]:
-    """For each arm where it can take cloth on the table, with comfort and without."""
+    """Return for each arm the region where it can take cloth on the table, with and without the comfort radius."""
     scene, base = moment.scene, moment.base_in_article
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     ask = partial(reach_regions, ROBOT, scene.torso_m, table_height_m=scene.table.height_m)
-    with ThreadPoolExecutor() as both:  # the first time they take long, most of it spent outside of Python
+    with ThreadPoolExecutor() as both:  # uncached it takes long, mostly outside the interpreter
         with_comfort, bare = both.map(ask, (moment.comfort_m, 0.0))
     return [
         {
@@ -73,10 +73,11 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
 
 
 def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[dict[str, Any]]:
-    """A region of the base frame as far as it is on the table, article frame.
+    """Return the part of a region of the base frame that lies on the table, article frame.
 
-    Close to the base single orientations reach in between others' limits: a fringe of teeth along the table's edge, of
-    no use to anybody, is left out.
+    Close to the base, single orientations reach in between the limits of others. This leaves a fringe of teeth along
+    the
+    table's edge, which is useless and left out.
     """
     even = region.evened(NOTCH_M, FRINGE_M).moved(to_article)
     return [region_to_dict(part) for part in even.intersection(moment.table.region).pieces]
@@ -89,4 +90,4 @@ OVERLAYS: dict[str, Callable[[Moment], Any]] = {
     "paths": paths_overlay,
     "shortfall": shortfall_overlay,
 }
-"""What can be shown, and what makes it."""
+"""All overlays by name, with the functions that make them."""

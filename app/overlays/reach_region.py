@@ -1,11 +1,11 @@
-"""Where an arm can take cloth that lies flat: a region of the plane of the table, in the base frame.
+"""Computes where an arm can take cloth that lies flat: a region of the table's plane, in the base frame.
 
-Asked of the robot's own reach on a grid, all points at once for one approach after the other; where two neighbours
-differ, the place between them at which it changes is found by halving. What is found depends on neither the table's
-edges nor where the base stands, so one region serves for all of them.
+It samples the robot's reach on a grid, all points at once, one approach after the other. Between neighbours that differ
+it locates the border by bisection. The region depends neither on the table's edges nor on the base's pose, so one
+region serves for all of them.
 
-Half of the grid is further away than an arm is long, and to find that out for each place in each approach takes long.
-So a bound on how far it is out of reach is asked of one place in each block first: it says something of its neighbours.
+Half of the grid is beyond the arm's length, but checking that for each point and approach takes long. So first, for one
+point in each block, it gets a bound on the distance to the reach, which rules out the whole block if it is large.
 """
 
 import math
@@ -24,20 +24,20 @@ from planner.primitives.reach import Reach
 from planner.robot.pr2 import load_robot
 
 _BLOCK = 4
-"""So many places along each side of a block."""
+"""Number of grid points along each side of a block."""
 
 HALVINGS = 4
-"""The border of the region is found to this many halvings of the grid."""
+"""Number of bisection steps that locate the border between two grid points."""
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Places in rows and columns, base frame.
+    """Points in rows and columns, base frame.
 
     Attributes:
-        low: the first of them (m).
-        counts: how many there are along x and along y.
-        step_m: how far apart they are (m).
+        low: the first point (m).
+        counts: the numbers of points along x and y.
+        step_m: the spacing (m).
     """
 
     low: Point2
@@ -46,36 +46,36 @@ class Grid:
 
     @staticmethod
     def about(middle: Point2, radius_m: float, steps: int) -> "Grid":
-        """A square with a place in its middle, from there to each side so many steps."""
+        """Return a square grid about a point, with `steps` steps to each side."""
         x, y = middle
         return Grid((x - radius_m, y - radius_m), (2 * steps + 1, 2 * steps + 1), radius_m / steps)
 
     @property
     def places(self) -> FloatArray:
-        """All of them, shape (counts[0], counts[1], 2), m."""
+        """The points, shape (counts[0], counts[1], 2), m."""
         axes = (low + self.step_m * np.arange(count) for low, count in zip(self.low, self.counts, strict=True))
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
 
 ALL_IN_REACH = Grid((-1.0, -1.3), (106, 131), 0.02)
-"""Further no arm reaches."""
+"""A grid beyond which no arm reaches."""
 
 CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
-"""Of points of the base frame, shape (n, 2), m: which of them an arm can take cloth at."""
+"""Tells at which points of the base frame, shape (n, 2), m, an arm can take cloth."""
 
 
 @lru_cache(maxsize=16)
 def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
-    """For each arm, from left to right, where it can take cloth flat on a table, base frame.
+    """Return for each arm, from left to right, where it can take cloth that lies flat on a table, base frame.
 
     Args:
         robot: the robot's name.
-        torso_m: how far the lift is raised (m).
-        comfort_m: how much slack every reach has (m).
-        table_height_m: how high the table's top is (m).
+        torso_m: the height of the lift (m).
+        comfort_m: the comfort radius (m).
+        table_height_m: the height of the table top (m).
 
     Raises:
-        SceneError: the lift does not go there.
+        SceneError: the lift does not reach this height.
     """
     reach = load_robot(robot).reach(torso_m, comfort_m)
     height_m = table_height_m + REST_HEIGHT_M
@@ -83,17 +83,17 @@ def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: 
 
 
 def takeable_region(reach: Reach, arm: int, height_m: float) -> Region:
-    """Where an arm can take cloth so high over the floor (m), base frame."""
+    """Return where an arm can take cloth at a height above the floor (m), base frame."""
     return region_where(partial(takeable, reach, arm, height_m), is_open=_may_be_in_reach(reach, arm, height_m))
 
 
 def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH, is_open: BoolArray | None = None) -> Region:
-    """The region of the grid's rectangle in which a question is answered with yes, base frame.
+    """Return the region of the grid's rectangle in which a predicate holds, base frame.
 
     Args:
-        can_take: the question.
-        places: where it is asked.
-        is_open: at which of the places it need be, shape `places.counts`: at the others the answer is known to be no.
+        can_take: the predicate.
+        places: the grid on which to sample it.
+        is_open: the points to sample, shape `places.counts`; at the others the predicate is known to be false.
     """
     nx, ny = places.counts
     grid = places.places
@@ -111,13 +111,19 @@ def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH, is_open: BoolAr
 
 
 def in_approach(reach: Reach, arm: int, height_m: float, approach: int, points: FloatArray) -> BoolArray:
-    """At which points, shape (n, 2), so high over the floor (m) an arm is in comfort in one approach."""
+    """Return at which points an arm has its reach margin in one approach.
+
+    The points have the shape (n, 2) and lie at a height above the floor (m), base frame.
+    """
     tools = np.column_stack([points, np.full(len(points), height_m)])
     return np.asarray(reach.from_anywhere(arm, tools, np.array([approach]), 1, BACK_OFF_STEP_M)[0])
 
 
 def _may_be_in_reach(reach: Reach, arm: int, height_m: float) -> BoolArray:
-    """At which places of the grid an arm may be in comfort in some approach, so high over the floor (m)."""
+    """Return at which grid points an arm may have its reach margin in some approach.
+
+    The points lie at a height above the floor (m).
+    """
     first = ALL_IN_REACH.places[::_BLOCK, ::_BLOCK]
     tools = np.concatenate([first, np.full((*first.shape[:2], 1), height_m)], axis=-1).reshape(-1, 1, 3)
     every = np.arange(len(reach.approaches))
@@ -129,7 +135,7 @@ def _may_be_in_reach(reach: Reach, arm: int, height_m: float) -> BoolArray:
 
 
 def takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> BoolArray:
-    """At which points, shape (n, 2), an arm is in comfort in at least one approach."""
+    """Return at which points, shape (n, 2), an arm has its reach margin in at least one approach."""
     found = np.zeros(len(points), dtype=np.bool_)
     left = np.arange(len(points))
     for approach in range(len(reach.approaches)):
@@ -142,7 +148,7 @@ def takeable(reach: Reach, arm: int, height_m: float, points: FloatArray) -> Boo
 
 
 def _borders(can_take: CanTake, a: FloatArray, b: FloatArray, in_a: BoolArray, in_b: BoolArray) -> FloatArray:
-    """Between neighbours of which one is inside, where the border is; elsewhere nothing that counts."""
+    """Return the border points between neighbours of which one is inside; elsewhere the values are meaningless."""
     border = np.zeros_like(a)
     differ = in_a != in_b
     inner, outer = (np.where(in_a[differ][:, None], *pair) for pair in ((a[differ], b[differ]), (b[differ], a[differ])))
@@ -155,7 +161,7 @@ def _borders(can_take: CanTake, a: FloatArray, b: FloatArray, in_a: BoolArray, i
 
 
 def runs(marked: BoolArray) -> list[tuple[int, int]]:
-    """The stretches of a row that are marked: where each begins and where it has ended."""
+    """Return the marked stretches of a row as (start, end), end excluded."""
     steps = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(np.int8)))
     return [(int(start), int(end)) for start, end in zip(steps[::2], steps[1::2], strict=True)]
 
@@ -166,7 +172,7 @@ def _rectangle(grid: FloatArray, column: int, rows: tuple[int, int]) -> Region:
 
 
 def _cell(grid: FloatArray, inside: BoolArray, along_x: FloatArray, along_y: FloatArray, i: int, j: int) -> Region:
-    """The part of a cell that is inside: its corners that are, and where the border crosses its sides."""
+    """Return the part of a cell that is inside: the polygon of its inner corners and the border points on its sides."""
     corners = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
     crossings = (along_x[i, j], along_y[i + 1, j], along_x[i, j + 1], along_y[i, j])
     points = []

@@ -1,4 +1,4 @@
-"""Connected regions as JSON."""
+"""Writes connected regions as JSON."""
 
 from typing import Any
 
@@ -7,12 +7,12 @@ from planner.geometry.region import Region
 
 
 def rings_of(part: Region) -> tuple[FloatArray, ...]:
-    """The corners of a connected region, shape (n, 2) each, m: its outer ring, then those of its holes."""
+    """Return the rings of a connected region, shape (n, 2) each, m: the outer one, then those of its holes."""
     holes = Region.polygon(part.ring).difference(part)
     return (part.ring, *(hole.ring for hole in holes.pieces))
 
 
 def region_to_dict(part: Region) -> dict[str, Any]:
-    """A connected region by its outer ring and those of its holes."""
+    """Return a connected region as its outer ring and those of its holes."""
     outer, *holes = (ring.tolist() for ring in rings_of(part))
     return {"outer": outer, "holes": holes}

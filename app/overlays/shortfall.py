@@ -1,13 +1,13 @@
-"""Where the hand that falls short would not: the edge of its reach, near the point that it cannot have.
+"""The overlay of a shortfall: the edge of a hand's reach near a point beyond it.
 
-A reason says that an arm is so much short of a point, seen from a station; the point may be high over the table, and
-the hand is turned as suits its whole way. So this is not the reach over flat cloth but another region: of the plane at
-the point's own height, for the orientation in which the reason measured what is missing.
+A reason says by how much an arm falls short of a point, seen from a station. The point may be high above the table, and
+the hand's orientation is that for its whole path. So the overlay cannot use the reach over flat cloth. It uses the
+plane at the point's height and the orientation in which the reason measured the shortfall.
 
-The robot may have dragged the cloth by then, and the board shows it as it is drawn. So all is moved back by the drag,
-and lies over the cloth there as it does where the cloth would be.
+By then the robot may have dragged the cloth, while the board shows it as drawn. So the overlay moves everything back by
+the drag.
 
-The region is looked for on a grid round the point, the finer the less is missing; the point is a place of the grid.
+The region comes from a grid about the point, finer for a smaller shortfall; the point is a grid point.
 """
 
 from dataclasses import dataclass
@@ -33,14 +33,14 @@ _LEAST_M, _MOST_M = 0.12, 0.4
 
 @dataclass(frozen=True, slots=True)
 class Lack:
-    """What a reason says is out of reach, as the robot sees it.
+    """A point that a reason says is out of reach, seen by the robot.
 
     Attributes:
         arm: the arm's index.
-        seen: the point in the base frame, the base standing where it comes closest (m).
-        approach: how the hand is turned.
-        short_by_m: how far the point would have to be displaced (m).
-        base: that base in the table frame, moved back by what the cloth had been dragged.
+        seen: the point in the base frame, with the base where it comes closest (m).
+        approach: the orientation of the hand.
+        short_by_m: the distance by which to move the point into reach (m).
+        base: that base in the table frame, moved back by the drag of the cloth.
     """
 
     arm: int
@@ -51,17 +51,17 @@ class Lack:
 
     @property
     def radius_m(self) -> float:
-        """How far round the point the reach is worth showing (m): with what is missing, and some more."""
+        """The radius about the point in which to show the reach (m): the shortfall and a margin."""
         return min(max(_LEAST_M, 1.5 * self.short_by_m + 0.05), _MOST_M)
 
 
 @dataclass(frozen=True, slots=True)
 class NearReach:
-    """The reach round a point, base frame.
+    """The reach near a point, base frame.
 
     Attributes:
-        beyond: what of a disc round the point is out of comfort.
-        edge: the lines at which that ends.
+        beyond: the part of a disc about the point that lacks reach margin.
+        edge: the lines at which that part ends.
     """
 
     beyond: Region
@@ -69,7 +69,7 @@ class NearReach:
 
 
 def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
-    """The reach round the point of the first reason that has one, as JSON, article frame; None if it is not short."""
+    """Return the reach near the point of the moment's reason, as JSON, article frame; None if it is not about reach."""
     reason = moment.reason
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
@@ -95,16 +95,16 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
 
 @lru_cache(maxsize=16)
 def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
-    """The reach round a point, the hand turned as it is.
+    """Return the reach near a point with a fixed orientation of the hand.
 
     Args:
         robot: the robot's name.
-        torso_m: how far the lift is raised (m).
-        comfort_m: how much slack every reach has (m).
-        lack: the point, and how the hand is turned.
+        torso_m: the height of the lift (m).
+        comfort_m: the comfort radius (m).
+        lack: the point, and the orientation of the hand.
 
     Raises:
-        SceneError: the lift does not go there.
+        SceneError: the lift does not reach this height.
     """
     reach = load_robot(robot).reach(torso_m, comfort_m)
     x, y, height_m = lack.seen
@@ -116,7 +116,7 @@ def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> Near
 
 
 def _lack(moment: Moment, reason: Reason) -> Lack | None:
-    """What a reason says is lacking; None if it is not about reach, or about a place that is not there any more."""
+    """Return the point out of reach; None if a reason is not about reach, or its arm or station no longer exists."""
     point, approach, offset_m, short_by_m = reason.point, reason.approach, reason.offset_m, reason.short_by_m
     if point is None or approach is None or offset_m is None or short_by_m is None:
         return None
@@ -136,7 +136,7 @@ def _disc(middle: Point2, radius_m: float) -> Region:
 
 
 def _edge(beyond: Region, disc: Region) -> tuple[FloatArray, ...]:
-    """Where what is beyond ends, but for where merely the disc ends in which it was looked for."""
+    """Return the boundary lines of the part out of reach, without the disc's own boundary."""
     lines: list[FloatArray] = []
     for ring in (ring for part in beyond.pieces for ring in rings_of(part)):
         middles = (ring + np.roll(ring, -1, axis=0)) / 2.0

@@ -1,9 +1,9 @@
-"""How far cloth may hang over each edge of the table before it slips, and how it stands now.
+"""Computes how far the cloth may hang over each edge of the table before it slips, and how it hangs now.
 
-Cloth that hangs over one edge alone holds as long as what hangs is at most friction times what lies, layers counted:
-its share of the whole may be friction / (1 + friction). So for each edge there is a line across the cloth, parallel to
-the edge, beyond which that share lies. Areas beyond a line are sums over the layers' edges: of an edge from (t, h) to
-(t', h'), t along the line and h beyond it, the part beyond adds the integral of max(h, 0) dt.
+Cloth over one edge holds as long as the hanging area is at most friction times the lying area, layers counted; the
+hanging share of the whole may then be friction / (1 + friction). So for each edge there is a line across the cloth,
+parallel to the edge, with that share beyond it. The area beyond a line is a sum over the layers' edges: for an edge
+from (t, h) to (t', h'), t along the line and h beyond it, add the integral of max(h, 0) dt.
 """
 
 from dataclasses import dataclass
@@ -21,11 +21,11 @@ from planner.geometry.tolerance import GRID_M
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CutCloth:
-    """The layers of a stack as edges, to be cut by lines.
+    """The edges of a stack's layers, for cutting by lines.
 
     Attributes:
-        starts: where each edge of each layer begins, shape (n, 2), m; layers run counter-clockwise.
-        ends: where it ends.
+        starts: the start of each edge of each layer, shape (n, 2), m; layers run counter-clockwise.
+        ends: the end of each edge, shape (n, 2), m.
     """
 
     starts: FloatArray
@@ -33,12 +33,12 @@ class CutCloth:
 
     @staticmethod
     def of(cloth: ClothState) -> "CutCloth":
-        """All layers of a stack."""
+        """Return the edges of all layers of a stack."""
         rings = [layer.ring for layer in cloth.layers]
         return CutCloth(np.concatenate(rings), np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]))
 
     def area_beyond(self, line: Segment, shift_m: float = 0.0) -> float:
-        """The area to the right of a line that is moved to its right so far, layers counted (m^2)."""
+        """Return the area to the right of a line shifted to its right, layers counted (m^2)."""
         h0, h1 = (-line.left_distances(points) - shift_m for points in (self.starts, self.ends))
         t0, t1 = (line.positions(points) for points in (self.starts, self.ends))
         upper = np.maximum(h0, 0.0) + np.maximum(h1, 0.0)
@@ -48,18 +48,18 @@ class CutCloth:
         return abs(float(np.sum(0.5 * upper * share * (t1 - t0))))
 
     def reach_beyond(self, line: Segment) -> tuple[float, float]:
-        """How far the cloth lies to the right of a line, least and most (m)."""
+        """Return the least and the largest distance of the cloth to the right of a line (m)."""
         beyond = -line.left_distances(self.starts)
         return float(beyond.min()), float(beyond.max())
 
     def span_along(self, line: Segment) -> tuple[float, float]:
-        """Where along a line the cloth begins and ends (m)."""
+        """Return the positions along a line at which the cloth begins and ends (m)."""
         along = line.positions(self.starts)
         return float(along.min()), float(along.max())
 
 
 def slip_overlay(moment: Moment) -> dict[str, Any]:
-    """How far the cloth may hang over each edge, and what hangs now, as JSON, article frame."""
+    """Return how far the cloth may hang over each edge and the area hanging now, as JSON, article frame."""
     cloth, friction = CutCloth.of(moment.cloth), moment.scene.friction
     edges = dict(zip(EDGE_NAMES, moment.table.edges, strict=True))
     hanging = {name: cloth.area_beyond(edge) for name, edge in edges.items()}
@@ -77,7 +77,7 @@ def slip_overlay(moment: Moment) -> dict[str, Any]:
 
 
 def limit_m(cloth: CutCloth, edge: Segment, friction: float) -> float:
-    """How far to the right of an edge the line lies beyond which the cloth may hang over it (m)."""
+    """Return the distance, to the right of an edge, of the line beyond which the cloth may hang over (m)."""
     low, high = cloth.reach_beyond(edge)
     whole = cloth.area_beyond(edge, low)
     share = friction / (1.0 + friction)
