@@ -1,1 +1,1 @@
-"""Motion: joint paths for what primitives do, from transfer to transit, and the trajectory that they make."""
+"""Motion: joint paths for primitives, transfers with cloth held and transits with empty hands, and their trajectory."""

@@ -1,4 +1,4 @@
-"""What a plan consists of once it is real: runs in which cloth is held, and moves between them."""
+"""The acts of a validated plan: transfers in which cloth is held, and moves between them."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -9,12 +9,12 @@ from planner.primitives.primitive import Step
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Act:
-    """Primitives that follow one another without letting go, or one in which nothing is held.
+    """Primitives that follow one another without letting go, or one primitive in which nothing is held.
 
     Attributes:
         first: the index of its first primitive in the plan.
-        steps: its primitives, as they are performed.
-        run: the joint paths; None where nothing is held.
+        steps: its primitives, as steps of the plan.
+        run: the transfer with its joint paths; None where nothing is held.
     """
 
     first: int
@@ -22,12 +22,12 @@ class Act:
     run: Transfer | None
 
     def durations_s(self) -> tuple[float, ...]:
-        """How long each of its primitives takes (s)."""
+        """Return the duration of each of its primitives (s)."""
         return self.run.durations_s() if self.run is not None else tuple(step.duration_s for step in self.steps)
 
 
 def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
-    """Return acts as they are done one after the other: the hands come to each run from the one before it."""
+    """Return acts as they follow one another: the hands come to each transfer from the one before it."""
     before: Transfer | None = None
     found = []
     for act in acts:
@@ -38,14 +38,14 @@ def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
 
 
 def duration_s(acts: Sequence[Act]) -> float:
-    """Return how long acts take together (s)."""
+    """Return the total duration of acts (s)."""
     return sum(sum(act.durations_s()) for act in acts)
 
 
 def runs_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
-    """Steps that follow one another without letting go, each time with the index of the first.
+    """Yield the transfers of a plan: steps that follow one another without letting go, with the index of the first.
 
-    The last ones may end with cloth in the hands, if that is all that is asked for.
+    The last transfer may end with cloth in the hands, if the task asks for no more.
     """
     first = 0
     for number, step in enumerate(steps):

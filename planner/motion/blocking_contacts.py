@@ -1,8 +1,9 @@
-"""What is in the arms' way in a motion that they cannot follow, and by how much at the least.
+"""Find the contact that blocks a motion, and the least depth to which the arms cannot avoid it.
 
-At some moments of the motion every posture with which an arm could be where it must is looked at by itself, then both
-arms' postures together. The moment at which the best of them is worst says what stops the motion. Where some posture is
-free at every moment the arms are only cut off, one from the next: then nothing is said.
+At some moments of the motion, every posture that brings an arm's tool to its pose is tested alone, then both arms'
+postures together. At each moment the posture of least penetration counts; the moment at which that is deepest tells
+what blocks the motion. If some posture is free at every moment, no path connects them, and there is no contact to
+report.
 """
 
 from collections.abc import Iterator
@@ -17,17 +18,17 @@ from planner.primitives.obstacle import BlockingContact
 from planner.robot.collision.contact import Contact
 
 _MOMENTS = 16
-"""So many moments are looked at."""
+"""The number of moments tested."""
 
 _POSTURES, _POSTURES_TOGETHER = 16, 5
-"""So many postures of an arm by itself, and of each arm when both are looked at."""
+"""The postures tested of an arm alone, and of each arm when both are tested together."""
 
 
 class BlockingContacts:
-    """Looks for what stops motions of one robot at one table."""
+    """The search for contacts that block motions of one robot at one table."""
 
     def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float, height_m: float) -> None:
-        """The robot with its lift raised so far, at a table so high (m)."""
+        """Keep the robot, the height of its lift and that of the table (m)."""
         self._machine = machine
         self._collisions = collisions
         self._torso_m = torso_m
@@ -35,7 +36,7 @@ class BlockingContacts:
         self._homes = np.array([machine.home(arm) for arm in range(len(machine.card.arms))])
 
     def of(self, moments: Moments) -> BlockingContact | None:
-        """What stops the hands from doing what they are to do; None where nothing does by itself."""
+        """Return the contact that blocks a motion; None where no contact does so by itself."""
         looked_at = np.unique(np.linspace(0, len(moments) - 1, _MOMENTS).round().astype(int))
         able = {int(moment): self._postures(moments, int(moment)) for moment in looked_at}
         for least in (self._least_alone, self._least_together):
@@ -45,7 +46,7 @@ class BlockingContacts:
         return None
 
     def _postures(self, moments: Moments, moment: int) -> dict[int, FloatArray]:
-        """How each arm that holds cloth can be where it must, shape (k, 7)."""
+        """Return the postures that bring each arm that holds cloth to its tool pose, shape (k, 7)."""
         return {
             int(arm): self._machine.free_postures(
                 int(arm),
@@ -58,7 +59,7 @@ class BlockingContacts:
         }
 
     def _least_alone(self, moments: Moments, moment: int, postures: dict[int, FloatArray]) -> Iterator[BlockingContact]:
-        """Of each arm that touches something in every posture, where it does so least."""
+        """Yield, for each arm that touches something in every posture, the least of its contacts."""
         for arm, able in postures.items():
             tried = np.broadcast_to(self._homes, (len(able), *self._homes.shape)).copy()
             tried[:, arm] = able
@@ -67,7 +68,7 @@ class BlockingContacts:
     def _least_together(
         self, moments: Moments, moment: int, postures: dict[int, FloatArray]
     ) -> Iterator[BlockingContact]:
-        """If all arms touch something in all their postures, where they do so least."""
+        """Yield the least contact if the arms touch something in every combination of their postures."""
         some = [_some(able, _POSTURES_TOGETHER) for able in postures.values()]
         if len(some) == len(self._homes):
             yield from self._least(moments, moment, min(postures), np.array([*product(*some)]))
@@ -99,5 +100,5 @@ class BlockingContacts:
 
 
 def _some(rows: FloatArray, count: int) -> FloatArray:
-    """So many of an array's rows, evenly spread."""
+    """Return `count` of an array's rows, evenly spread."""
     return rows[np.unique(np.linspace(0, len(rows) - 1, count).round().astype(int))] if len(rows) else rows

@@ -1,4 +1,4 @@
-"""The joints of a run."""
+"""The joint paths of a transfer."""
 
 from dataclasses import dataclass
 
@@ -11,18 +11,18 @@ from planner.motion.moments import Moments
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Carried:
-    """The joints of a run.
+    """The joint paths of a transfer.
 
     Attributes:
         moments: the moments while cloth is held.
-        cloths: the cloth that lies before and after.
-        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
-        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that do nothing are at home, those that have let
-            go wait where they withdrew to.
-        first: the step at which the grips are reached: the first of the moments.
-        lines: how the hands come and leave.
-        half_turns: by which angle each hand is turned about its approach axis beside that (rad), 0 or pi: to a gripper
-            it is all one which finger is which, so it is turned as is nearer to home, shape (arms,).
+        cloths: the cloth on the table before and after.
+        bases: the base at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that take no part are at home; those that have
+            let go wait where they withdrew to.
+        first: the step at which the hands reach the grips: the first of the moments.
+        lines: how the hands approach and withdraw.
+        half_turns: the extra turn of each hand about its approach axis (rad), 0 or pi, shape (arms,). The two fingers
+            are interchangeable, so each hand is turned the way that is nearer to home.
     """
 
     moments: Moments
@@ -39,12 +39,12 @@ class Carried:
         return self.first + len(self.moments) - 1
 
     def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
-        """Its joints as guides for a run that differs a little, shape (steps, arms, 7).
+        """Return its joints as guides for a transfer that differs a little, shape (steps, arms, 7).
 
         Args:
-            first: the step of that run at which the grips are reached.
+            first: the step of that transfer at which the hands reach the grips.
             moments: its moments.
-            steps: its steps in all.
+            steps: the number of its steps.
         """
         old, new = self.moments.progress, moments.progress
         held = np.interp(new, old, np.arange(len(old))) + self.first

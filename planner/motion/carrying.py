@@ -1,4 +1,4 @@
-"""Joint paths for a run: both arms from before their grips, along the cloth's way, to where they have let go."""
+"""Find joint paths for a transfer: both arms from before their grips, along the cloth's path, to after letting go."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -18,19 +18,21 @@ from planner.motion.robot_port import Collisions, RobotPort
 from planner.robot.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
-"""Hands that point down by more than the angle of this sine may have one finger over the other; flatter ones would
-push the lower one into the table."""
+"""The sine of the pitch from which a hand may have one finger above the other.
+
+The lower finger of a hand that points down less steeply would be pushed into the table.
+"""
 
 _LOOKED_AT = 5
-"""At so many moments it is looked whether arms can be in their places together before they are led there."""
+"""The moments at which the arms' postures are tested together before a path is searched."""
 
 _RUNS_KEPT, _PLACES_KEPT = 512, 8192
-"""So many answers are remembered: of runs, some 50 kB each, and of places of a hand, some 2 kB each."""
+"""Sizes of the caches: transfers of some 50 kB each, and tool poses of some 2 kB each."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """A run, known by all that its joints depend on."""
+    """A transfer, identified by all that its joints depend on."""
 
     key: tuple[bytes, ...]
     cloths: Cloths
@@ -43,7 +45,7 @@ class _Asked:
 
 
 _Pose: TypeAlias = tuple[bytes, bytes, bytes]
-"""Where the base stands, a tool's place and its axes, as keys of what is remembered."""
+"""The cache key of a tool pose: the base's pose, the tool's position and its axes."""
 
 
 def _pose(base: FloatArray, position: FloatArray, rotation: FloatArray) -> _Pose:
@@ -51,13 +53,13 @@ def _pose(base: FloatArray, position: FloatArray, rotation: FloatArray) -> _Pose
 
 
 class Carrier:
-    """Finds the joint paths of runs, and remembers them: a plan for a garment that was changed a little repeats most.
+    """Finds and caches the joint paths of transfers; most of them recur after a small change to the garment.
 
     May be shared between threads.
     """
 
     def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float, height_m: float) -> None:
-        """A carrier for one robot, its torso raised so far, at a table so high (m)."""
+        """Keep a robot, the height of its lift and that of the table (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions
         self._torso_m = torso_m
@@ -68,19 +70,21 @@ class Carrier:
         self._are_apart = lru_cache(_PLACES_KEPT)(self._search_apart)
 
     def carried(self, moments: Moments, cloths: Cloths) -> Carried | NoPath:
-        """The joints of a run; or that the arms cannot be led through it, and at which moments not. Remembered."""
+        """Return the joint paths of a transfer, or the moments at which there is no path. Cached."""
         return self._searched(_Asked.of(moments, cloths))
 
     def can_hold(self, moments: Moments, first: Iterable[int] = ()) -> bool:
-        """Whether the arms can be where they are at a few moments of a run; mostly if not, it cannot be carried.
+        """Return whether the arms have free postures at a few moments; without them there is hardly ever a path.
 
-        `first`: the moments that are looked at before others.
+        Args:
+            moments: the moments of the transfer.
+            first: the moments that are tested before others.
         """
         looks = _LOOKED_AT if moments.is_held.any(axis=1).sum() > 1 else 2
         return self.can_hold_at(moments, [*first, *np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist()])
 
     def can_hold_at(self, moments: Moments, which: Iterable[int]) -> bool:
-        """Whether the arms can be where they are at some moments, each looked at by itself."""
+        """Return whether the arms have free postures at some moments, each tested alone."""
         arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
         rolls = _rolls(moments)[::-1]
         return all(any(self._can_hold(arms, moments, moment, roll) for roll in rolls) for moment in which)
@@ -90,7 +94,7 @@ class Carrier:
         return over if isinstance(over, Carried) else self._rolled(asked, BESIDE)
 
     def _rolled(self, asked: "_Asked", roll_rad: float) -> Carried | NoPath:
-        """The joints of a run whose hands have rolled so far."""
+        """Return the joint paths of a transfer whose hands have a roll (rad)."""
         found = self._with_lines(asked, Lines(roll_rad, FAR))
         for shares in (UP, NEAR):
             if isinstance(found, Carried) or found.is_hopeless:
@@ -99,7 +103,7 @@ class Carrier:
         return found
 
     def adapted(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | NoPath:
-        """The joints of a run that differs a little from one that is known, near to those if they can be."""
+        """Return the joint paths of a transfer similar to a known one, close to its joints if possible."""
         near = self._near(moments, cloths, like)
         return self.carried(moments, cloths) if near is None else near
 
@@ -122,9 +126,9 @@ class Carrier:
         return self._half_turned(leads, moments, cloths, joints, like.lines)
 
     def _with_lines(self, asked: "_Asked", lines: Lines) -> Carried | NoPath:
-        """The joints of a run whose hands come and leave along the first of some lines that there is room for.
+        """Return the joint paths of a transfer, each hand on the first of its lines for which there is room.
 
-        Where there are none, the moments are told at which an arm collides whatever it does, or cannot pass the other.
+        Where there is no path, return the moments at which an arm collides in every posture, or cannot pass the other.
         """
         moments, cloths = asked.moments, asked.cloths
         leads = Leads.of(moments, lines, self._height_m, self._has_room, cloths)
@@ -136,7 +140,7 @@ class Carrier:
         return self._half_turned(leads, moments, cloths, joints, lines)
 
     def _half_turned(self, leads: Leads, moments: Moments, cloths: Cloths, joints: FloatArray, lines: Lines) -> Carried:
-        """A run whose hands are turned by half a turn where they are nearer to home then, and nothing touches."""
+        """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free."""
         half_turns, turned = np.zeros(self._arms), joints.copy()
         for lead, is_free in zip(leads.each, self._are_free(leads, cloths), strict=True):
             away = joints[[0, -1], lead.arm, -1] - self._machine.home(lead.arm)[-1]
@@ -152,7 +156,7 @@ class Carrier:
         return Carried(moments, cloths, leads.bases, turned, leads.first, lines, half_turns)
 
     def _arm_paths(self, leads: Leads, cloths: Cloths) -> FloatArray | NoPath:
-        """The joints of the arms that do something, shape (steps, arms, 7)."""
+        """Return the joints of the arms that take part, shape (steps, arms, 7)."""
         are_free = self._are_free(leads, cloths)
         if len(leads.each) > 1:
             left, right = (lead.path for lead in leads.each)
@@ -164,9 +168,9 @@ class Carrier:
         return found if isinstance(found, NoPath) else found[:, None]
 
     def _are_free(self, leads: Leads, cloths: Cloths) -> list[IsFree]:
-        """Of each arm that does something where it collides: with body and table, and an arm that stays at home.
+        """Return for each arm that takes part a test for collisions with body, table and an arm that stays at home.
 
-        A hand that holds nothing may not be low over cloth either, but near its grip.
+        An empty hand also has to stay above the cloth, except near its grip.
         """
         is_alone = len(leads.each) == 1
 
@@ -187,9 +191,9 @@ class Carrier:
         return [partial(is_free, lead) for lead in leads.each]
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int, roll_rad: float) -> bool:
-        """Whether the arms, rolled so far, can be where they are at a moment, each by itself and all of them together.
+        """Return whether the arms have free postures at a moment, each alone and all together, with a given roll.
 
-        One that does nothing in the whole run is at home.
+        An arm that takes no part in the transfer is at home.
         """
         held = [arm for arm in arms if moments.is_held[arm, moment]]
         poses: list[_Pose | None] = [None] * self._arms
@@ -201,15 +205,15 @@ class Carrier:
         return self._are_apart(*poses)
 
     def _search_apart(self, left: "_Pose | None", right: "_Pose | None") -> bool:
-        """Whether both arms can have their tools in poses at once without touching each other; None: at home."""
+        """Return whether both arms can take their tool poses at once without contact; None: at home."""
         return self._collisions.are_some_apart(self._able(0, left), self._able(1, right))
 
     def _able(self, arm: int, pose: "_Pose | None") -> FloatArray:
-        """How an arm by itself can take a tool pose, or be at home, without touching body or table."""
+        """Return the postures of one arm at a tool pose, or at home, that touch neither body nor table."""
         return self._machine.home(arm)[None] if pose is None else self._free_postures(arm, *pose)
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
-        """How an arm by itself can take a tool pose without touching body or table. Remembered."""
+        """Return the postures of one arm at a tool pose that touch neither body nor table. Cached."""
         return self._free_postures(arm, *_pose(base, position, rotation))
 
     def _search_postures(self, arm: int, base: bytes, position: bytes, rotation: bytes) -> FloatArray:
@@ -235,6 +239,6 @@ class Carrier:
 
 
 def _rolls(moments: Moments) -> tuple[float, ...]:
-    """The rolls with which hands may hold cloth in a run (rad), the best first."""
+    """Return the rolls with which hands may hold cloth in a transfer (rad), the best first."""
     starts = (moments.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(moments.is_held.any(axis=1)))
     return (OVER, BESIDE) if all(start < -_STEEP for start in starts) else (BESIDE,)

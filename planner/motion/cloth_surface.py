@@ -1,9 +1,9 @@
-"""The cloth in space at one moment: every layer cut where it bends, each flat piece a few triangles.
+"""The cloth in space at one moment: every layer cut where it bends, and each flat piece triangulated.
 
-Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the
-baseline: what has not been lifted yet and what is laid down already lie flat, what is between stands. Flat parts
-are cut by the table's edges, beyond which they hang. Layers are drawn a little apart, as if each were one thickness
-of cloth. Standing cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
+Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the baseline:
+cloth not lifted yet or already laid down lies flat, cloth in between stands. Flat parts are cut by the table's edges,
+beyond which they hang. Layers are drawn a little apart, as if each were one thickness of cloth. Standing cloth keeps
+its lengths, so it ends between the fingertips, below the tool frame.
 """
 
 from collections.abc import Sequence
@@ -25,10 +25,10 @@ from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
 
 LAYER_GAP_M = 0.0015
-"""How far apart neighbouring layers are drawn (m)."""
+"""The distance at which neighbouring layers are drawn (m)."""
 
 _Seen = tuple[int, int | None, float, Pose2, TableTop, float]
-"""All that the look of the cloth depends on: folds done, the fold under way and its sweep, where, over what, droop."""
+"""All that the shape of the cloth depends on: folds done, current fold, its sweep, placement, table top, droop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class _Pieces:
 
     Attributes:
         triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
-        numbers: the layer in which each is, shape (n,).
+        numbers: the layer of each, shape (n,).
         is_back: whether it shows its back, shape (n,).
     """
 
@@ -47,7 +47,7 @@ class _Pieces:
 
     @staticmethod
     def of(layers: Sequence[Layer], numbers: Sequence[int]) -> "_Pieces":
-        """Layers with their numbers."""
+        """Return the triangles of layers with given numbers."""
         meshes = [layer.region.triangles for layer in layers]
         counts = [len(mesh) for mesh in meshes]
         is_back = np.repeat(np.array([layer.face == "back" for layer in layers], dtype=np.bool_), counts)
@@ -55,27 +55,27 @@ class _Pieces:
         return _Pieces(triangles, np.repeat(np.array(numbers, dtype=np.int64), counts), is_back)
 
     def parts(self, triangles: FloatArray, sources: NDArray[np.int64]) -> "_Pieces":
-        """What they are cut into, each of which is a part of one of them."""
+        """Return triangles cut from these; `sources` are the indices of the originals."""
         return _Pieces(triangles, self.numbers[sources], self.is_back[sources])
 
     def parted(self, line: Segment) -> tuple["_Pieces", "_Pieces"]:
-        """What lies to the left and what to the right of the whole line through a segment."""
+        """Return the parts to the left and to the right of the infinite line through a segment."""
         left, right = parted(self.triangles, line)
         return self.parts(*left), self.parts(*right)
 
     def turned(self, line: Segment) -> "_Pieces":
-        """Turned over a line; each keeps its number."""
+        """Return the pieces turned over a line; each keeps its number."""
         return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
 
     @property
     def gaps(self) -> FloatArray:
-        """How far each is drawn off the table (m), shape (n, 1)."""
+        """The height above the table at which each is drawn (m), shape (n, 1)."""
         return np.asarray((self.numbers[:, None] + 1) * LAYER_GAP_M)
 
 
 @dataclass(slots=True)
 class _Mesh:
-    """What is seen of cloth that lies somewhere: flat on the table and over its edges, or standing.
+    """A growing mesh of cloth at one placement: flat on the table, over its edges, or standing.
 
     Attributes:
         placement: the article frame in the table frame.
@@ -91,7 +91,7 @@ class _Mesh:
     layers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def lay(self, pieces: _Pieces) -> None:
-        """Add cloth that lies."""
+        """Add cloth that lies on the table or hangs over its edges."""
         flat = self.placement.to_outer(pieces.triangles)
         if not self.top.covers(flat):
             flat, sources = creased(flat, bends(self.top, flat, float(pieces.gaps.max(initial=0.0))))
@@ -110,7 +110,7 @@ class _Mesh:
         self._add(pieces, standing, np.full(standing.shape, np.nan))
 
     def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
-        """Add triangles, shape (n, 3, 3), and where they are unrolled; those that show their backs are turned over."""
+        """Add triangles, shape (n, 3, 3), and their unrolled positions; turn over those that show their backs."""
         for kept, points in ((self.corners, corners), (self.unrolled, unrolled)):
             kept.append(np.where(pieces.is_back[:, None, None], points[:, ::-1], points))
         self.layers.append(pieces.numbers)
@@ -123,16 +123,16 @@ class _Mesh:
 
 
 class ClothSurfaces:
-    """The cloth of one planning problem, at any moment of any phase."""
+    """The cloth of one task, at any moment of any phase."""
 
     def __init__(self, sequence: FoldSequence) -> None:
         self._sequence = sequence
         self._last: tuple[_Seen, ClothSurface] | None = None
 
     def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
-        """The cloth a fraction of the way through a phase's motion; `droop` as in `draped`.
+        """Return the cloth a fraction of the way through a phase's motion; `droop` as in `draped`.
 
-        As long as nothing of it moves it is the same object.
+        While no part of it moves, the result is the same object.
         """
         first, last = motion.sweep
         sweep = 0.0 if motion.fold is None else max(first + fraction * (last - first), 0.0)
@@ -169,7 +169,7 @@ class ClothSurfaces:
 
 
 def _baseline(line: Segment, distance: float) -> Segment:
-    """Where cloth stops lying: beside the fold line, to the left (m)."""
+    """Return the line beyond which cloth no longer lies: parallel to the fold line, to its left (m)."""
     nx, ny = line.left
     (ax, ay), (bx, by) = line.start, line.end
     return Segment((ax + distance * nx, ay + distance * ny), (bx + distance * nx, by + distance * ny))

@@ -1,4 +1,4 @@
-"""Keyframes of all arms and grippers, between which everything moves evenly."""
+"""Joint trajectories of all arms and grippers, as keyframes between which everything moves evenly."""
 
 from dataclasses import dataclass, field
 
@@ -7,16 +7,16 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 
 OPEN_M, CLOSED_M = 0.04, 0.004
-"""The gripper's opening when it is free and when it holds cloth (m)."""
+"""The gripper's opening when it is empty and when it holds cloth (m)."""
 
 
 @dataclass(slots=True)
 class JointTrack:
-    """Where all arms are, and how far their grippers are open.
+    """The joint trajectory of all arms, and the openings of their grippers.
 
     Attributes:
-        times_s: when the keyframes are (s), rising.
-        joints: the joints there (rad), shape (arms, 7) each.
+        times_s: the times of the keyframes (s), rising.
+        joints: the joints at each (rad), shape (arms, 7) each.
     """
 
     times_s: list[float]
@@ -26,7 +26,7 @@ class JointTrack:
 
     @staticmethod
     def at_rest(joints: FloatArray) -> "JointTrack":
-        """A track that begins at some joints, shape (arms, 7), all grippers open."""
+        """Return a trajectory that begins at some joints, shape (arms, 7), with all grippers open."""
         arms = len(joints)
         return JointTrack([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
 
@@ -36,7 +36,7 @@ class JointTrack:
         return self.joints[-1]
 
     def joints_at(self, t_s: float) -> FloatArray:
-        """All arms' joints at a time (rad), shape (arms, 7)."""
+        """Return all arms' joints at a time (rad), shape (arms, 7)."""
         after = int(np.searchsorted(self.times_s, t_s, side="right"))
         if after == 0 or after == len(self.times_s):
             return self.joints[max(after - 1, 0)]
@@ -45,11 +45,11 @@ class JointTrack:
         return np.asarray((1.0 - share) * self.joints[after - 1] + share * self.joints[after])
 
     def openings(self, arm: int) -> tuple[list[float], list[float]]:
-        """Return a gripper's keyframes: when they are (s), and how far it is open then (m)."""
+        """Return a gripper's keyframes: their times (s) and openings (m)."""
         return self._grip_times_s[arm], self._openings_m[arm]
 
     def add(self, times_s: FloatArray, joints: FloatArray) -> None:
-        """Add keyframes, shape (n,) and (n, arms, 7); those no later than the last are left out."""
+        """Add keyframes, shapes (n,) and (n, arms, 7); skip those no later than the last."""
         for t, here in zip(times_s.tolist(), joints, strict=True):
             if t > self.times_s[-1]:
                 self.times_s.append(t)

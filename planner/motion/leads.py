@@ -1,7 +1,8 @@
-"""Where the arms' tools go in a run: straight to their grips, along the cloth's way, and straight away from it.
+"""The tool paths of a transfer: straight to the grips, along the cloth's path, and straight away from it.
 
-A hand comes to its grip along its approach axis, fingers first, and leaves it backwards and upwards; these lines are
-part of the path, so that the joints with which the cloth is taken are ones with which it can be reached and left.
+A hand comes to its grip along its approach axis, fingers first, and withdraws backwards and upwards. These lines are
+part of the path, so that the joints with which a hand takes the cloth are also joints from which it can come and
+withdraw.
 """
 
 from collections.abc import Callable
@@ -18,41 +19,46 @@ from planner.motion.moments import Moments, about_x
 from planner.robot.tool_path import ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12
-"""How far a hand comes straight to a grip, and goes straight away from it, where that is in reach (m)."""
+"""The lengths of the straight lines to a grip and away from it, where they are within reach (m)."""
 
 CLEAR_M = 0.12
-"""How high over the table a hand then is, where that is in reach: from there it travels (m)."""
+"""The height above the table from which a hand travels, where that is within reach (m)."""
 
 _STEP_M = 0.01
-"""How far hands go on these ways from one step to the next (m)."""
+"""The distance between neighbouring steps on these lines (m)."""
 
 Shares = tuple[tuple[float, float], ...]
 
 NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
 UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
 FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
-"""How much of the straight line and of the rise is tried: what must do, what takes hands clear of cloth, and what had
-better."""
+"""The fractions of the line and of the rise that are tried.
+
+`NEAR` must do at least; `UP` takes hands clear of the cloth; `FAR` is preferred.
+"""
 
 OVER, BESIDE = 0.5 * np.pi, 0.0
-"""The roll of a hand with one finger over the other, and side by side (rad)."""
+"""The roll of a hand with one finger above the other, and with both side by side (rad)."""
 
 HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray, LyingCloth | None], bool]
-"""Asked with an arm, the base (x, y, yaw; table frame), a tool's place (m) and axes (base frame), and cloth that lies:
-can it be there, clear of the cloth?"""
+"""The test whether an arm can take a tool pose clear of the cloth.
+
+Its arguments: the arm, the base (x, y, yaw; table frame), the tool's position (m) and axes (base frame), and the cloth
+on the table.
+"""
 
 
 Cloths = tuple[LyingCloth | None, LyingCloth]
-"""The cloth as it lies before a run, and after it; None before one that begins with cloth in the hands."""
+"""The cloth on the table before a transfer and after it; None before one that begins with cloth in the hands."""
 
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """How hands come and leave.
+    """How hands approach and withdraw.
 
     Attributes:
-        roll_rad: how far they have rolled about their approach axes; see `rolled`.
-        shares: how much of the straight line and of the rise is tried, the first that there is room for is taken.
+        roll_rad: their roll about their approach axes; see `rolled`.
+        shares: the fractions of the line and of the rise to try; the first for which there is room is taken.
     """
 
     roll_rad: float
@@ -61,14 +67,14 @@ class Lines:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lead:
-    """One arm's part in a run.
+    """One arm's part in a transfer.
 
     Attributes:
-        arm: which arm.
-        path: where its tool must be at each step of the run; where it has withdrawn to it stays.
-        from_grip_m: how far it has to go to its grip as it comes, and has gone since it let go (m); 0 while it holds,
-            shape (steps,).
-        let_go: the first step at which it holds no more.
+        arm: the arm.
+        path: the tool path over all steps of the transfer; once withdrawn, the tool stays.
+        from_grip_m: the way still to go to the grip, or gone since letting go (m); 0 while the hand holds, shape
+            (steps,).
+        let_go: the first step at which it no longer holds.
     """
 
     arm: int
@@ -77,19 +83,19 @@ class Lead:
     let_go: int
 
     def must_clear(self, steps: NDArray[np.int64]) -> tuple[BoolArray, BoolArray]:
-        """At which of some steps it must be clear of the cloth that lies before, and of that which lies after."""
+        """Return at which steps it must be clear of the cloth on the table, as it lies before and as it lies after."""
         is_far = self.from_grip_m[steps] > NEAR_GRIP_M
         return is_far & (steps < self.let_go), is_far & (steps >= self.let_go)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Leads:
-    """All arms' parts in a run.
+    """All arms' parts in a transfer.
 
     Attributes:
-        each: the arms that do something.
-        bases: where the base stands at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
-        first: the step at which the grips are reached.
+        each: the arms that take part.
+        bases: the base at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
+        first: the step at which the hands reach the grips.
     """
 
     each: tuple[Lead, ...]
@@ -98,14 +104,14 @@ class Leads:
 
     @staticmethod
     def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> "Leads":
-        """The parts of the arms that hold cloth at some of the moments.
+        """Return the parts of the arms that hold cloth at some of the moments.
 
         Args:
             moments: the moments while cloth is held.
-            lines: how hands come and leave.
-            height_m: the table top's height over the floor.
-            has_room: where a hand can be.
-            cloths: the cloth that lies before and after.
+            lines: how hands approach and withdraw.
+            height_m: the table top's height above the floor (m).
+            has_room: the test whether a hand has room.
+            cloths: the cloth on the table before and after.
         """
         arms = np.flatnonzero(moments.is_held.any(axis=1))
         ways = [_way(int(arm), moments, lines, height_m, has_room, cloths) for arm in arms]
@@ -118,7 +124,7 @@ class Leads:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Way:
-    """Where an arm's tool goes: to its grip, along the cloth's way, and from where it lets go."""
+    """The tool path of one arm: to its grip, along the cloth's path, and away."""
 
     arm: int
     positions: FloatArray
@@ -128,7 +134,7 @@ class _Way:
     retreat: FloatArray
 
     def lead(self, before: int, after: int, steps: int) -> Lead:
-        """The tool's path of so many steps, coming in some of them, leaving in some, then where it is."""
+        """Return the tool path over `steps` steps: `before` to come, then the grip, `after` to withdraw, then rest."""
         coming = _resampled(_stepped(self.approach), before)[:0:-1]
         leaving = _resampled(_stepped(self.retreat), after)[1:]
         first, last = self.rotations[:1], self.rotations[-1:]
@@ -146,14 +152,14 @@ class _Way:
 
 
 def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
-    """How far each of some points is from a start, along the way through all of them (m)."""
+    """Return the distance of each point from a start, along the polyline through all of them (m)."""
     return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
 
 
 def rolled(arm: int, roll_rad: float) -> FloatArray:
     """Return the rotation by which an arm's hand rolls about its approach axis, shape (3, 3).
 
-    The arms are mirror images: the right one rolls the other way, so that what one can do the other can.
+    The arms are mirror images: the right one rolls the other way, so that both can do the same.
     """
     return np.asarray(about_x(np.array([roll_rad if arm == 0 else -roll_rad]))[0])
 
@@ -179,12 +185,12 @@ def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: Ha
 
 
 def _is_far(corners: FloatArray) -> bool:
-    """Whether a way leads so far from its grip that a hand at its end must be clear of cloth."""
+    """Return whether a line leads so far from its grip that a hand at its end must be clear of cloth."""
     return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum()) > NEAR_GRIP_M
 
 
 def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: float) -> list[FloatArray]:
-    """The corners of ways from a place along a line and up, each of shape (3, 3), m."""
+    """Return the corners of lines from a position along a direction and up, each of shape (3, 3), m."""
     far = position + np.array(shares)[:, :1] * line
     rises = np.maximum(height_m + CLEAR_M - far[:, 2], 0.0) * np.array(shares)[:, 1]
     tips = far + rises[:, None] * np.array([0.0, 0.0, 1.0])
@@ -192,7 +198,7 @@ def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: f
 
 
 def _stepped(corners: FloatArray) -> FloatArray:
-    """The points of a polyline, no more than a step apart, shape (n, 3), m; at least two."""
+    """Return the points of a polyline, at most one step apart, shape (n, 3), m; at least two."""
     parts = [corners[:1]]
     for start, end in pairwise(corners):
         count = int(np.ceil((np.linalg.norm(end - start) - LENGTH_M) / _STEP_M))
@@ -202,6 +208,6 @@ def _stepped(corners: FloatArray) -> FloatArray:
 
 
 def _resampled(points: FloatArray, steps: int) -> FloatArray:
-    """A polyline's points as so many steps, shape (steps + 1, 3); no fewer than it has."""
+    """Return a polyline's points in `steps` steps, shape (steps + 1, 3); `steps` must be no fewer than it has."""
     numbers = np.linspace(0.0, len(points) - 1, steps + 1)
     return np.column_stack([np.interp(numbers, np.arange(len(points)), column) for column in points.T])

@@ -1,4 +1,4 @@
-"""The cloth that lies while hands are free, which they neither touch nor sweep along."""
+"""The cloth on the table during a transit, which the arms must neither touch nor sweep along."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -14,10 +14,13 @@ from planner.primitives.context import Context
 from planner.primitives.state import State
 
 OVER_CLOTH_M = 0.032
-"""How high over cloth free arms stay where that is looked at (m): 3 cm, and what may be lost in between."""
+"""The height that empty arms keep above cloth at the moments tested (m).
+
+It is 3 cm and a reserve for what may be lost between two tests.
+"""
 
 NEAR_GRIP_M = 0.07
-"""So near to its grip, along its way, a hand may be lower (m): within 8 cm, and less than a step to spare."""
+"""The way from its grip within which a hand may be lower (m): 8 cm, less one step of at most 1 cm."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,7 @@ class LyingCloth:
     """Cloth that lies on the table.
 
     Attributes:
-        key: tells it from other cloth, or the same elsewhere.
+        key: identifies the cloth and its place.
     """
 
     key: bytes
@@ -35,18 +38,18 @@ class LyingCloth:
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """At which joints of a free arm, shape (n, 7), all of it is high enough over the cloth, shape (n,).
+        """Return at which joints of an empty arm, shape (n, 7), all of it is high enough above the cloth, shape (n,).
 
         Args:
-            arm: which arm.
-            bases: where the base stands.
+            arm: the arm.
+            bases: the base's pose.
             joints: the arm's joints (rad).
             is_certain: whether only those count that certainly are, which is quicker to tell.
         """
         return self._clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
 
     def are_all_clear(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Whether all arms are in all of some configurations, shape (n, arms, 7)."""
+        """Return whether all arms are high enough in all of some configurations, shape (n, arms, 7)."""
         return all(bool(self.arm_clear(arm, bases, joints[:, arm]).all()) for arm in range(joints.shape[1]))
 
     @cached_property
@@ -55,7 +58,7 @@ class LyingCloth:
 
 
 class LyingCloths:
-    """The cloth of one planning problem in each of its states."""
+    """The cloth of one task in each of its states."""
 
     def __init__(self, context: Context, collisions: Collisions) -> None:
         self._context = context
@@ -64,7 +67,7 @@ class LyingCloths:
         self._whole = lru_cache(None)(self._whole_pieces)
 
     def of(self, state: State) -> LyingCloth:
-        """The cloth as it lies in a state once nothing is held; what hangs beside the table is left out."""
+        """Return the cloth as it lies in a state once nothing is held, without what hangs over the table's edges."""
         key = (state.done, grid_key(state.offset[0]), grid_key(state.offset[1]))
         if key not in self._known:
             placement = self._context.placed(state.offset)

@@ -1,8 +1,8 @@
-"""What hands do while they hold cloth, moment by moment: the questions that joint paths must answer.
+"""Cut the motion of hands that hold cloth into moments: the tool poses that joint paths must meet.
 
-A *run* is what happens between two times at which all hands are free: a fold, a drag, or several primitives that follow
-one another without letting go. Its phases are cut into moments so close together that the base goes, a tool goes and
-a tool turns but a little from one to the next.
+A *transfer* is what happens between two times at which all hands are empty: a fold, a drag, or several primitives that
+follow one another without letting go. Its phases are cut so finely that the base and the tools move and turn only a
+little from one moment to the next.
 """
 
 import math
@@ -25,11 +25,11 @@ class Moments:
 
     Attributes:
         phases: index of the phase that each belongs to, shape (n,).
-        fractions: how much of that phase is done, shape (n,).
-        bases: where the base stands, table frame: x (m), y (m), yaw (rad), shape (n, 3).
-        positions: each arm's tool in the base frame, shape (arms, n, 3), m; nan while the hand is free.
-        rotations: the tool's axes as columns in the base frame, shape (arms, n, 3, 3); nan while the hand is free.
-        nominal_s: how long after the moment before each is at an even pace (s), shape (n,).
+        fractions: the fraction of that phase that is done, shape (n,).
+        bases: the base in the table frame: x (m), y (m), yaw (rad), shape (n, 3).
+        positions: each arm's tool in the base frame, shape (arms, n, 3), m; nan while the hand is empty.
+        rotations: the tool's axes as columns in the base frame, shape (arms, n, 3, 3); nan while the hand is empty.
+        nominal_s: the time since the moment before at an even pace (s), shape (n,).
         is_driving: whether the base drives on the way to each, which cannot be hurried, shape (n,).
     """
 
@@ -43,41 +43,41 @@ class Moments:
 
     @property
     def is_held(self) -> BoolArray:
-        """Which hands hold cloth when, shape (arms, n)."""
+        """Whether each hand holds cloth at each moment, shape (arms, n)."""
         return ~np.isnan(self.positions[:, :, 0])
 
     @property
     def is_used(self) -> BoolArray:
-        """Which arms hold cloth at some of the moments, shape (arms,)."""
+        """Whether each arm holds cloth at some of the moments, shape (arms,)."""
         return np.asarray(self.is_held.any(axis=1))
 
     @property
     def is_last_held(self) -> BoolArray:
-        """At which moment each hand lets go, shape (arms, n)."""
+        """Whether each hand holds for the last time at each moment, shape (arms, n)."""
         return np.asarray(
             self.is_held & ~np.append(self.is_held[:, 1:], np.zeros((len(self.is_held), 1), bool), axis=1)
         )
 
     @property
     def progress(self) -> FloatArray:
-        """How far the whole is at each, 0 to 1, every phase counting the same, shape (n,)."""
+        """The progress of the whole at each, 0 to 1, every phase counting the same, shape (n,)."""
         done = self.phases + self.fractions
         return np.asarray(done / max(float(done[-1]), 1.0))
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Return the number of moments."""
         return len(self.phases)
 
 
 def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Moments:
-    """The moments of phases in which no hand is reaching.
+    """Return the moments of phases in which no hand is reaching.
 
     Where a hand that holds on is to take another orientation, it turns in its grip before that phase begins.
 
     Args:
-        phases: what happens, one phase after the other.
-        height_m: the table top's height over the floor.
-        only_ends: whether of each phase only its beginning and its end are wanted.
+        phases: the phases, one after the other.
+        height_m: the table top's height above the floor (m).
+        only_ends: whether only the beginning and the end of each phase are wanted.
     """
     sampler = _Sampler(len(phases[0].hands), only_ends)
     stretches = [stretch for number, phase in enumerate(phases) for stretch in sampler.stretches(number, phase)]
@@ -102,13 +102,13 @@ def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = Fa
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Stretch:
-    """Moments of one phase, of its turning in the grips or of its way.
+    """Moments of one phase, of its turning in the grips or of its path.
 
     Attributes:
         number: index of the phase.
-        shares: how much of the phase is done, shape (n,).
-        rolls: how far each hand has rolled more than its phase says (rad).
-        turned: each arm's tool axes while it turns in its grip, shape (arms, n, 3, 3); None: it goes its way.
+        shares: the fraction of the phase that is done, shape (n,).
+        rolls: the roll of each hand beyond what its phase says (rad).
+        turned: each arm's tool axes while it turns in its grip, shape (arms, n, 3, 3); None while it follows its path.
     """
 
     number: int
@@ -119,19 +119,22 @@ class _Stretch:
 
 @dataclass(frozen=True, slots=True)
 class _Wrist:
-    """How a hand is turned: its approach, and its roll about that (rad)."""
+    """The orientation of a hand: its approach, and its roll about that (rad)."""
 
     approach: Approach
     roll_rad: float
 
     def seen_with(self, heading_rad: float) -> "_Wrist":
-        """The same for a hand that points straight down, whose heading is nothing but a roll."""
+        """Return the same orientation with another heading, for a hand that points straight down.
+
+        The heading of such a hand is nothing but a roll.
+        """
         turned = self.roll_rad + heading_rad - self.approach.heading_rad
         return _Wrist(Approach(heading_rad, self.approach.pitch_rad), turned)
 
 
 class _Sampler:
-    """Cuts phases into moments; knows how each hand was turned at the end of the phase before."""
+    """Cuts phases into moments, knowing each hand's orientation at the end of the phase before."""
 
     def __init__(self, arms: int, only_ends: bool) -> None:
         self._only_ends = only_ends
@@ -139,7 +142,7 @@ class _Sampler:
         self._rolls = [0.0] * arms
 
     def stretches(self, number: int, phase: Phase) -> Iterator[_Stretch]:
-        """The turning in the grips, if there is any, and the way; its start only if nothing went before."""
+        """Yield the turning in the grips, if there is any, and the path; its start only in the first phase."""
         turns = [self._turn(arm, hand) for arm, hand in enumerate(phase.hands)]
         angles = [float(np.abs(turn[1] - turn[0]).sum()) for turn in turns if turn is not None]
         angle = max(angles, default=0.0)
@@ -159,10 +162,10 @@ class _Sampler:
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + _rolls(hand)[-1])
 
     def _turn(self, arm: int, hand: Hand | None) -> FloatArray | None:
-        """Heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3); None: free.
+        """Return heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3).
 
-        It keeps its roll, so that a hand with its fingers flat over the table stays so; the roll with which it goes on
-        is settled here.
+        None for an empty hand. The hand keeps its roll, so that a hand with its fingers flat above the table stays so;
+        the roll with which it goes on is settled here.
         """
         before = self._wrists[arm]
         if hand is None:
@@ -193,9 +196,9 @@ def _positions_and_rotations(
     numbers: NDArray[np.int64],
     shares: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """An arm's tool in the table frame, shape (n, 3), m, and its axes in the base frame, shape (n, 3, 3).
+    """Return an arm's tool in the table frame, shape (n, 3), m, and its axes in the base frame.
 
-    Both nan while the hand is free.
+    The axes are of shape (n, 3, 3); both are nan while the hand is empty.
     """
     more = {stretch.number: stretch.rolls[arm] for stretch in stretches}
     corners: list[tuple[float, ...]] = []
@@ -226,14 +229,14 @@ def _positions_and_rotations(
 
 
 def _in_base(bases: FloatArray, points: FloatArray, height_m: float) -> FloatArray:
-    """Points of the table frame, each seen from its own base, both of shape (n, 3); z over the floor (m)."""
+    """Return points of the table frame, each seen from its own base, both of shape (n, 3); z above the floor (m)."""
     cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
     dx, dy = points[:, 0] - bases[:, 0], points[:, 1] - bases[:, 1]
     return np.column_stack([cos * dx + sin * dy, cos * dy - sin * dx, points[:, 2] + height_m])
 
 
 def about_x(angles_rad: FloatArray) -> FloatArray:
-    """The rotations about the x axis, shape (n,) -> (n, 3, 3)."""
+    """Return the rotations about the x axis, shape (n,) -> (n, 3, 3)."""
     turns = np.zeros((len(angles_rad), 3, 3))
     turns[:, 0, 0] = 1.0
     turns[:, 1, 1] = turns[:, 2, 2] = np.cos(angles_rad)
@@ -243,10 +246,10 @@ def about_x(angles_rad: FloatArray) -> FloatArray:
 
 
 def _rotations(angles_rad: FloatArray) -> FloatArray:
-    """The tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
+    """Return the tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
     return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
 
 
 def _rolls(hand: Hand) -> tuple[float, ...]:
-    """The roll at each of a hand's points (rad)."""
+    """Return the roll at each of a hand's points (rad)."""
     return hand.rolls_rad or (0.0,) * len(hand.points)

@@ -1,8 +1,8 @@
-"""How long moments last: evenly paced where the joints can follow, slower where they cannot.
+"""Time the steps of a path: at an even pace where the joints can follow, slower where they cannot.
 
-Only the joints' speeds are limited (the robot's description names no accelerations), so there is nothing to optimise: a
-step may not be shorter than its slowest joint needs, and what time is left is shared out evenly. A library for
-time-optimal paths would have to be told accelerations that nobody has measured.
+Only the joints' speeds are limited, because the robot's description names no accelerations, so there is nothing to
+optimise: a step may not be shorter than its slowest joint needs, and the remaining time is spread evenly. A library for
+time-optimal paths would need accelerations that nobody has measured.
 """
 
 import numpy as np
@@ -12,11 +12,11 @@ from planner.geometry.pose import FloatArray
 
 
 def needed_s(joints: FloatArray, speeds_rad_s: FloatArray) -> FloatArray:
-    """The least time from each joint configuration to the next (s).
+    """Return the least time from each joint configuration to the next (s).
 
     Args:
         joints: shape (n, ..., 7), rad.
-        speeds_rad_s: how fast joints may turn, of a shape that goes with `joints[0]`.
+        speeds_rad_s: the joints' top speeds, of a shape that broadcasts with `joints[0]`.
 
     Returns:
         Shape (n - 1,).
@@ -26,12 +26,12 @@ def needed_s(joints: FloatArray, speeds_rad_s: FloatArray) -> FloatArray:
 
 
 def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> FloatArray:
-    """How long each step takes: no less than it needs, as near to its even share of the whole as that allows.
+    """Return the duration of each step: at least what it needs, and as near to its even share as that allows.
 
     Args:
         nominal_s: each step's duration at an even pace, shape (n,).
-        least_s: the least that each needs, shape (n,).
-        rest_s: how much of the whole is not for them, but for resting.
+        least_s: the least duration of each, shape (n,).
+        rest_s: the part of the total that is reserved for rests (s).
 
     Returns:
         Shape (n,); the sum is that of the nominal durations less the rest, or of the least ones if that is longer.
@@ -49,12 +49,12 @@ def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> 
 
 
 def eased(shares: FloatArray, easing: float) -> FloatArray:
-    """How much of a way is done at shares of its time, with even acceleration at both ends.
+    """Return the fraction of the way done at fractions of its time, with even acceleration at both ends.
 
     Args:
-        shares: shape (n,), 0..1.
-        easing: the share of the time that is spent speeding up, and again slowing down, 0..0.5. The top speed is
-            1 / (1 - easing) times the mean.
+        shares: the fractions of the time, shape (n,), 0..1.
+        easing: the fraction of the time that is spent speeding up, and again slowing down, 0..0.5. The top speed is 1 /
+            (1 - easing) times the mean.
     """
     if easing <= 0.0:
         return shares

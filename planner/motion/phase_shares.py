@@ -1,4 +1,4 @@
-"""How finely a phase is cut into moments: where something moves or turns much more finely than elsewhere."""
+"""Choose how finely a phase is cut into moments: more finely where something moves or turns fast."""
 
 import math
 
@@ -9,16 +9,17 @@ from planner.geometry.tolerance import EDGE_RAD, LENGTH_M
 from planner.task.phase import Phase
 
 STEP_M = 0.01
-"""How far a tool or the base goes from one moment to the next at most (m)."""
+"""The largest distance that a tool or the base goes from one moment to the next (m)."""
 
 STEP_RAD = 0.05
-"""How far a tool turns from one moment to the next at most (rad)."""
+"""The largest angle that a tool turns from one moment to the next (rad)."""
 
 
 def shares_of(phase: Phase) -> FloatArray:
-    """How much of a phase is done at each of its moments, the start included: each piece of the ways in even steps.
+    """Return the fraction of a phase that is done at each of its moments, with even steps on each piece of its paths.
 
-    Some pieces need more than others: a hand near the fold line's end rolls there within a few centimetres.
+    The start is included. Some pieces need more steps than others: a hand near the fold line's end rolls there within a
+    few centimetres.
 
     Returns:
         Shape (n,), rising from 0 to 1.
@@ -39,7 +40,7 @@ def shares_of(phase: Phase) -> FloatArray:
 
 
 def _need(wanted: FloatArray, steps: FloatArray) -> None:
-    """Raise the steps wanted in each of some pieces of a phase to those that a hand needs in each piece of its way."""
+    """Raise the steps wanted in each piece of a phase to those that a hand needs in each piece of its path."""
     shared, rest = divmod(len(wanted), len(steps))
     each = np.repeat(steps, shared) / shared if rest == 0 else np.full(len(wanted), steps.max())
     np.maximum(wanted, each, out=wanted)

@@ -1,4 +1,4 @@
-"""What planning asks of a robot besides its reach; `planner.robot` answers it."""
+"""The protocol for what planning needs of a robot besides its reach; `planner.robot` implements it."""
 
 from collections.abc import Callable, Hashable, Sequence
 from typing import Protocol
@@ -13,55 +13,58 @@ from planner.robot.tool_path import IsFree, NoPath, ToolPath
 
 
 class Clearance(Protocol):
-    """What of a robot's arms is too low over cloth that lies somewhere."""
+    """The test whether a robot's arms are high enough above cloth on the table."""
 
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """At which joints of one arm, shape (n, 7), it is high enough, shape (n,); see `Collisions.arm_free`."""
+        """Return at which joints of one arm, shape (n, 7), it is high enough, shape (n,); see `Collisions.arm_free`."""
         ...
 
 
 class Collisions(Protocol):
-    """What of a robot is in whose way.
+    """The collisions of a robot with itself and the table.
 
     Joints are in rad. Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, (n, 3).
     """
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Whether none of some configurations, shape (n, arms, 7), touches anything."""
+        """Return whether none of some configurations, shape (n, arms, 7), touches anything."""
         ...
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """At which joints of one arm, shape (n, 7), it touches neither body nor table; shape (n,).
+        """Return at which joints of one arm, shape (n, 7), it touches neither body nor table; shape (n,).
 
-        Only what is certainly so counts if that is asked for, which is quicker.
+        With `is_certain` only those count that certainly touch nothing, which is quicker to tell.
         """
         ...
 
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        """In which configurations, shape (n, arms, 7), no arm touches another; shape (n,); see `arm_free`."""
+        """Return in which configurations, shape (n, arms, 7), no arm touches another; shape (n,).
+
+        For `is_certain` see `arm_free`.
+        """
         ...
 
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """Which postures of the left arm, shape (k, 7), certainly touch none of which of the right, shape (l, 7).
+        """Return which pairs of left postures, shape (k, 7), and right ones, shape (l, 7), certainly do not touch.
 
         In all postures of an arm its tool is in the same pose. The answers are of shape (k, l).
         """
         ...
 
     def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
-        """Whether some posture of the left arm and some of the right certainly do not touch; see `postures_apart`."""
+        """Return whether any left and any right posture certainly do not touch; see `postures_apart`."""
         ...
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
-        """What is lower than so high (m) over convex pieces of cloth, table frame, each of shape (n, 2), m."""
+        """Return the test for a height above convex pieces of cloth, table frame, each of shape (n, 2), m."""
         ...
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        """Of all that touches in one configuration, shape (arms, 7), what does so deepest; None if nothing does."""
+        """Return the deepest contact in one configuration, shape (arms, 7); None if nothing touches."""
         ...
 
 
@@ -70,25 +73,25 @@ class RobotPort(Hashable, Protocol):
 
     @property
     def card(self) -> RobotCard:
-        """What the robot is."""
+        """The robot's description."""
         ...
 
     def home(self, arm: int) -> FloatArray:
-        """The joints of an arm that is out of the way (rad)."""
+        """Return the joints of an arm that is out of the way (rad)."""
         ...
 
     def reach(self, torso_m: float, comfort_m: float) -> Reach:
-        """The reach with the lift raised so far, to a comfort radius (m)."""
+        """Return the reach with the lift at a height, for a comfort radius (m)."""
         ...
 
     def joints_near(
         self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
     ) -> FloatArray | None:
-        """The joints nearest to `near` that bring the tool to a pose of the base frame, or None."""
+        """Return the joints nearest to `near` that bring the tool to a pose of the base frame, or None."""
         ...
 
     def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
-        """Which tool poses of the base frame, shapes (n, 3) and (n, 3, 3), an arm can take; shape (n,)."""
+        """Return which tool poses of the base frame, shapes (n, 3) and (n, 3, 3), an arm can take; shape (n,)."""
         ...
 
     def arm_path(
@@ -99,21 +102,21 @@ class RobotPort(Hashable, Protocol):
         floor_m: float,
         is_free: IsFree,
     ) -> FloatArray | NoPath:
-        """The calmest joints that keep a tool on a path, shape (n, 7), none of which collides; or that there are none.
+        """Return the calmest collision-free joints that keep a tool on a path, shape (n, 7), or that there are none.
 
         Args:
-            arm: which arm.
-            path: where its tool must be.
-            torso_m: how far the lift is raised (m).
-            floor_m: the height over which elbows had better stay, base frame (m).
-            is_free: which joints do not collide.
+            arm: the arm.
+            path: the tool path.
+            torso_m: the height of the lift (m).
+            floor_m: the height above which elbows should stay, base frame (m).
+            is_free: the test for collision-free joints.
         """
         ...
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
     ) -> FloatArray | None:
-        """Joints that keep a tool on a path near to others that are known, shape (n, 7); None where none so near do."""
+        """Return joints, shape (n, 7), that keep a tool on a path near to known ones; None if none are near enough."""
         ...
 
     def arm_pair_path(
@@ -124,14 +127,14 @@ class RobotPort(Hashable, Protocol):
         are_free: tuple[IsFree, IsFree],
         both_arms: BothArms,
     ) -> FloatArray | NoPath:
-        """The same for two arms, joints of shape (n, 2, 7).
+        """Return the calmest collision-free joints of two arms on their paths, shape (n, 2, 7), or that there are none.
 
         Args:
-            paths: where the tools must be, one path as long as the other.
-            torso_m: how far the lift is raised (m).
-            floor_m: the height over which elbows had better stay, base frame (m).
-            are_free: of each arm which joints do not collide, whatever the other does.
-            both_arms: knows whether the arms are in each other's way.
+            paths: the tool paths, of equal length.
+            torso_m: the height of the lift (m).
+            floor_m: the height above which elbows should stay, base frame (m).
+            are_free: for each arm the test for collision-free joints, whatever the other does.
+            both_arms: the test whether the arms are in each other's way.
         """
         ...
 
@@ -143,17 +146,17 @@ class RobotPort(Hashable, Protocol):
         torso_m: float,
         is_free: Callable[[FloatArray], BoolArray],
     ) -> FloatArray:
-        """Samples of joints, shape (k, 7), that bring a tool to a pose of the base frame and are free."""
+        """Return samples of free joints, shape (k, 7), that bring a tool to a pose of the base frame."""
         ...
 
     def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
-        """What is in whose way at a table, with the lift raised so far; what is nearer than a margin (m) is too."""
+        """Return the collisions at a table with the lift at a height; anything nearer than a margin (m) counts."""
         ...
 
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
-        """The tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
         ...
 
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
-        """The tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
+        """Return the tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
         ...

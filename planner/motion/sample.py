@@ -1,4 +1,4 @@
-"""One moment of a plan, ready to be shown: where the base is, every joint, the cloth in space."""
+"""A sample of a plan, ready to be shown: the base, every joint, the cloth in space."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -16,11 +16,11 @@ class ClothSurface:
 
     Attributes:
         vertices: shape (n, 3), m; the layers of a stack lie a little apart.
-        triangles: shape (m, 3), indices into `vertices`; seen from the front face of the cloth they
-            run counter-clockwise.
+        triangles: shape (m, 3), indices into `vertices`; seen from the front face of the cloth they run
+            counter-clockwise.
         layers: shape (m,), each triangle's layer, 0 at the bottom.
-        unrolled: of cloth that lies on the table or hangs beside it, where each vertex is in the unrolled plane, and
-            how far its layer is drawn off it, shape (n, 3), m; of any other cloth not numbers.
+        unrolled: for cloth on the table or hanging over its edges, each vertex's position in the unrolled plane and its
+            layer's height above it, shape (n, 3), m; nan for all other cloth.
     """
 
     vertices: FloatArray
@@ -35,7 +35,7 @@ class Sample:
 
     Attributes:
         t_s: the time (s).
-        primitive: index of the primitive that is under way.
+        primitive: index of the current primitive.
         base: the base in the table frame.
         torso_m: the lift (m).
         joints: every actuated joint by its URDF name (rad, m for prismatic ones).
@@ -58,7 +58,7 @@ class Sample:
     top: TableTop
 
     def to_dict(self) -> dict[str, Any]:
-        """The frame as a sample of the timeline's JSON (the cloth is left out)."""
+        """Return the sample as JSON, without the cloth."""
         return {
             "t_s": self.t_s,
             "primitive": self.primitive,

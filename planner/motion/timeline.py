@@ -1,6 +1,6 @@
-"""What a plan looks like at every moment: a function of the plan alone.
+"""Play a plan: return its sample at any time, from the plan alone.
 
-It needs no robot and no search, so a plan that was read from a file is played like one that was just made.
+It needs no robot and no search, so a plan read from a file plays like one just made.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ from planner.task.trajectory import Trajectory
 RATE_HZ = (1.0, 200.0)
 
 _SINK_S = 0.4
-"""How long cloth that is let go beyond an edge is shown sinking (s); the model lets it hang at once."""
+"""The time over which cloth released beyond an edge is shown sinking (s); the model lets it hang at once."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,11 @@ class Timeline:
 
     @staticmethod
     def of(plan: Plan) -> "Timeline":
-        """Return the timeline of a plan; raises `UnsolvedPlanError`."""
+        """Return the timeline of a plan.
+
+        Raises:
+            UnsolvedPlanError: the plan has no trajectory.
+        """
         if plan.trajectory is None:
             raise UnsolvedPlanError(plan.status)
         return Timeline(plan, plan.trajectory, ClothSurfaces(plan.sequence))
@@ -46,7 +50,7 @@ class Timeline:
         return self.trajectory.duration_s
 
     def at(self, t_s: float) -> Sample:
-        """Return the frame at a time (s); times before the start or after the end give the first or last frame."""
+        """Return the sample at a time (s); times before the start or after the end give the first or last sample."""
         path = self.trajectory
         t = min(max(t_s, 0.0), self.duration_s)
         number = path.index_at(t)
@@ -66,19 +70,19 @@ class Timeline:
         )
 
     def base_at(self, t_s: float) -> Pose2:
-        """Return where the base is at a time, table frame: the same as in the frame of that time, and soon known."""
+        """Return the base's pose at a time, table frame: as in the sample of that time, but cheaper."""
         t = min(max(t_s, 0.0), self.duration_s)
         return self.trajectory.segment_at(t).base_at(t)
 
     def _droop(self, number: int, t_s: float) -> float:
-        """How far cloth that was held out in the segment before has sunk: 1 when it hangs."""
+        """Return how far cloth that was held out in the segment before has sunk: 1 when it hangs."""
         segments = self.trajectory.segments
         if number == 0 or segments[number - 1].phase.cloth.top == segments[number].phase.cloth.top:
             return 1.0
         return min((t_s - segments[number].start_s) / _SINK_S, 1.0)
 
     def samples(self, rate_hz: float) -> Iterator[Sample]:
-        """Yield frames at an even rate from 0 to the end; the last stands exactly at the end.
+        """Yield samples at an even rate from 0 to the end; the last one is exactly at the end.
 
         Raises:
             RequestError: the rate is not between 1 and 200 Hz.

@@ -1,6 +1,6 @@
-"""The trajectory of a plan, made of its acts: segments for base and cloth, one track for the arms.
+"""Make the trajectory of a plan from its acts: segments for base and cloth, one joint trajectory for the arms.
 
-While cloth is held the joints are those of the acts. Between two acts the hands are free, and the base drives (see
+While cloth is held, the joints are those of the acts. Between two acts the hands are empty, and the base drives (see
 `planner.motion.transit_planner`).
 """
 
@@ -27,20 +27,20 @@ from planner.task.phase import ClothMotion, Phase
 from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
 
 _FINGER_KNOTS = 8
-"""Keyframes while fingers close or open: they swing on links, so their joint does not go evenly."""
+"""Keyframes while fingers close or open: they swing on links, so their joint does not move evenly."""
 
 
 def trajectory(
     context: Context, card: RobotCard, maker: TransferPlanner, acts: Sequence[Act], duration_s: float
 ) -> Trajectory:
-    """Return what robot and cloth do in a plan's acts.
+    """Return the trajectory of robot and cloth in a plan's acts.
 
     Args:
-        context: the planning problem.
+        context: the planning context.
         card: the robot.
-        maker: what made the acts' joint paths.
+        maker: the planner that made the acts' joint paths.
         acts: the acts, one after the other.
-        duration_s: how long they last (s).
+        duration_s: their total duration (s).
     """
     reel = _Reel(maker.transits, maker.collisions, maker.dwell_s)
     segments = tuple(reel.segments(acts, _standing(context)))
@@ -58,7 +58,7 @@ def trajectory(
 
 
 def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[float]) -> GripperTrack:
-    """Return a gripper's keyframes, with some more wherever it moves."""
+    """Return a gripper's keyframes, with additional ones wherever it moves."""
     knots = np.linspace(0.0, 1.0, _FINGER_KNOTS + 1)[1:]
     times, openings = [np.array(times_s[:1])], [np.array(openings_m[:1])]
     for number in range(1, len(times_s)):
@@ -74,7 +74,7 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
 
 
 def _standing(context: Context) -> Phase:
-    """Return a phase of no length in which nothing moves: all there is to see of a plan without steps."""
+    """Return a phase of no length in which nothing moves: all that a plan without steps shows."""
     state = context.start
     base, placement = context.base_pose(state.station, state.back_off), context.placed(state.offset)
     still = ClothMotion(state.done, placement, placement, TableTop.of(context.scene.table))
@@ -82,15 +82,15 @@ def _standing(context: Context) -> Phase:
 
 
 class _Reel:
-    """Puts transfers and moves together."""
+    """Joins transfers and moves into one trajectory."""
 
     def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
         """Begin with all arms at home.
 
         Args:
-            transits: the ways of free hands.
-            collisions: what is in whose way.
-            dwell_s: how long fingers take to close and to open (s).
+            transits: the paths of empty hands.
+            collisions: the robot's collisions.
+            dwell_s: the time that fingers take to close and to open (s).
         """
         self._transits = transits
         self._dwell_s = dwell_s
@@ -103,7 +103,7 @@ class _Reel:
         self._turns: FloatArray = np.zeros_like(transits.home)
 
     def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
-        """Yield what base and cloth do in a plan's acts; `rest` is all there is to see if there are none."""
+        """Yield the segments of base and cloth in a plan's acts; only `rest` if there are none."""
         for act in acts:
             if act.run is not None:
                 self._run(act.first, act.run)
@@ -143,13 +143,13 @@ class _Reel:
         self._free = []
 
     def _begin_holding(self, run: Transfer) -> None:
-        """Begin with the cloth in the hands, which are where the run has them first."""
+        """Begin with the cloth in the hands, at the first joints of the transfer."""
         self.track = JointTrack.at_rest(run.carried.joints[run.carried.first])
         for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
             self.track.begin_closed(arm)
 
     def _reach(self, run: Transfer, cloth: LyingCloth) -> None:
-        """Everything until a run's grips are reached, cloth lying there meanwhile."""
+        """Add the transit to a transfer's grips, past the cloth on the table."""
         tail, start = self._tail(), run.carried.joints[0]
         self._turns = self._transits.unwound(start, tail.joints[-1]) - start
         lead = Line(run.carried.joints[: run.carried.first + 1] + self._turns, run.lead_s)
@@ -160,7 +160,7 @@ class _Reel:
         self._now = free.end_s
 
     def _tail(self) -> Line:
-        """The way on which the hands withdraw from the run before."""
+        """Return the line on which the hands withdraw from the transfer before."""
         if self._before is None:
             return Line(self.track.last[None], np.empty(0))
         joints = self._before.carried.joints[self._before.carried.last :]

@@ -1,4 +1,4 @@
-"""Makes runs of primitives real: looks at the ways to do what they do, and leads the arms along those that may do."""
+"""Plan transfers: choose among the ways to do the steps of a transfer, and find joint paths for the promising ones."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -29,25 +29,25 @@ from planner.robot.tool_path import NoPath
 from planner.task.phase import Phase
 
 MARGIN_M = 0.001
-"""How far apart everything keeps that must not touch, at the moments that are looked at (m)."""
+"""The distance kept between bodies that must not touch, at the moments tested (m)."""
 
 _HALF = 0.5
-"""The share of a reach's time, fingers closed, in which hands must be able to go home after the run before."""
+"""The share of a reach's time, fingers closed, in which hands must be able to go home after the transfer before."""
 
 
 Lines = tuple[FloatArray | None, FloatArray | None]
-"""The straight ways from grips and to grips between which a way leads, each of shape (n, arms, 7); None at home."""
+"""The lines away from grips and to grips that a path connects, each of shape (n, arms, 7); None at home."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidate:
-    """Steps of which it is not known yet whether the arms can follow them.
+    """Steps of a transfer that are not validated yet.
 
     Attributes:
         steps: the primitives, none but the last of which lets go.
         carrying: the phases in which cloth is held, each with its primitive's number.
-        moments: the same, moment by moment.
-        cloths: the cloth that lies before and after.
+        moments: the same phases, moment by moment.
+        cloths: the cloth on the table before and after.
     """
 
     steps: tuple[Step, ...]
@@ -57,7 +57,7 @@ class Candidate:
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What it has in common with others that do the same with the same arms from the same station."""
+        """The key it shares with others that do the same with the same arms from the same station."""
         return tuple(step.task for step in self.steps)
 
     @property
@@ -67,36 +67,36 @@ class Candidate:
 
 
 class _Stuck:
-    """Where runs got stuck: others that do the same mostly get stuck nearby."""
+    """The moments at which transfers were blocked; others of the same kind are mostly blocked nearby."""
 
     def __init__(self) -> None:
         self._shares: dict[tuple[object, ...], float] = {}
 
     def note(self, candidate: "Candidate", found: NoPath) -> None:
-        """A candidate turned out to have no way: remember the middle of where it is blocked."""
+        """Note the middle of the moments at which a candidate is blocked."""
         if len(found.blocked):
             middle = found.blocked[len(found.blocked) // 2]
             self._shares[candidate.kind] = float(middle) / (len(candidate.moments) - 1)
 
     def suspects(self, candidate: "Candidate") -> list[int]:
-        """The moment of a candidate at which the last one of its kind was blocked, if any was."""
+        """Return the moment of a candidate at which the last one of its kind was blocked, if any was."""
         share = self._shares.get(candidate.kind)
         return [] if share is None else [round(share * (len(candidate.moments) - 1))]
 
 
 class TransferPlanner:
-    """Makes runs of one planning problem real.
+    """Plans the transfers of one task.
 
     Attributes:
-        transits: the ways of free hands.
+        transits: the paths of empty hands.
         dwell_s: how long hands rest while fingers close, and while they open (s).
-        collisions: what is in whose way.
-        glances: how often it was looked whether arms can be where steps begin and end, remembered or not.
-        tries: how often arms were led, remembered or not.
+        collisions: the robot's collisions.
+        glances: how often the ends of steps were tested for free postures, cached answers counted.
+        tries: how often joint paths were requested, cached answers counted.
     """
 
     def __init__(self, context: Context, machine: RobotPort) -> None:
-        """Nothing has been made real yet."""
+        """Set up the planner for one context and robot; nothing is planned yet."""
         scene = context.scene
         carrier, collisions = _carrier(machine, scene.table, scene.torso_m)
         self._context = context
@@ -114,13 +114,13 @@ class TransferPlanner:
         self.collisions = collisions
 
     def real(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
-        """Return the run that a few primitives make, none but the last of which lets go; None if none was found."""
+        """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
         return self.first_real(ways_of(steps, tries), tries)
 
     def first_real(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> Transfer | None:
-        """Return the first that is real of some choices of steps; None where so many tries find none.
+        """Return the transfer of the first valid choice of steps; None if none is found within the tries.
 
-        Where all take longer than their steps seem to it is the quickest of the first few.
+        If all take longer than their steps' estimates, return the quickest of the first few.
         """
         late: list[Transfer] = []
         for number, candidate in enumerate(self.candidates(choices), start=1):
@@ -134,10 +134,10 @@ class TransferPlanner:
         return min(late, key=lambda run: sum(run.durations_at_most_s()), default=None)
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
-        """The choices of steps that may be real.
+        """Yield the choices of steps that pass a quick test, much cheaper than a search for joint paths.
 
-        That is looked at, much quicker than to lead the arms: whether they can be where they are at a few moments,
-        where they begin and end first, and then where the last of their kind got stuck.
+        The arms must have free postures at a few moments: first where the steps begin and end, then where the last
+        transfer of the same kind was blocked.
         """
         for steps in choices:
             if self.can_begin_and_end(steps):
@@ -146,7 +146,7 @@ class TransferPlanner:
                     yield candidate
 
     def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
-        """Whether the arms can be where they are when each of some steps takes hold, and when its motions end."""
+        """Return whether the arms have free postures when each step takes hold and when its motions end."""
         self.glances += 1
         key = _motion_of(steps)
         if key not in self._can_be_there:
@@ -157,7 +157,7 @@ class TransferPlanner:
         return self._can_be_there[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
-        """Steps as they are to be performed, moment by moment, whether they may be real or not. Remembered."""
+        """Return the candidate that some steps make, whether or not it is valid. Cached."""
         key = _motion_of(steps)
         if key not in self._candidates:
             self._candidates[key] = self._candidate(steps)
@@ -171,14 +171,14 @@ class TransferPlanner:
         return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> Transfer | None:
-        """A candidate made real; None without a way. Remembered."""
+        """Return the transfer of a candidate; None if it has no path. Cached."""
         self.tries += 1
         if candidate not in self._made:
             self._made[candidate] = self._run(candidate, self._carrier.carried(candidate.moments, candidate.cloths))
         return self._made[candidate]
 
     def made_like(self, candidate: "Candidate", like: Transfer) -> Transfer | None:
-        """A candidate made real, its joints near to those of another run if they can be; None without a way."""
+        """Return the transfer of a candidate, with joints near to those of another if possible; None without a path."""
         self.tries += 1
         return self._run(candidate, self._carrier.adapted(candidate.moments, candidate.cloths, like.carried))
 
@@ -197,16 +197,16 @@ class TransferPlanner:
         return moments_of(phases, self._context.scene.table.height_m)
 
     def contact(self, steps: Sequence[Step]) -> BlockingContact | None:
-        """What is in the arms' way in a run that cannot be made real; None where they are only cut off."""
+        """Return the contact that blocks a transfer; None if free postures exist but no path connects them."""
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._contacts.of(self._moments(phases))
 
     def _reach(self, steps: Sequence[Step], carried: Carried, borrowed_s: float) -> ReachTime | None:
-        """The time that hands need to come from home and to go there; None without a way.
+        """Return the time that hands need to come from home and to go there; None without a path.
 
-        What is left when fingers have closed is shared evenly between going home from the run before and coming, as
-        long as that run is not known. Where nothing has been done before, hands wait at home, and after the last fold
-        they need not go there.
+        As long as the transfer before is unknown, the time left once the fingers have closed is shared evenly between
+        going home from it and coming. Before the first transfer hands wait at home, and after the last fold they need
+        not go there.
         """
         home, motion_s = self.transits.home, self._context.scene.arm_motion_s
         lead, tail = carried.joints[: carried.first + 1], carried.joints[carried.last :]
@@ -228,7 +228,7 @@ class TransferPlanner:
     def _needed_s(
         self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth
     ) -> float | None:
-        """How long it takes at least to go along a way and the lines it leads from or to (s); None without a way."""
+        """Return the least time for a path and the lines that it connects (s); None without a path."""
         way = self.transits.way(Pose2.of(base), *ends, cloth, self.transits.spared(*lines))
         if way is None:
             return None
@@ -236,18 +236,18 @@ class TransferPlanner:
 
 
 def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
-    """Yield steps, then combinations of their variants, which take time to find; as many as are to be looked at."""
+    """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find."""
     yield tuple(steps)
     yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
 
 
 def _motion_of(steps: Sequence[Step]) -> tuple[object, ...]:
-    """What tells steps from others of the same problem: a second round of tries looks at many of the first again."""
+    """Return the cache key of steps: a second round of tries repeats many of the first."""
     return tuple(step.motion for step in steps)
 
 
 @lru_cache(maxsize=4)
 def _carrier(machine: RobotPort, table: Table, torso_m: float) -> tuple[Carrier, Collisions]:
-    """What finds joint paths at a table, and what is in the way there: kept from plan to plan."""
+    """Return the search for joint paths at a table and the collisions there; both are kept from plan to plan."""
     collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
     return Carrier(machine, collisions, torso_m, table.height_m), collisions

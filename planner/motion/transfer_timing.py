@@ -1,7 +1,7 @@
-"""When what happens in a run: the time of every moment, and rests in which fingers open.
+"""Time a transfer: the time of every moment, and the rests in which fingers open.
 
-Fingers close and open while everything rests, and cloth is let go only once it lies. A rest is part of the arm motion
-before it, which is so much quicker, or of the reach where no arm motion is before it, as in a drag.
+Fingers close and open while everything rests, and cloth is released only once it lies. A rest is part of the arm motion
+before it, which becomes that much quicker; if there is none before it, as in a drag, the rest is part of the reach.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,17 +17,18 @@ from planner.motion.timed_phase import TimedPhase
 from planner.task.phase import Phase
 
 Carrying = Sequence[tuple[int, Phase]]
-"""The phases of a run in which cloth is held, each with its primitive's number."""
+"""The phases of a transfer in which cloth is held, each with its primitive's number."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TransferTiming:
-    """When what happens in a run.
+    """The timing of a transfer.
 
     Attributes:
-        times_s: times from the first grip, rising (s), shape (n,).
-        moments: the moment then, shape (n,); one after which a hand lets go comes twice, all rest in between.
-        cues: the phases; their primitives are counted within the run.
+        times_s: times since the first grip, rising (s), shape (n,).
+        moments: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
+            between.
+        cues: the timed phases; their primitives are counted within the transfer.
         borrowed_s: the rests that are part of the reach before (s).
     """
 
@@ -38,13 +39,13 @@ class TransferTiming:
 
     @staticmethod
     def of(carrying: Carrying, moments: Moments, least_s: FloatArray, rest_s: float) -> "TransferTiming":
-        """The quickest even pace.
+        """Return the quickest even timing.
 
         Args:
             carrying: the phases.
             moments: their moments.
             least_s: the least time from each moment to the next (s), shape (moments - 1,).
-            rest_s: how long fingers take to open (s).
+            rest_s: the time that fingers take to open (s).
         """
         is_last = np.asarray(moments.is_last_held.any(axis=0))
         rests, borrowed_s = _rests(carrying, moments, is_last, rest_s)
@@ -55,14 +56,14 @@ class TransferTiming:
         return TransferTiming(times, rows, tuple(_cues(carrying, moments, rows, times)), borrowed_s)
 
     def first_s(self, moment: int) -> float:
-        """When a moment is reached (s)."""
+        """Return when a moment is reached (s)."""
         return float(self.times_s[np.searchsorted(self.moments, moment)])
 
 
 def _rests(
     carrying: Carrying, moments: Moments, is_last: BoolArray, rest_s: float
 ) -> tuple[dict[tuple[int, int | None], float], float]:
-    """How long the rests in each arm motion are (s), and those that no arm motion has room for."""
+    """Return the rests within each arm motion (s), and the rests before which there is no arm motion (s)."""
     rests: dict[tuple[int, int | None], float] = {}
     borrowed_s = 0.0
     for number in moments.phases[is_last].tolist():
@@ -75,16 +76,16 @@ def _rests(
 
 
 def _motions(carrying: Carrying) -> list[tuple[int, int | None]]:
-    """The arm motions of some phases, each with its primitive's number."""
+    """Return the arm motions of some phases, each with its primitive's number."""
     return [*dict.fromkeys((primitive, phase.motion) for primitive, phase in carrying if phase.motion is not None)]
 
 
 def _paced(
     carrying: Carrying, moments: Moments, least_s: FloatArray, rests: dict[tuple[int, int | None], float]
 ) -> FloatArray:
-    """How long each step from moment to moment takes (s), shape (moments - 1,).
+    """Return the duration of each step from moment to moment (s), shape (moments - 1,).
 
-    The phases of one arm motion share its time, less its rests; a drive is no quicker than it is, even in parts.
+    The phases of one arm motion share its time, less its rests; a drive keeps its nominal speed, even in parts.
     """
     phases, nominal = moments.phases[1:], moments.nominal_s[1:]
     found = np.maximum(least_s, nominal)
@@ -100,7 +101,7 @@ def _cues(carrying: Carrying, moments: Moments, rows: NDArray[np.int64], times: 
     for number, (primitive, phase) in enumerate(carrying):
         own = np.flatnonzero((phases == number) & (times > start))
         if len(own) == 0:
-            # In a motion slower than it should be, a phase through which the hands rest takes no time at all.
+            # In a motion slower than its estimate, a phase through which the hands rest takes no time at all.
             yield TimedPhase.even(primitive, phase, 0.0)
             continue
         yield TimedPhase(primitive, phase, np.append(start, times[own]) - start, np.append(0.0, fractions[own]))

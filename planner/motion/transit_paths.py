@@ -1,6 +1,6 @@
-"""How free hands get from one configuration to another: straight in the space of the joints, or by way of a few places.
+"""Find transit paths between two configurations: straight in joint space, or by way of a few others.
 
-Free arms are mostly well over the table, and a straight line between two configurations is free. Where it is not, the
+Empty arms are mostly well above the table, and a straight line between two configurations is free. Where it is not, the
 arms go one after the other, or by way of raised configurations.
 """
 
@@ -14,24 +14,24 @@ from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
 
 _LEADS = (0.25, 0.5, 0.75)
-"""How much of its way one arm is tried ahead of the other."""
+"""The fractions of its path by which one arm is tried ahead of the other."""
 
 STEP_RAD = 0.05
-"""Joints turn by no more than this from one place that is checked to the next (rad)."""
+"""The largest angle that joints turn from one tested configuration to the next (rad)."""
 
 
 Spared = tuple[FloatArray, FloatArray]
-"""How far each arm may go low over cloth at the beginning of a way, and at its end (m), shape (arms,) each."""
+"""How far each arm may go low over cloth at the beginning of a path, and at its end (m), shape (arms,) each."""
 
 AT_GRIPS: Spared = (np.full(2, NEAR_GRIP_M), np.full(2, NEAR_GRIP_M))
-"""From grips to grips."""
+"""The allowance for paths that begin and end at grips."""
 
 
 class TransitPaths:
-    """Finds ways for free hands."""
+    """Finds paths for empty hands."""
 
     def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float) -> None:
-        """Ways of one robot, its torso raised so far (m), among what it may collide with."""
+        """Keep the robot, its collisions and the height of its lift (m)."""
         arms = machine.card.arms
         self._machine, self._torso_m = machine, torso_m
         self._collisions = collisions
@@ -45,25 +45,25 @@ class TransitPaths:
         return self._homes
 
     def needed_s(self, way: FloatArray) -> FloatArray:
-        """The least time for each line of a way (s)."""
+        """Return the least time for each line of a path (s)."""
         return needed_s(way, self._speeds)
 
     def unwound(self, joints: FloatArray, near: FloatArray) -> FloatArray:
-        """The same configuration, shape (arms, 7), its continuous joints within half a turn of another's."""
+        """Return a configuration, shape (arms, 7), its continuous joints within half a turn of another's."""
         turns = np.where(np.isinf(self._turns), 0.0, np.round((near - joints) / (2.0 * np.pi)))
         return np.asarray(joints + 2.0 * np.pi * turns)
 
     def way(
         self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
     ) -> FloatArray | None:
-        """A way between two configurations while the base stands.
+        """Return a path between two configurations while the base stands.
 
         Args:
-            base: where it stands, table frame.
+            base: the base's pose, table frame.
             start: all arms' joints (rad), shape (arms, 7).
             goal: the same; its continuous joints may be turns away.
-            cloth: what lies on the table meanwhile.
-            spared: where hands may be low over it.
+            cloth: the cloth on the table meanwhile.
+            spared: how far hands may go low over it at both ends.
 
         Returns:
             Configurations from start to goal, shape (n, arms, 7), between which straight lines are free; None if no
@@ -76,14 +76,14 @@ class TransitPaths:
         return next((way for way in self._roundabout(start, goal) if self._is_free(known, way, cloth, spared)), None)
 
     def _is_free(self, known: "_Lines", way: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
-        """Whether the straight lines of a way are free, and high enough over cloth that lies."""
+        """Return whether the straight lines of a path are free, and high enough above the cloth on the table."""
         if not all(known.is_free(start, end) for start, end in pairwise(way)):
             return False
         base, joints = known.base, np.concatenate([_sampled(start, end) for start, end in pairwise(way)])
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
     def are_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, spared: Spared) -> bool:
-        """Whether arms are high enough over cloth all along a way, shapes (n, 3) and (n, arms, 7)."""
+        """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, arms, 7)."""
         before, after = spared
         for arm in range(joints.shape[1]):
             must = np.ones(len(joints), dtype=np.bool_)
@@ -95,7 +95,10 @@ class TransitPaths:
         return True
 
     def spared(self, tail: FloatArray | None, lead: FloatArray | None) -> Spared:
-        """How far hands may go low after a way from their grips, and before one to them, shape (n, arms, 7) each."""
+        """Return how far hands may go low after lines from their grips and before lines to them.
+
+        The lines are of shape (n, arms, 7) each.
+        """
         here = np.zeros((1, 3))
         lengths = [
             [
@@ -108,7 +111,7 @@ class TransitPaths:
         return before, after
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
-        """How far an arm's tool has gone in the table's frame at each of some joints, shape (n, 7), m."""
+        """Return the way of an arm's tool in the table's frame up to each of some joints, shape (n, 7), m."""
         tools = self._machine.tool_places(arm, joints, self._torso_m)
         cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
         x = bases[:, 0] + cos * tools[:, 0] - sin * tools[:, 1]
@@ -117,7 +120,7 @@ class TransitPaths:
         return np.append(0.0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
 
     def _roundabout(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
-        """Ways that may be free where the straight one is not, the quickest first."""
+        """Return paths that may be free where the straight one is not, the quickest first."""
         raised_start, raised_goal = self._raised(start), self._raised(goal)
         mixed = [np.where(np.array(first)[:, None], goal, start) for first in product((False, True), repeat=len(start))]
         home = self.unwound(self._homes, start)
@@ -131,23 +134,23 @@ class TransitPaths:
         return sorted(ways, key=lambda way: float(self.needed_s(way).sum()))
 
     def _raised(self, joints: FloatArray) -> FloatArray:
-        """Arms lifted as at home, their shoulders and hands turned as they are."""
+        """Return the arms lifted as at home, with shoulders and hands turned as they are."""
         raised = joints.copy()
         raised[:, [1, 3]] = self._homes[:, [1, 3]]
         return raised
 
 
 class _Lines:
-    """Straight lines between configurations while the base stands: the ways round share many."""
+    """Straight lines between configurations while the base stands, cached because many detours share them."""
 
     def __init__(self, base: Pose2, collisions: Collisions) -> None:
-        """No line has been looked at yet."""
+        """Begin with an empty cache."""
         self.base = base
         self._collisions = collisions
         self._known: dict[tuple[bytes, bytes], bool] = {}
 
     def is_free(self, start: FloatArray, end: FloatArray) -> bool:
-        """Whether nothing touches all along a line."""
+        """Return whether nothing touches all along a line."""
         key = (start.tobytes(), end.tobytes())
         if key not in self._known:
             self._known[key] = self._collisions.are_all_free(self.base, _sampled(start, end))
@@ -155,12 +158,15 @@ class _Lines:
 
 
 def _sampled(start: FloatArray, end: FloatArray) -> FloatArray:
-    """The straight line between two configurations, step by step."""
+    """Return the straight line between two configurations, step by step."""
     count = max(1, int(np.ceil(np.abs(end - start).max() / STEP_RAD)))
     return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None, None] * (end - start))
 
 
 def _staggered(start: FloatArray, goal: FloatArray, first: FloatArray, lead: float) -> tuple[FloatArray, FloatArray]:
-    """Places between which some arms, those that are at the goal in `first`, are a share of the way ahead of others."""
+    """Return two configurations through which some arms are a fraction of the path ahead of the others.
+
+    The arms ahead are those that are at the goal in `first`.
+    """
     before, after = first - start, goal - first
     return start + lead * before, first + (1.0 - lead) * after

@@ -1,8 +1,8 @@
-"""How hands that let go come to their next grips while the base drives: keyframes within the time there is.
+"""Plan transits: keyframes for hands that let go and come to their next grips in time, while the base drives.
 
-The hands withdraw straight from where they let go (the *tail* of the run before), travel, and come straight to the next
-grips (the *lead* of the run to come). If the straight way will not do beside the moving base, they go home first; if
-that will not do either, the base waits until they are there.
+The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
+next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, they go home
+first; if that is not clear either, the base waits until they are there.
 """
 
 from dataclasses import dataclass
@@ -19,26 +19,26 @@ from planner.motion.transit_paths import AT_GRIPS, TransitPaths
 from planner.motion.transit_time import TransitTime
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
-"""How long hands take to come straight to their grips and to withdraw, if there is time (s)."""
+"""The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
 
 _CHECK_S = 0.04
-"""How far apart moments are at which free hands beside a moving base are checked (s)."""
+"""The time between moments at which empty hands beside a moving base are tested (s)."""
 
 _CHECKS_MAX = 1000
 """Moments that are checked at most: who takes minutes for a way goes less far from one to the next."""
 
 _KEYFRAMES = 12
-"""Into how many keyframes an eased line of free hands is cut."""
+"""The keyframes of an eased line of empty hands."""
 
 _EASING = 0.3
 
 
 class Keyframes(NamedTuple):
-    """Where all arms are when.
+    """Joint positions of all arms over time.
 
     Attributes:
         times_s: rising, shape (n,).
-        joints: all arms' joints then (rad), shape (n, arms, 7).
+        joints: all arms' joints at each time (rad), shape (n, arms, 7).
     """
 
     times_s: FloatArray
@@ -47,7 +47,7 @@ class Keyframes(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """A straight way of the hands to grips or from them, as a run has it.
+    """A straight line of the hands to grips or from them, as part of a transfer.
 
     Attributes:
         joints: all arms' joints (rad), shape (n, arms, 7).
@@ -64,24 +64,21 @@ class Line:
 
 
 class TransitPlanner:
-    """Leads free hands from run to run."""
+    """Leads empty hands from transfer to transfer."""
 
     def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
-        """The hands of one robot, whose ways are known, among what they may collide with.
-
-        They rest at their grips for so long until their fingers have closed (s).
-        """
+        """Keep the transit paths, the robot's collisions and the time that fingers take to close (s)."""
         self._dwell_s = dwell_s
         self._transits = transits
         self._collisions = collisions
 
     def keyframes(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
-        """How the hands get from a tail to a lead in a free time; and that time, changed if the base has to wait."""
+        """Return the hands' keyframes from a tail to a lead, and the transit's time, changed if the base must wait."""
         keyframes = self._overlapping(free, tail, lead)
         return self._waiting(free, tail, lead) if keyframes is None else (free, keyframes)
 
     def _overlapping(self, free: TransitTime, tail: Line, lead: Line) -> Keyframes | None:
-        """Keyframes of hands that travel while the base drives; None if that would not be clear."""
+        """Return keyframes of hands that travel while the base drives; None if that is not clear."""
         start, goal = tail.joints[-1], lead.joints[0]
         ways = [np.array([start, goal])]
         home = self._transits.unwound(self._transits.home, start)
@@ -98,7 +95,7 @@ class TransitPlanner:
         return None
 
     def _timed(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
-        """Keyframes that withdraw, go a way and come to the grips within a free time; None if that is too short."""
+        """Return keyframes that withdraw, travel and come to the grips in time; None if there is too little."""
         needed = self._transits.needed_s(way)
         arrives = free.end_s - self._dwell_s
         spare = arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum()))
@@ -112,7 +109,7 @@ class TransitPlanner:
         return _keyframes(times, tail, [travel], lead)
 
     def _is_clear(self, free: TransitTime, tail: Line, keyframes: Keyframes) -> bool:
-        """Whether hands that go on from a tail touch nothing, the base where it is then, nor pass low over cloth."""
+        """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
         track = JointTrack([free.start_s], [tail.joints[0]])
         track.add(keyframes.times_s, keyframes.joints)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
@@ -123,9 +120,9 @@ class TransitPlanner:
         return is_free and self._transits.are_clear(free.cloth, bases, there, AT_GRIPS)
 
     def _waiting(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
-        """The base waits until the hands are home; they set out again when it has arrived.
+        """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.
 
-        What it waits is taken from the reach, which lasts long enough for both: see `ReachTime`.
+        The waiting is taken from the reach, which lasts long enough for both: see `ReachTime`.
         """
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
@@ -150,13 +147,13 @@ class TransitPlanner:
 
 
 def _keyframes(times: list[FloatArray], tail: Line, travel: list[FloatArray], lead: Line) -> Keyframes:
-    """Keyframes on a tail, on the way from it to a lead, on that, and once more where that ends."""
+    """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
     joints = np.concatenate([tail.joints[1:], *travel, lead.joints[1:], lead.joints[-1:]])
     return Keyframes(np.concatenate(times), joints)
 
 
 def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tuple[FloatArray, FloatArray]:
-    """Keyframes along a way, each of its lines eased."""
+    """Return keyframes along a path, each of its lines eased."""
     total = float(needed.sum())
     if total <= 0.0:
         return np.array([end]), way[-1:]
@@ -171,7 +168,7 @@ def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tu
 
 
 def _stretched(steps_s: FloatArray, total_s: float) -> FloatArray:
-    """Steps that take so long together, none of them less than it needs (s)."""
+    """Return the steps lengthened to a total duration, none of them shorter than it needs (s)."""
     if not len(steps_s):
         return steps_s
     return np.asarray(steps_s + max(0.0, total_s - float(steps_s.sum())) / len(steps_s))

@@ -1,4 +1,4 @@
-"""A time in which no hand holds cloth: what base and cloth do meanwhile, and where the base is at each moment."""
+"""The time of a transit: the motion of base and cloth while no hand holds cloth."""
 
 from dataclasses import dataclass
 
@@ -12,12 +12,12 @@ from planner.task.phase import Phase
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TransitTime:
-    """A time in which hands are free.
+    """A time in which hands are empty.
 
     Attributes:
-        cues: what base and cloth do then, one after the other.
+        cues: the timed phases of base and cloth, one after the other.
         start_s: when it begins (s).
-        cloth: what lies on the table meanwhile.
+        cloth: the cloth on the table meanwhile.
     """
 
     cues: list[TimedPhase]
@@ -26,11 +26,11 @@ class TransitTime:
 
     @property
     def end_s(self) -> float:
-        """When it ends (s)."""
+        """The time at which it ends (s)."""
         return self.start_s + sum(cue.duration_s for cue in self.cues)
 
     def base_at(self, t_s: float) -> FloatArray:
-        """Where the base is at a time: x (m), y (m), yaw (rad)."""
+        """Return the base at a time: x (m), y (m), yaw (rad)."""
         start = self.start_s
         for cue in self.cues[:-1]:
             if t_s <= start + cue.duration_s:
@@ -42,7 +42,7 @@ class TransitTime:
         return np.array([pose.x_m, pose.y_m, pose.yaw_rad])
 
     def after_waiting(self, wait_s: float) -> "TransitTime":
-        """The same time, but that the base waits first (s), which is taken from the reach at the end."""
+        """Return the transit with a wait of the base before it (s), taken from the reach at its end."""
         *driving, reach = self.cues
         waiting = TimedPhase(
             reach.primitive, _resting(self.cues[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0])
@@ -52,7 +52,7 @@ class TransitTime:
 
 
 def _resting(phase: Phase) -> Phase:
-    """A phase in which everything is as at the start of another."""
+    """Return a phase in which everything stays as at the start of another."""
     cloth = phase.cloth
     return Phase(
         0.0,

@@ -1,7 +1,7 @@
-"""How many ways to do the same are tried before a step is rejected.
+"""Limits on the alternatives tried before a step is rejected.
 
-Most plans are found with few tries. Only where what was left untried may hide a quicker plan, or a plan at all, is more
-tried; and then so much work, counted and not timed, that equal tasks get equal answers on every machine.
+Most plans are found with few tries. More are made only where an untried alternative may hide a quicker plan, or the
+only one. The work is counted rather than timed, so that equal tasks get equal answers on every machine.
 """
 
 from dataclasses import dataclass
@@ -9,19 +9,20 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Tries:
-    """The caps on what is tried.
+    """The limits of one round.
 
     Attributes:
-        ways: ways to do what a run does that are looked at.
-        variants: choices of each step that are combined with those of the others in its run.
-        alone: ways in vain with one arm until a run is given up.
-        together: the same with both arms: to lead these takes several times as long.
-        late: ways that take longer than they seem to, of which the quickest counts.
-        spread: other ways to do the same that are looked at once a step is rejected.
-        tried: those of them that are tried.
-        enough: real ones among them that suffice.
-        vain: those that take both arms and are tried in vain until no more are.
-        failures: times that the same is tried from a station by the same arms, the cloth here or there, in vain.
+        ways: alternatives of a transfer that are tested.
+        variants: choices of each step that are combined with those of the others in its transfer.
+        alone: failures with one arm after which a transfer is given up.
+        together: the same with both arms: their paths take several times as long to find.
+        late: transfers longer than estimated that are found before the quickest of them is taken.
+        spread: other ways to do the same that are tested once a step is rejected.
+        tried: the number of those for which joint paths are searched.
+        enough: the number of valid ones among them that suffice.
+        vain: failures with both arms after which no more of them are tried.
+        failures: failures of the same from one station by the same arms, wherever the cloth lies, after which it is
+            given up.
     """
 
     ways: int
@@ -37,12 +38,12 @@ class Tries:
 
 
 QUICK = Tries(ways=40, variants=6, alone=8, together=2, late=2, spread=64, tried=12, enough=4, vain=6, failures=5)
-"""What is tried at first."""
+"""The limits of the first round."""
 
 THOROUGH = Tries(
     ways=320, variants=24, alone=32, together=8, late=8, spread=256, tried=48, enough=16, vain=24, failures=20
 )
-"""What is tried where the first leaves a doubt."""
+"""The limits where the first round leaves a doubt."""
 
 MORE_RUNS = 160
-"""Runs that the arms are led through in the second round, where there is no plan yet."""
+"""Transfers planned in the second round while there is no plan yet."""
