@@ -1,19 +1,19 @@
-"""Everything that Pleat raises, as one tree.
+"""The errors that Pleat raises, as one tree.
 
 ::
 
     FoldingError                     the root; catch this one
     ├── FieldError                   bad input: names the field and says what is wrong
     │   ├── GarmentError             a garment's outline, numbers, names
-    │   ├── FoldError                a fold that is not legal on the cloth as it is then
+    │   ├── FoldError                a fold that is not legal on the cloth at its turn
     │   ├── SceneError               table, stations, robot settings, costs
     │   └── RequestError             the options of a plan request
     ├── GarmentFileError             a file that cannot be read as a garment (or scene) at all
     ├── UnknownGarmentError          no garment of that name
-    ├── ReadOnlyGarmentError         a shipped garment was to be changed
-    └── UnsolvedPlanError            a timeline was asked of a plan that has none
+    ├── ReadOnlyGarmentError         an attempt to change a shipped garment
+    └── UnsolvedPlanError            a request for the timeline of a plan that has none
 
-"No plan exists" is never an error: it is a `planner.plan.Plan` whose status says so.
+"No plan exists" is never an error: it is a `planner.task.plan.Plan` with that status.
 """
 
 from dataclasses import dataclass
@@ -23,10 +23,13 @@ from planner.message import Message
 
 
 class FoldingError(Exception):
-    """The root of all errors that Pleat raises on purpose; one that comes from another process is equal to it."""
+    """The root of all errors that Pleat raises on purpose; it keeps its data when it is pickled to another process."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Have it made again from what it holds: `Exception` would call the leaf with the finished message."""
+        """Return how to rebuild the error from its fields.
+
+        `Exception` would call the leaf with the finished message.
+        """
         return _remade, (type(self), self.args, self.__dict__)
 
 
@@ -37,13 +40,13 @@ def _remade(kind: type[FoldingError], arguments: tuple[object, ...], fields: dic
 
 
 class FieldError(FoldingError, ValueError):
-    """Bad input, with the path of the field it stands in; pydantic takes it for one of its own.
+    """Bad input, with the path of the field it stands in; pydantic treats it as one of its own errors.
 
     Attributes:
-        field: where, as in ``outline[3]`` or ``folds[0].start``; relative to the value
-            that was being built until an outer layer prefixes it (see `within`).
+        field: the path, as in ``outline[3]`` or ``folds[0].start``; relative to the value that was being built until an
+            outer layer prefixes it (see `within`).
         message: what is wrong, with the numbers and their units.
-        says: the same as data, where it has numbers.
+        says: the message as data, where it has numbers.
     """
 
     def __init__(self, field: str, message: str | Message) -> None:
@@ -54,7 +57,7 @@ class FieldError(FoldingError, ValueError):
         self.says = message if isinstance(message, Message) else None
 
     def within(self, prefix: str) -> "FieldError":
-        """The same error, its field seen from further out."""
+        """Return the error with its field's path prefixed."""
         if not prefix:
             return self
         joined = f"{prefix}.{self.field}" if self.field else prefix
@@ -66,7 +69,7 @@ class GarmentError(FieldError):
 
 
 class FoldError(FieldError):
-    """A fold that is not legal on the cloth as it is when its turn comes (paper, section 6)."""
+    """A fold that is not legal on the cloth at its turn (paper, section 6)."""
 
 
 class SceneError(FieldError):
@@ -83,7 +86,7 @@ class GarmentFileError(FoldingError):
 
 @dataclass
 class UnknownGarmentError(FoldingError):
-    """No garment of this name is shipped or stored."""
+    """A name of which no garment is shipped or stored."""
 
     name: str
 
@@ -93,7 +96,7 @@ class UnknownGarmentError(FoldingError):
 
 @dataclass
 class ReadOnlyGarmentError(FoldingError):
-    """A shipped garment cannot be replaced or removed."""
+    """An attempt to replace or remove a shipped garment."""
 
     name: str
 
@@ -103,7 +106,7 @@ class ReadOnlyGarmentError(FoldingError):
 
 @dataclass
 class UnsolvedPlanError(FoldingError):
-    """A timeline exists only for a solved plan."""
+    """A request for the timeline of a plan that is not solved."""
 
     status: str
 

@@ -1,4 +1,4 @@
-"""JSON read strictly: unknown fields are refused by name, numbers are finite JSON numbers."""
+"""Read JSON strictly: refuse unknown fields by name, and accept only finite JSON numbers."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any
@@ -8,20 +8,20 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from planner.errors import FieldError
 
 LARGEST_M = 10.0
-"""No coordinate or other length in a file or request may be larger (m)."""
+"""The largest coordinate or other length in a file or request (m)."""
 
 Bounded = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
 Positive = Annotated[float, Field(gt=0.0, le=LARGEST_M)]
 
 
 class StrictModel(BaseModel):
-    """A JSON object whose fields are all known and of exactly the type that they should be."""
+    """A JSON object whose fields are all known and of exactly the declared types."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
 
 
 def field_path(location: tuple[int | str, ...]) -> str:
-    """A pydantic location as a path: ``("outline", 3, 0)`` -> ``outline[3][0]``."""
+    """Return a pydantic location as a path: ``("outline", 3, 0)`` -> ``outline[3][0]``."""
     path = ""
     for part in location:
         path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else str(part)
@@ -29,9 +29,9 @@ def field_path(location: tuple[int | str, ...]) -> str:
 
 
 def first_error(error: ValidationError, kind: type[FieldError]) -> FieldError:
-    """Return the first of pydantic's complaints as one of our errors.
+    """Return the first of pydantic's errors as one of our own.
 
-    What is not of the type that it should be comes before what a value has refused itself, which keeps its own error.
+    Errors of type come before errors that a value raised itself; those are kept as they are.
     """
     details = [one for one in error.errors(include_url=False) if one["type"] != "default_factory_not_called"]
     detail = next((one for one in details if _told(one) is None), details[0])
@@ -40,13 +40,13 @@ def first_error(error: ValidationError, kind: type[FieldError]) -> FieldError:
 
 
 def _told(detail: Mapping[str, Any]) -> FieldError | None:
-    """Return what a value has refused itself."""
+    """Return the error that a value raised itself; None if it raised none."""
     found = detail.get("ctx", {}).get("error")
     return found if isinstance(found, FieldError) else None
 
 
 def plain_message(detail: dict[str, Any]) -> str:
-    """One of pydantic's complaints in words that name the offending value."""
+    """Return one of pydantic's errors in words that name the offending value."""
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         return "is not a known field"
     if detail["type"] == "missing":

@@ -1,10 +1,10 @@
-"""What a fold's end is attached to, so that it stays there when the garment changes its shape.
+"""Attach a fold's ends to the garment, so that they stay in place when the garment changes its shape.
 
-A fold's ends lie on the boundary of the silhouette as it is when its turn comes. Kept as points they leave it
-as soon as somebody pulls at a corner. But every piece of that boundary is cloth: an edge of the pattern as some layer
-carried it there, or the crease of an earlier fold. Folding is a continuous map of the pattern to the plane, so a place
-of the *pattern* determines a place in the folded cloth, whatever the shape. An end is attached to a corner or to a
-fraction of an edge of the pattern, or to a fraction of an earlier crease in the layer that certain folds had carried.
+A fold's ends lie on the boundary of the silhouette at the fold's turn. Kept as points they would leave it as soon as
+somebody pulls at a corner. But every piece of that boundary is cloth: an edge of the pattern where some layer carried
+it, or the crease of an earlier fold. Folding is a continuous map from the pattern to the plane, so a place of the
+*pattern* determines a place in the folded cloth, whatever the shape. An end is attached to a corner or to a fraction of
+an edge of the pattern, or to a fraction of an earlier crease in the layer that certain folds had carried.
 """
 
 from collections.abc import Iterator, Sequence
@@ -23,14 +23,14 @@ from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
 @dataclass(frozen=True, slots=True)
 class OnVertex:
-    """Attached to a corner of the outline, by its index."""
+    """An attachment to a corner of the outline, by its index."""
 
     vertex: int
 
 
 @dataclass(frozen=True, slots=True)
 class OnEdge:
-    """Attached to the edge from corner `edge` to the next one, at a fraction of its length (0..1)."""
+    """An attachment to the edge from corner `edge` to the next one, at a fraction of its length (0..1)."""
 
     edge: int
     fraction: float
@@ -38,12 +38,13 @@ class OnEdge:
 
 @dataclass(frozen=True, slots=True)
 class OnCrease:
-    """Attached to the line of an earlier fold, at a fraction of its length (0..1).
+    """An attachment to the line of an earlier fold, at a fraction of its length (0..1).
 
     Attributes:
         fold: the earlier fold's index.
-        fraction: from its start.
-        carried: the folds before that one which had moved the layer meant, ascending; the crease runs through several.
+        fraction: the fraction, from the line's start.
+        carried: the folds before that one which had moved the attached layer, ascending; the crease runs through
+            several layers.
     """
 
     fold: int
@@ -56,7 +57,7 @@ Attachment: TypeAlias = OnVertex | OnEdge | OnCrease
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """Folds done so far, in the user's order.
+    """The folds done so far, in the user's order.
 
     Attributes:
         outline: the pattern's corners (m).
@@ -69,24 +70,24 @@ class Replay:
     lines: tuple[Segment, ...] = ()
 
     def then(self, line: Segment, cloth: ClothState) -> "Replay":
-        """One fold more."""
+        """Return the replay with one more fold."""
         return Replay(self.outline, (*self.cloths, cloth), (*self.lines, line))
 
     def seen(self, *, is_red: bool) -> tuple[Layer, ...]:
-        """The layers that the next fold sees: all of them, or those that the last fold moved."""
+        """Return the layers that the next fold sees: all of them, or for a red fold those that the last fold moved."""
         return self.cloths[-1].flap if is_red else self.cloths[-1].layers
 
 
 def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 | None:
-    """Where an attachment is, article frame, after the folds so far (m).
+    """Return the place of an attachment after the folds so far, article frame (m).
 
     Args:
-        attachment: what is asked for.
+        attachment: the attachment.
         replay: the folds so far.
-        is_red: whether it is wanted for a red fold, which sees only the layers moved last.
+        is_red: whether the place is for a red fold, which sees only the layers moved last.
 
     Returns:
-        None if there is no such corner, edge or crease, or not in the layers that are seen.
+        The place; None if there is no such corner, edge or crease, or not in the layers seen.
     """
     material = _material(attachment, replay)
     if material is None:
@@ -101,18 +102,18 @@ def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 
 
 
 def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | None:
-    """What there is to attach to at a place on the boundary of the silhouette.
+    """Return the attachment for a place on the boundary of the silhouette.
 
-    A corner is taken before the end of a crease, that before an edge, and an edge before the inside of a crease; of
-    layers that lie alike, the one that has been moved least.
+    A corner is preferred to the end of a crease, that to an edge, and an edge to the inside of a crease; of layers that
+    lie alike, the one moved least often is preferred.
 
     Args:
         place: article frame, after the folds so far (m).
         replay: the folds so far.
-        is_red: whether it is wanted for a red fold.
+        is_red: whether the attachment is for a red fold.
 
     Returns:
-        None if no layer that is seen has its boundary there.
+        The attachment; None if no layer seen has its boundary there.
     """
     found: list[tuple[int, int, Attachment]] = []
     for layer in replay.seen(is_red=is_red):
@@ -125,7 +126,7 @@ def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | Non
 
 
 class _Trace:
-    """One layer's way through the folds so far."""
+    """The history of one layer through the folds so far."""
 
     def __init__(self, layer: Layer, replay: Replay) -> None:
         self._lines = replay.lines
@@ -135,7 +136,7 @@ class _Trace:
         self.carried = tuple(i for i in range(len(replay.lines)) if faces[i] != faces[i + 1])
 
     def creases(self, material: Point2) -> Iterator[tuple[int, OnCrease]]:
-        """The creases that run through a place of the pattern in this layer; ends before the rest."""
+        """Yield the creases through a place of the pattern in this layer, ranked: 1 for an end, 3 inside."""
         for fold, (line, stage) in enumerate(zip(self._lines, self._stages, strict=False)):
             place = np.array([stage.isometry.apply_point(material)])
             if line.distances(place)[0] > LENGTH_M:
@@ -148,12 +149,12 @@ class _Trace:
 
 
 def _holding(inner: Point2, layers: Sequence[Layer]) -> Layer:
-    """The layer whose piece of the pattern has a point inside."""
+    """Return the layer whose piece of the pattern contains a point."""
     return next(layer for layer in layers if layer.pattern_piece.contains(inner))
 
 
 def _on_outline(material: Point2, outline: tuple[Point2, ...]) -> Iterator[tuple[int, Attachment]]:
-    """Corners and edges of the outline at a place of the pattern."""
+    """Yield the corners and edges of the outline at a place of the pattern, each with its rank."""
     place = np.array([material])
     for index, corner in enumerate(outline):
         edge = Segment(corner, outline[(index + 1) % len(outline)])
@@ -164,7 +165,7 @@ def _on_outline(material: Point2, outline: tuple[Point2, ...]) -> Iterator[tuple
 
 
 def _material(attachment: Attachment, replay: Replay) -> Point2 | None:
-    """The place of the pattern that is meant (m)."""
+    """Return the place of the pattern that an attachment refers to (m); None if there is none."""
     match attachment:
         case OnVertex(vertex):
             return replay.outline[vertex] if vertex < len(replay.outline) else None

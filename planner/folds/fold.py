@@ -1,4 +1,4 @@
-"""A fold as it is used: its line snapped to the silhouette, its place in the sequence."""
+"""A legal fold: its line snapped to the silhouette, and its place in the sequence."""
 
 from dataclasses import dataclass
 
@@ -19,10 +19,10 @@ class Fold:
 
     Attributes:
         index: its place in the user's order.
-        name: what the user calls it.
+        name: the user's name for it.
         is_red: whether it folds only the layers that the fold before it moved.
         line: the fold line in the article frame, ends on the silhouette's boundary; its left moves.
-        grip_radius_m: how far round itself one grip holds the cloth (m).
+        grip_radius_m: the radius within which one grip holds the cloth (m).
     """
 
     index: int
@@ -33,15 +33,15 @@ class Fold:
 
     @property
     def label(self) -> str:
-        """The fold as messages name it."""
+        """The fold's name in messages."""
         return f"fold {self.index} '{self.name}'"
 
 
 def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
-    """The drawn line with its ends put on the silhouette's boundary.
+    """Return the drawn line with its ends snapped to the silhouette's boundary.
 
-    An end that is there already, to the tolerance, stays exactly where it was drawn, so a line that was snapped once is
-    not moved again.
+    An end that is already there, within the tolerance, stays exactly where it was drawn, so snapping a line twice moves
+    it only once.
 
     Raises:
         FoldError: an end is more than 5 mm from the boundary, both ends fall on one point, or the line
@@ -70,7 +70,7 @@ def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
 
 
 def is_snapped(line: Segment, silhouette: Region) -> bool:
-    """Whether a line is as `snapped_line` leaves it: its ends on the silhouette's boundary, inside between them."""
+    """Return whether a line is snapped: its ends on the silhouette's boundary, and inside between them."""
     ends = (line.start, line.end)
     return all(silhouette.boundary_distance(end) <= LENGTH_M for end in ends) and silhouette.contains_segment(line)
 

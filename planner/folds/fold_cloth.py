@@ -1,4 +1,4 @@
-"""Folding a stack of layers: cut along the segment, reflect the left part, lay it on top (paper, section 6)."""
+"""Fold a stack of layers: cut along the segment, reflect the left part, lay it on top (paper, section 6)."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -19,12 +19,12 @@ _FOLDED_KEPT = 256
 
 @dataclass(frozen=True)
 class Folded:
-    """One fold done.
+    """The result of one fold.
 
     Attributes:
         cloth: the stack afterwards.
-        moving: the silhouette of the part that moved, where it was.
-        layers: the layers that moved, where they were, bottom to top.
+        moving: the silhouette of the part that moved, before it moved.
+        layers: the layers that moved, before they moved, bottom to top.
     """
 
     cloth: ClothState
@@ -34,16 +34,16 @@ class Folded:
 
 @lru_cache(_FOLDED_KEPT)
 def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segment | None = None) -> Folded:
-    """Fold what lies to the left of a line over it. Remembered: who draws, who checks and who plans all ask for it.
+    """Fold the cloth to the left of a line over it. Cached, because drawing, checking and planning all repeat it.
 
     Args:
         cloth: the stack before.
         line: the fold line, article frame.
-        is_red: only the layers that the last fold moved take part.
+        is_red: whether only the layers that the last fold moved take part.
         crease: for a red fold, the line of the fold before, which joins those layers to the rest.
 
     Raises:
-        FoldError: nothing lies to the left or right of the line, the line does not part the cloth, or a red
+        FoldError: no cloth lies to the left or to the right of the line, the line does not part the cloth, or a red
             fold would tear it.
     """
     active = cloth.flap if is_red else cloth.layers
@@ -65,7 +65,7 @@ def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segmen
 
 
 def flap_silhouette(cloth: ClothState, *, is_red: bool) -> Region:
-    """What a fold of this kind sees: the whole stack's silhouette, or that of the layers moved last."""
+    """Return the silhouette that a fold sees: that of the whole stack, or of the layers moved last if it is red."""
     return Region.union(layer.region for layer in cloth.flap) if is_red else cloth.silhouette
 
 
@@ -87,7 +87,11 @@ def _require_both(is_any_moving: bool, is_any_staying: bool) -> None:
 
 
 def _require_no_tear(moving: Region, line: Segment, crease: Segment) -> None:
-    """A red fold must leave the crease that joins its layers to the rest where it is."""
+    """Raise unless a red fold leaves the crease that joins its layers to the rest in place.
+
+    Raises:
+        FoldError: the moving part reaches along the crease.
+    """
     for end_a, end_b in moving.overlaps_with(crease):
         off_line = np.abs(line.left_distances(np.array([end_a, end_b])))
         if off_line.max() > LENGTH_M:

@@ -1,4 +1,4 @@
-"""The Fold-DAG: which fold must precede which (paper, section 5.1)."""
+"""The Fold-DAG: the order in which folds must precede each other (paper, section 5.1)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,18 +10,18 @@ import networkx as nx
 from planner.geometry.region import Region
 
 _FEW_SETS = 64
-"""A search can go through so many sets of folds done, wherever cloth and robot are meanwhile."""
+"""The number of sets of folds done up to which a search can visit all, wherever cloth and robot are."""
 
 
 @dataclass(frozen=True)
 class FoldDag:
-    """The order that folding demands: a fold waits for every fold whose folded part its own overlaps.
+    """The order of folds: a fold waits for every earlier fold whose folded part its own overlaps.
 
-    A blue fold and the red folds that follow it are a chain that nothing interrupts.
+    A blue fold and the red folds that follow it form a chain that nothing interrupts.
 
     Attributes:
         chains: each chain's folds in order; every fold is in one.
-        edges: pairs (a, b), a before b, redundant ones left out, in ascending order.
+        edges: pairs (a, b), a before b, without redundant ones, in ascending order.
     """
 
     chains: tuple[tuple[int, ...], ...]
@@ -33,11 +33,11 @@ class FoldDag:
         return sum(len(chain) for chain in self.chains)
 
     def to_dict(self) -> dict[str, Any]:
-        """The DAG as JSON."""
+        """Return the DAG as JSON."""
         return {"folds": self.folds, "edges": [list(edge) for edge in self.edges]}
 
     def available(self, done: int) -> tuple[int, ...]:
-        """The folds that may come next.
+        """Return the folds that may come next.
 
         Args:
             done: the folds finished, as a bit mask.
@@ -50,13 +50,13 @@ class FoldDag:
 
     @cached_property
     def is_loose(self) -> bool:
-        """Whether so few folds wait for others that there are many sets of folds that may be done first."""
+        """Whether so few folds wait for others that many different sets of folds may be done first."""
         return self.sets_before(self.folds, _FEW_SETS) is None
 
     def sets_before(self, fold: int, at_most: int) -> tuple[int, ...] | None:
-        """Every set of finished folds, as a bit mask, after which a fold may come next.
+        """Return every set of finished folds, as a bit mask, after which a fold may come next.
 
-        None if there are more than `at_most`.
+        None if more than `at_most` sets were visited.
         """
         seen, front, found = {0}, [0], []
         while front:
@@ -74,7 +74,7 @@ class FoldDag:
         return tuple(sorted(found))
 
     def before(self, fold: int) -> set[int]:
-        """All folds that must precede one; what a chain's fold waits for the whole chain waits for."""
+        """Return all folds that must precede one; a whole chain waits for whatever one of its folds waits for."""
         chain_of = {f: chain for chain in self.chains for f in chain}
         found: set[int] = set()
         front = [fold]
@@ -87,7 +87,7 @@ class FoldDag:
         return found | set(own[: own.index(fold)])
 
     def last_of_begun_chain(self, done: int) -> int | None:
-        """The last fold done of a chain that is not finished; None if there is no such chain."""
+        """Return the last fold done of an unfinished chain; None if there is no such chain."""
         for chain in self.chains:
             finished = [i for i in chain if done >> i & 1]
             if 0 < len(finished) < len(chain):
@@ -95,7 +95,7 @@ class FoldDag:
         return None
 
     def follows_at_once(self, fold: int) -> bool:
-        """Whether a red fold comes directly after this one."""
+        """Return whether a red fold comes directly after this one."""
         return any(fold in chain[:-1] for chain in self.chains)
 
     def _is_free(self, chain: tuple[int, ...], done: int) -> bool:
@@ -104,10 +104,10 @@ class FoldDag:
 
 
 def overlap_graph(folded_parts: Sequence[Region], red: Sequence[bool]) -> "nx.DiGraph[int]":
-    """What waits for what because their parts overlap, or because a red fold follows at once.
+    """Return the folds' dependencies: overlapping parts, and red folds that follow at once.
 
     Args:
-        folded_parts: for each fold what its part covers, where it was and where it lands, article frame.
+        folded_parts: for each fold the region that its part covers before and after it moves, article frame.
         red: for each fold whether it is red.
     """
     graph: nx.DiGraph[int] = nx.DiGraph()
@@ -122,7 +122,7 @@ def overlap_graph(folded_parts: Sequence[Region], red: Sequence[bool]) -> "nx.Di
 
 
 def reduced(graph: "nx.DiGraph[int]", red: Sequence[bool]) -> FoldDag:
-    """The Fold-DAG of all dependencies: redundant ones left out."""
+    """Return the Fold-DAG of a graph of dependencies, without redundant ones."""
     return FoldDag(_chains(red), tuple(sorted(nx.transitive_reduction(graph).edges)))
 
 

@@ -1,9 +1,9 @@
-"""How cloth and grips move in a g-fold (paper, section 6).
+"""The motion of cloth and grips in a g-fold (paper, section 6).
 
-A baseline sweeps from the far end of the moving part to the fold line, the cloth beyond it standing vertical over
-it, and goes on to lay the cloth down on the other side. With D the moving part's largest distance from the
-fold line and b the baseline's, a point at distance d rests until b = d, rises along (b, d - b) to the apex (0, d),
-comes down along (-b, d - b) and rests. Every part is vertical or horizontal at every moment.
+A baseline sweeps from the far end of the moving part to the fold line while the cloth beyond it stands vertically above
+it, and goes on to lay the cloth down on the other side. Let D be the moving part's largest distance from the fold line,
+and b the baseline's. A point at distance d rests until b = d, rises along (b, d - b) to the apex (0, d), comes down
+along (-b, d - b) and rests. Every part is vertical or horizontal at every moment.
 """
 
 import math
@@ -17,14 +17,14 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 
 REST_HEIGHT_M = 0.02
-"""The tool frame's height over the table's plane at rest: closed fingertips just clear the table (m)."""
+"""The tool frame's height above the table's plane at rest: closed fingertips just clear the table (m)."""
 
 SPACING_M = 0.05
-"""Waypoints of a path are at most this far apart (m)."""
+"""The largest distance between waypoints of a path (m)."""
 
 
 _WAY_IN_MAX_M = 0.04
-"""The way in from outside an edge for which waypoints are close enough (m): a longer one would ask for too many."""
+"""The way in from outside an edge up to which waypoints are close enough (m); longer ones would need too many."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +35,8 @@ class FoldPath:
         line: the fold line in the table frame, unrolled plane.
         depth_m: the largest distance of the moving part from it, D (m).
         top: the table's top.
-        rising_top: the top until the apex: where cloth beyond an edge starts out held at the table's
-            height, not hanging, it moves as if the table went on there.
+        rising_top: the top until the apex: cloth beyond an edge that starts out held at the table's height, not
+            hanging, moves as if the table continued there.
         edge_clear_m: how far outside an edge's plane a tool holds cloth that hangs there (m).
     """
 
@@ -47,14 +47,14 @@ class FoldPath:
     edge_clear_m: float = 0.0
 
     def swept(self, points: FloatArray, sweep: float | FloatArray) -> FloatArray:
-        """Where points of the moving part are in the unrolled plane.
+        """Return the positions of points of the moving part in the unrolled plane.
 
         Args:
-            points: where they lie before the fold, table frame, shape (n, 2), m.
-            sweep: 0 all lies flat, 1 all stands over the fold line, 2 all is laid down; or several, shape (k, 1).
+            points: their positions before the fold, table frame, shape (n, 2), m.
+            sweep: 0 all lies flat, 1 all stands above the fold line, 2 all is laid down; or several, shape (k, 1).
 
         Returns:
-            Shape (n, 3), or (k, n, 3): place in the unrolled plane and height above it (m).
+            Shape (n, 3), or (k, n, 3): position in the unrolled plane and height above it (m).
         """
         distances, moment = self.line.left_distances(points), np.asarray(sweep)
         flat = np.minimum(distances, self.depth_m * np.abs(1.0 - moment))
@@ -65,23 +65,23 @@ class FoldPath:
         return found
 
     def top_at(self, sweep: float) -> TableTop:
-        """The top over which cloth does not hang at a moment."""
+        """Return the top over which cloth does not hang at a sweep."""
         return self.rising_top if sweep < 1.0 else self.top
 
     def is_continuous(self, grips: FloatArray) -> bool:
-        """Whether the apexes of grips are over the table, or none was held out beyond an edge.
+        """Return whether the apexes of grips are above the table, or none was held out beyond an edge.
 
-        What is held out beyond an edge rises in the plane; it can come down over the table only if the fold line
-        is on the table there.
+        Cloth held out beyond an edge rises in the plane; it can come down over the table only if the fold line is on
+        the table there.
         """
         return self.rising_top == self.top or not np.any(self.top.beyond(self.swept(grips, 1.0)) > LENGTH_M)
 
     def tool_points(self, grips: FloatArray, sweep: float) -> FloatArray:
-        """Where the tools are that hold the given points of the cloth, shape (n, 2) -> (n, 3), table frame."""
+        """Return the tools' positions for given points of the cloth, shape (n, 2) -> (n, 3), table frame (m)."""
         return self.tool_paths(grips, np.array([sweep]))[:, 0]
 
     def tool_paths(self, grips: FloatArray, sweeps: FloatArray) -> FloatArray:
-        """The same at several moments, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
+        """Return the tools' positions at several sweeps, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
         unrolled = self.swept(grips, sweeps[:, None]) + np.array([0.0, 0.0, REST_HEIGHT_M])
         if self.rising_top == self.top:
             return self.over_edge(unrolled, self.top).transpose(1, 0, 2)
@@ -90,25 +90,25 @@ class FoldPath:
         return paths.transpose(1, 0, 2)
 
     def over_edge(self, unrolled: FloatArray, top: TableTop) -> FloatArray:
-        """Where tools of the unrolled plane, shape (..., 3), are in space, table frame (m).
+        """Return the positions in space of tools of the unrolled plane, shape (..., 3), table frame (m).
 
-        In the edge's plane fingers would be in the table. So over hanging cloth a tool keeps clear of the plane by
-        `edge_clear_m`; on its way over the edge it comes to it gradually.
+        In the edge's plane the fingers would be inside the table. So a tool above hanging cloth keeps clear of the
+        plane by `edge_clear_m`; on its way over the edge it approaches that distance gradually.
         """
         return top.clear_of_edge(unrolled, self.edge_clear_m, REST_HEIGHT_M)
 
     def sweeps(self, grips: FloatArray) -> FloatArray:
-        """Waypoints, rising: the moments at which grips are checked, apex in the middle, at most 5 cm apart."""
+        """Return the sweeps at which grips are tested: rising, apex in the middle, at most 5 cm apart."""
         farthest = float(self.line.left_distances(grips).max())
         count = max(1, math.ceil((farthest - LENGTH_M) / self._baseline_step(grips)))
         rising = 1.0 - np.linspace(farthest, 0.0, count + 1) / self.depth_m
         return np.concatenate([rising, 2.0 - rising[-2::-1]])
 
     def _baseline_step(self, grips: FloatArray) -> float:
-        """How far the baseline may go between waypoints (m).
+        """Return how far the baseline may go between waypoints (m).
 
-        A tool goes sqrt(2) times as far as the baseline over the table and up to twice as far at an edge. Where it
-        comes in from outside the edge, it may do so within one step s: its way squared is (way in + s)^2 + s^2.
+        A tool goes sqrt(2) times as far as the baseline above the table and up to twice as far at an edge. Coming in
+        from outside the edge takes it at most one step s, in which it travels the square root of (way in + s)^2 + s^2.
         """
         start, apex, end = self.swept(grips, np.array([[0.0], [1.0], [2.0]]))
         if self.top.covers(np.array([start, apex, end])):

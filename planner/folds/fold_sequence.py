@@ -1,9 +1,8 @@
 """A garment with its folds made legal, and the cloth after any of them.
 
-The folds are replayed once in the user's order: that snaps each line, finds what moves and where it lands, and
-yields the Fold-DAG. By the DAG's law every order it allows leaves the same stack, so the cloth after a set of
-folds is found by doing that set in the user's order, but a chain that is under way last; it is kept for the next time
-it is asked for.
+The folds are replayed once in the user's order. The replay snaps each line, finds the part that moves and where it
+lands, and yields the Fold-DAG. Every order that the DAG allows leaves the same stack. So the cloth after a set of folds
+is found by doing that set in the user's order, except that an unfinished chain comes last. Results are cached.
 """
 
 from dataclasses import dataclass
@@ -29,7 +28,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 
 _REMEMBERED = 8
-"""Garments that are not replayed again."""
+"""The number of garments whose replays are cached."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,7 @@ class FoldSequence:
     Attributes:
         garment: the garment.
         folds: the legal folds in the user's order.
-        dag: which waits for which.
+        dag: the order in which they must precede each other.
         final: the stack after all of them.
     """
 
@@ -74,13 +73,13 @@ class FoldSequence:
         return FoldSequence(garment, tuple(folds), dag, cloth, parts, cloths, {})
 
     def to_dict(self) -> dict[str, Any]:
-        """The Fold-DAG and the final stack, bottom to top, as JSON."""
+        """Return the Fold-DAG and the final stack, bottom to top, as JSON."""
         return {**self.dag.to_dict(), "layers": [layer.to_dict() for layer in self.final.layers]}
 
     def cloth(self, done: int) -> ClothState:
-        """The stack after a set of folds, given as a bit mask.
+        """Return the stack after a set of folds, given as a bit mask.
 
-        Of a chain that is under way the last fold comes last: a red fold takes the layers that it moved.
+        The last fold done of an unfinished chain comes last, because a red fold takes the layers that it moved.
         """
         if done not in self._cloths:
             begun = self.dag.last_of_begun_chain(done)
@@ -89,7 +88,7 @@ class FoldSequence:
         return self._cloths[done]
 
     def folded(self, done: int, index: int) -> Folded:
-        """One more fold on the stack after a set of folds."""
+        """Return the result of one more fold on the stack after a set of folds."""
         key = (done, index)
         if key not in self._folded:
             fold = self.folds[index]
@@ -98,16 +97,20 @@ class FoldSequence:
         return self._folded[key]
 
     def moving(self, index: int) -> Region:
-        """Return the silhouette of the part that a fold moves, where it was.
+        """Return the silhouette of the part that a fold moves, before it moves.
 
-        By the DAG's law it is the same after every set of folds that the fold may follow. So it is that of the replay
-        in the user's order, which is known: to fold the cloth anew for every set takes a search most of its time.
+        By the DAG's law it is the same after every set of folds that the fold may follow. So the known one, of the
+        replay in the user's order, is returned; folding the cloth anew for every set would take most of a search's
+        time.
         """
         return self.folded((1 << index) - 1, index).moving
 
     @cached_property
     def covered(self) -> FloatArray:
-        """Points whose extent holds the cloth after any set of folds, shape (n, 2), m: where parts lay and land."""
+        """Points whose extent contains the cloth after any set of folds, shape (n, 2), m.
+
+        They are the parts' outlines before and after they move.
+        """
         parts = (self.moving(fold.index) for fold in self.folds)
         landed = (
             Isometry.reflection(fold.line).apply(part.coordinates) for fold, part in zip(self.folds, parts, strict=True)
@@ -115,7 +118,7 @@ class FoldSequence:
         return np.concatenate([self.garment.pattern.coordinates, *landed])
 
     def covers(self, index: int, support_angle_rad: float, arms: int) -> GripCovers:
-        """What must be held during a fold, and the best grips for it."""
+        """Return the points that must be held during a fold, and the best grips for them."""
         key = (index, support_angle_rad, arms)
         if key not in self._covers:
             fold, moving = self.folds[index], self.moving(index)
@@ -125,7 +128,7 @@ class FoldSequence:
 
 
 def fold_dag(garment: Garment) -> FoldSequence:
-    """A garment's folds made legal, with their Fold-DAG; `FoldSequence.to_dict` is its JSON.
+    """Return a garment's folds made legal, with their Fold-DAG; `FoldSequence.to_dict` is its JSON.
 
     Raises:
         FoldError: a fold is not legal; the field names it.
@@ -134,11 +137,11 @@ def fold_dag(garment: Garment) -> FoldSequence:
 
 
 replayed = lru_cache(_REMEMBERED)(FoldSequence.of)
-"""Replay a garment's folds, or remember how: what was worked out about the latest garments' cloth is kept."""
+"""Replay a garment's folds; the sequences of the latest garments, with all they have cached, are kept."""
 
 
 def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:
-    """What waits for what: by overlap, and where parts merely touch, by trying."""
+    """Return the order of folds: by overlap, and by trial where parts merely touch."""
     red = [fold.is_red for fold in folds]
     parts = [
         Region.union([part, part.moved(Isometry.reflection(fold.line))])

@@ -1,9 +1,9 @@
-"""Dependencies that overlap does not show.
+"""Find dependencies between folds that overlap does not show.
 
 Folds whose parts overlap must keep their order, and mostly that is all. But a line may end on the crease of an earlier
-fold, or run along what that fold laid down, without any overlap to speak of; then it is not legal, or moves something
-else, as long as the earlier fold has not been done. So where the parts of two independent folds touch, the two
-are tried the other way round, and if that makes a difference they depend on each other after all.
+fold, or run along cloth that it laid down, with next to no overlap. Before the earlier fold is done, such a line is not
+legal, or moves something else. So where the parts of two independent folds touch, the two are tried in reverse order,
+and if that makes a difference they depend on each other after all.
 """
 
 from collections.abc import Sequence
@@ -21,12 +21,12 @@ from planner.geometry.tolerance import AREA_M2, SNAP_M
 def is_order_free(
     pattern: Region, folds: Sequence[Fold], moving: Sequence[Region], dag: "nx.DiGraph[int]", a: int, b: int
 ) -> bool:
-    """Whether fold b, and then fold a with all that waits for it, moves the same as in the user's order.
+    """Return whether fold b, and then fold a with all that waits for it, moves the same as in the user's order.
 
     Args:
         pattern: the cloth spread out.
         folds: the folds in the user's order, at least up to b.
-        moving: what each moves in that order, where it was, article frame.
+        moving: for each the part that it moves in that order, before it moves, article frame.
         dag: the dependencies found so far.
         a: the earlier fold.
         b: the later fold, to which no path leads from a.
@@ -51,12 +51,12 @@ def is_order_free(
 
 
 def is_touching(line_of: Fold, part: Region) -> bool:
-    """Whether a fold's line comes near another fold's part."""
+    """Return whether a fold's line comes near another fold's part."""
     return part.distance_to(line_of.line) <= SNAP_M
 
 
 def _chain(folds: Sequence[Fold], index: int) -> list[int]:
-    """The blue fold and its reds among which a fold is."""
+    """Return the chain that contains a fold: a blue fold and the red ones after it."""
     first = index
     while folds[first].is_red:
         first -= 1

@@ -1,12 +1,12 @@
 """A* on anything hashable (paper, section 5.3). It knows no cloth and no robot.
 
-Successors may be costly to work out, and most of them are never looked at: they cost more than the best way. So
-instead of an edge a state may give a *promise*: edges that are still to be worked out, and a bound below which none of
-them can be. It waits in the queue as an edge would, and is redeemed when nothing cheaper is left.
+Successors may be costly to compute, and most of them are never needed: they cost more than the best path. So instead of
+edges a state may yield *deferred* edges (`Promise`) with a lower bound on their costs. They wait in the queue as an
+edge would, and are computed when nothing cheaper is left.
 
-Ties: the larger cost so far first, then the order of insertion, so that the same problem gives the same path on
-every run and machine. A promise counts with the cost of the state that gave it, so a way that is known goes before one
-that is not. With a consistent heuristic no state is expanded twice.
+Ties: the larger cost so far first, then the order of insertion, so that the same problem gives the same path on every
+run and machine. Deferred edges count with the cost of the state that yielded them, so a known path goes before an
+unknown one. With a consistent heuristic no state is expanded twice.
 """
 
 import heapq
@@ -21,11 +21,11 @@ S = TypeVar("S", bound=Hashable)
 A = TypeVar("A")
 
 _DIGITS = 9
-"""Costs are compared to this many decimals: sums of the same terms in another order are the same cost."""
+"""The decimals to which costs are compared, so that sums of the same terms in another order are equal."""
 
 
 class Outcome(StrEnum):
-    """How a search ended."""
+    """The outcome of a search."""
 
     SOLVED = "solved"
     INFEASIBLE = "infeasible"
@@ -34,11 +34,11 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Edge(Generic[S, A]):
-    """A way from a state to another.
+    """An edge from a state to another.
 
     Attributes:
-        action: what is done.
-        cost: what it costs, not negative.
+        action: the action taken.
+        cost: its cost, not negative.
         after: the state it leads to.
     """
 
@@ -49,12 +49,12 @@ class Edge(Generic[S, A]):
 
 @dataclass(frozen=True, slots=True)
 class Promise(Generic[S, A]):
-    """Edges that leave a state, not worked out yet.
+    """Deferred edges that leave a state.
 
     Attributes:
-        cost: none of them costs less.
-        towards: none of them leads to where the heuristic is less than it is here.
-        redeem: works them out; further promises of the same state may be among them.
+        cost: a lower bound on the cost of each.
+        towards: a state at which the heuristic is no larger than at any state that they lead to.
+        redeem: computes them; further deferred edges of the same state may be among them.
     """
 
     cost: float
@@ -67,13 +67,13 @@ Successors: TypeAlias = Iterable[Edge[S, A] | Promise[S, A]]
 
 @dataclass(frozen=True, slots=True)
 class SearchResult(Generic[S, A]):
-    """What a search found.
+    """The result of a search.
 
     Attributes:
         outcome: solved, infeasible (all states that can be reached were seen), or out of budget.
         path: the edges from the start to the goal; empty unless solved.
         cost: the path's cost; infinite unless solved.
-        bound: no path to a goal costs less than this.
+        bound: a lower bound on the cost of any path to a goal.
         expanded: states popped and expanded.
         explored: successors pushed.
     """
@@ -87,12 +87,12 @@ class SearchResult(Generic[S, A]):
 
 
 _Entry: TypeAlias = tuple[float, float, int, S, Promise[S, A] | None]
-"""The estimate, minus the cost so far, a number for ties, the state, and the promise if it is one of the state's."""
+"""The estimate, the negated cost so far, a number that breaks ties, the state, and its deferred edges or None."""
 
 
 @dataclass(slots=True)
 class _Search(Generic[S, A]):
-    """The states seen, what each costs so far, the edge that led there, and what waits."""
+    """The states seen, their costs so far, the edge that led to each, and the queue."""
 
     heuristic: Callable[[S], float]
     limit: float
@@ -105,7 +105,7 @@ class _Search(Generic[S, A]):
     explored: int = 0
 
     def push(self, state: S, cost: float, beyond: float, promise: Promise[S, A] | None) -> bool:
-        """Let a state wait, or a promise of one; false where no goal can be reached, or none within the limit."""
+        """Queue a state, or deferred edges of one, and return whether it may lead to a goal below the limit."""
         estimate = round(cost + beyond, _DIGITS)
         if estimate >= self.limit:
             return False
@@ -113,10 +113,10 @@ class _Search(Generic[S, A]):
         return True
 
     def push_all(self, state: S, cost: float, found: Successors[S, A]) -> None:
-        """Let what leads from a state, reached at a cost, wait.
+        """Queue all edges from a state that was reached at a cost.
 
-        With a consistent heuristic no way through a state is cheaper than its own bound, whatever is promised of where
-        it leads.
+        With a consistent heuristic no path through a state is cheaper than the state's own bound, whatever the bound of
+        its deferred edges.
         """
         least = self.heuristic(state) if self.is_consistent else 0.0
         for way in found:
@@ -152,17 +152,19 @@ def a_star(
     *,
     is_consistent: bool = True,
 ) -> SearchResult[S, A]:
-    """The cheapest way from a state to a goal.
+    """Search the cheapest path from a state to a goal.
 
     Args:
-        start: where the search begins.
-        successors: the edges that leave a state reached at a cost, or promises of them.
-        is_goal: whether a state is a goal.
-        heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no way to one.
+        start: the state at which the search begins.
+        successors: returns the edges that leave a state reached at a cost, some of them deferred.
+        is_goal: tells whether a state is a goal.
+        heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no path to one.
         max_expanded: the budget in expansions.
-        should_stop: asked before each expansion and each promise; true ends the search as out of budget.
-        limit: ways that cost as much or more are as good as none.
-        is_consistent: whether the heuristic is one; a weighted one is not, and the way found may not be the cheapest.
+        should_stop: called before each expansion and before deferred edges are computed; true ends the search as out of
+            budget.
+        limit: the cost from which on a path is as good as none.
+        is_consistent: whether the heuristic is consistent; a weighted one is not, and the path found may then not be
+            the cheapest.
     """
     search: _Search[S, A] = _Search(heuristic, limit, is_consistent, {start: 0.0})
     search.push(start, 0.0, heuristic(start), None)
