@@ -1,7 +1,7 @@
-"""Where a line crosses a region: the stops at which it meets the boundary, and the chord nearest to two places.
+"""Find where a line crosses a region: the stops at which it meets the boundary, and the chord nearest to a segment.
 
-A fold's line must begin and end on the boundary and run inside. When a place it was drawn to is no longer on the
-boundary, the line is kept and the end slides along it to the nearest stop from which it still runs through cloth.
+A fold's line must begin and end on the boundary and run inside. When an end it was drawn to is no longer on the
+boundary, the line is kept and the end slides along it to the nearest stop from which the line still runs through cloth.
 """
 
 from dataclasses import dataclass
@@ -25,11 +25,11 @@ class _Run:
     is_inside: tuple[bool, ...]
 
     def overlap(self, length_m: float) -> float:
-        """How much of the stretch from 0 to a length it covers (m); negative: how far it is from it."""
+        """Return how much of the interval from 0 to a length it covers (m); if negative, its distance from it."""
         return min(self.stops[-1], length_m) - max(self.stops[0], 0.0)
 
     def nearest(self, length_m: float) -> tuple[float, float] | None:
-        """The stops nearest to 0 and to a length with cloth between them (m); None if it follows the boundary."""
+        """Return the stops nearest to 0 and a length with cloth between them (m); None if it follows the boundary."""
         pairs = [
             (low, high)
             for i, low in enumerate(self.stops)
@@ -40,15 +40,16 @@ class _Run:
 
 
 def nearest_chord(region: Region, guide: Segment) -> Segment | None:
-    """The chord of a region on the line through a segment whose ends are nearest to the segment's.
+    """Return the chord of a region on the line through a segment whose ends are nearest to the segment's.
 
     Args:
-        region: what is crossed.
+        region: the region that the line crosses.
         guide: gives the line, the direction, and where the ends should be.
 
     Returns:
-        A segment in the guide's direction with its ends on the boundary and cloth beside part of it, without a gap;
-        of several stretches of the line the one that has most of the guide. None if the line misses the region.
+        A segment in the guide's direction with its ends on the boundary and cloth beside part of it, without a gap.
+            Where
+        the line has several such stretches, the one that covers most of the guide. None if the line misses the region.
     """
     runs = [run for run in _runs(region, guide) if any(run.is_inside)]
     if not runs:
@@ -58,7 +59,7 @@ def nearest_chord(region: Region, guide: Segment) -> Segment | None:
 
 
 def chords(region: Region, line: Segment) -> tuple[Segment, ...]:
-    """All chords of a region on the whole line through a segment, in its direction, none along the boundary.
+    """Return all chords of a region on the line through a segment, in its direction, none along the boundary.
 
     Where the line touches the boundary from inside, one chord ends and the next begins.
     """
@@ -91,7 +92,7 @@ def _runs(region: Region, line: Segment) -> list[_Run]:
 
 
 def _stops(region: Region, line: Segment) -> list[float]:
-    """Where the whole line meets the boundary, from the segment's start along it (m), ascending."""
+    """Return where the line meets the boundary, from the segment's start along it (m), ascending."""
     whole = shapely.LineString([line.at(-_FAR_M), line.at(line.length + _FAR_M)])
     boundary = region.shape.boundary
     crossed = np.asarray(shapely.get_coordinates(shapely.intersection(whole, boundary)))

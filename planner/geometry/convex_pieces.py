@@ -1,4 +1,4 @@
-"""A region as convex polygons."""
+"""Cover a region with convex polygons."""
 
 import shapely
 
@@ -7,10 +7,10 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import AREA_M2
 
 _SIMPLER_M = 0.01
-"""How far an outline may be simplified, outwards, where it would be cut into many triangles (m)."""
+"""How far an outline may be simplified, outwards, where it would give too many triangles (m)."""
 
 _TRIANGLES_MAX = 24
-"""More triangles than this are many."""
+"""Triangles of a part above which its outline is simplified."""
 
 
 def convex_pieces(region: Region) -> tuple[FloatArray, ...]:

@@ -1,10 +1,10 @@
-"""Cloth over the edges of a table, as it is drawn: bent round them, and folded to an ear at the table's corners.
+"""Drape cloth over the edges of a table for drawing: bent round the edges, folded into an ear at the corners.
 
 Planning takes cloth to be without thickness and stiffness: it turns down at the edge itself (`TableTop.over_edge`).
 Drawn that way it looks like plates, and what lies beyond two edges at once would be squeezed to a line. So cloth is
-drawn as it drapes: each layer goes round the edge on a circle about one axis, the upper ones further out, and then
+drawn as it drapes: each layer goes round the edge on a circle about one axis, the upper layers further out, and then
 hangs. Beyond a corner a quarter of the plane hangs from one point: it folds in the middle and sticks out. Lengths are
-kept, so that cloth hangs a few millimetres higher than in the plan.
+kept, so cloth hangs a few millimetres higher than in the plan.
 """
 
 import math
@@ -17,20 +17,20 @@ from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 
 BEND_M = 0.008
-"""The radius of the bend below the lowest layer (m): smaller looks like a plate, larger hangs clear of the table."""
+"""Radius of the bend below the lowest layer (m): smaller looks like a plate, larger hangs clear of the table."""
 
 _BENT_AT_M = (0.0, 0.003, 0.006, 0.009, 0.012, 0.016, 0.024, 0.036, 0.054)
-"""How far beyond an edge cloth is cut, so that its flat pieces follow the bend (m)."""
+"""Distances beyond an edge at which cloth is cut, so that its flat pieces follow the bend (m)."""
 _FAR_M = 100.0
 
 
 def bends(top: TableTop, points: FloatArray, gap_m: float) -> tuple[Segment, ...]:
-    """The lines of the unrolled plane along which cloth is cut, so that flat pieces can be draped.
+    """Return the lines of the unrolled plane along which cloth is cut, so that flat pieces can be draped.
 
     Args:
         top: the table top.
-        points: the cloth's, shape (..., 2), table frame (m).
-        gap_m: how far the topmost layer is drawn off the table (m).
+        points: the cloth's points, shape (..., 2), table frame (m).
+        gap_m: how far off the table the topmost layer is drawn (m).
     """
     low, high = points.reshape(-1, 2).min(axis=0), points.reshape(-1, 2).max(axis=0)
     over = [
@@ -49,20 +49,21 @@ def bends(top: TableTop, points: FloatArray, gap_m: float) -> tuple[Segment, ...
 
 
 def bent_at(gap_m: float) -> tuple[float, ...]:
-    """How far beyond an edge (m) the pieces of a bend meet, if the topmost layer is drawn so far off the table (m)."""
+    """Return how far beyond an edge the pieces of a bend meet (m), for a topmost layer `gap_m` off the table."""
     whole_m = math.pi / 2.0 * (BEND_M + gap_m)
     inside = tuple(takewhile(lambda by: by < whole_m, _BENT_AT_M))
     return (*inside, whole_m)
 
 
 def draped(top: TableTop, points: FloatArray, gap_m: FloatArray | float = 0.0, droop: float = 1.0) -> FloatArray:
-    """Points of the unrolled plane, with their heights over it, as they are drawn.
+    """Return points of the unrolled plane, with their heights over it, as they are drawn.
 
     Args:
         top: the table top.
         points: place in the unrolled plane, table frame, and height above it, shape (..., 3), m.
-        gap_m: how far off the table, and off the bend, they are drawn; all or each (then of a shape that fits theirs).
-        droop: how far what is beyond the edge has turned down: 0 level, 1 hanging.
+        gap_m: how far off the table, and off the bend, they are drawn; for all or each (then of a shape that fits
+            theirs).
+        droop: how far the cloth beyond the edge has turned down: 0 level, 1 hanging.
 
     Returns:
         The points in space, table frame, shape (..., 3), m.
@@ -89,7 +90,7 @@ def draped(top: TableTop, points: FloatArray, gap_m: FloatArray | float = 0.0, d
 
 
 def _ear(outwards: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """How far hanging cloth leans from the vertical (rad), and which way: only beyond a corner it does at all.
+    """Return how far hanging cloth leans from the vertical (rad), which it does only beyond a corner, and which way.
 
     There the quarter of the plane between the two edges hangs from a point. Folded in the middle it reaches from the
     vertical at one edge out to 45 degrees and back to the vertical at the other.
@@ -100,5 +101,5 @@ def _ear(outwards: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _across(axis: int, place: float) -> Segment:
-    """The line on which a coordinate has a value."""
+    """Return the line on which a coordinate has a value."""
     return Segment((place, -_FAR_M), (place, _FAR_M)) if axis == 0 else Segment((-_FAR_M, place), (_FAR_M, place))

@@ -1,4 +1,4 @@
-"""How a base may drive to and fro while hands follow their paths: a question about reach, and the answer to it."""
+"""How a base may drive to and fro while hands follow their paths: the types of a reach query and of its answer."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -7,21 +7,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 IMPOSSIBLE = 1 << 20
-"""A number of steps that stands for "no way"."""
+"""A number of steps that means that there is no way."""
 
 Wanted: TypeAlias = Literal["unbeaten", "every", "any"]
-"""Which ends are wanted: those that cannot be had as quickly by driving on from another, every one, or just one."""
+"""The ends wanted: those not reached as quickly by driving on from another end, every end, or any single end."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Driving:
-    """The least steps of driving in all, for each place on a grid at which the base may stand in the end.
+    """The least total driving for each place on a grid at which the base may stand in the end.
 
     Attributes:
-        steps: so many, `IMPOSSIBLE` where there is no way or none that is wanted, shape (count,).
+        steps: the steps of driving, `IMPOSSIBLE` where there is no way or none is wanted, shape (count,).
         first: where the base stands when the hands begin, shape (count,).
-        choice: for each hand the number of its approach among those that it was allowed, shape (hands, count).
-        more: the least steps that a way not looked for yet might take; `IMPOSSIBLE` where none is left.
+        choice: for each hand the number of its approach among those allowed, shape (hands, count).
+        more: the least steps of ways not searched yet; `IMPOSSIBLE` where none is left.
     """
 
     steps: NDArray[np.int64]
@@ -35,5 +35,5 @@ class Driving:
         return [end for end, steps in enumerate(self.steps.tolist()) if steps < IMPOSSIBLE]
 
     def approaches(self, end: int, allowed: tuple[NDArray[np.int64], ...]) -> tuple[int, ...]:
-        """The hands' approaches on the way to an end, of those that they were allowed."""
+        """Return the hands' approaches on the way to an end, chosen among those allowed."""
         return tuple(int(of_hand[number]) for of_hand, number in zip(allowed, self.choice[:, end], strict=True))

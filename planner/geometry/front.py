@@ -1,4 +1,4 @@
-"""Where cloth ends in a direction: the stretches of boundaries ahead of which there is none."""
+"""Find where cloth ends in a direction: the stretches of boundaries ahead of which there is no cloth."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import GRID_M
 
 _AHEAD_M = 1e-3
-"""How far ahead of a point there must be cloth for the point to lie behind some (m)."""
+"""Distance ahead of a point at which there must be cloth for the point to lie behind some (m)."""
 
 _SLACK_M = 2 * GRID_M
 
@@ -22,7 +22,7 @@ class Front:
     """Stretches of boundaries ahead of which there may be no cloth.
 
     Attributes:
-        lines: the stretches; for this room only.
+        lines: the stretches; for this package only.
         towards: the direction, a unit vector.
     """
 
@@ -34,9 +34,9 @@ class Front:
         """Return the boundary stretches of regions and the seams ahead of which there may be no cloth.
 
         Args:
-            regions: what may lie somewhere, each by itself.
+            regions: regions that may be covered, each by itself.
             seams: lines that may become boundaries.
-            always: what lies there in every case.
+            always: the region that is covered in every case.
             towards: the direction, a unit vector.
         """
         ends = [shapely.difference(r.shape.boundary, _behind(r, towards)) for r in regions]
@@ -45,13 +45,13 @@ class Front:
         return Front(shapely.difference(whole, _behind(always, towards)), towards)
 
     def is_near(self, region: Region, radius_m: float) -> bool:
-        """Return whether a stretch lies within a radius of a region that is there, and not just behind it."""
+        """Return whether a stretch lies within a radius of a region of cloth, and not just behind it."""
         lines = shapely.difference(self.lines, _behind(region, self.towards))
         return not shapely.is_empty(lines) and bool(shapely.dwithin(lines, region.shape, radius_m))
 
 
 def _behind(region: Region, towards: Point2) -> BaseGeometry:
-    """The places just ahead of which there is the region."""
+    """Return the places that have the region just ahead of them."""
     x, y = towards
     back = shapely.transform(region.shape, lambda points: points - [_AHEAD_M * x, _AHEAD_M * y])
     return shapely.buffer(back, _SLACK_M)

@@ -1,4 +1,4 @@
-"""Points and poses as people give them, in files and requests: no number is beyond the bounds."""
+"""Points and poses as people give them in files and requests, with bounded numbers."""
 
 from dataclasses import fields
 from typing import Annotated, Any
@@ -11,7 +11,7 @@ from planner.strict_model import Bounded
 
 
 def _pair(value: object) -> object:
-    """Return a list of two as a tuple: of a longer or shorter one its length is wrong, and not one of its members."""
+    """Return a list of two as a tuple; refuse any other length for the list as a whole, not for its members."""
     if not isinstance(value, list):
         return value
     count = {"field_type": "List", "actual_length": len(value)}
@@ -27,7 +27,7 @@ PlanePoint = Annotated[tuple[Bounded, Bounded], BeforeValidator(_pair)]
 
 
 def _bounded(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401
-    """Return how a dataclass of numbers is read with all of them bounded; written it is as ever."""
+    """Return the schema that reads a dataclass with all its numbers bounded; writing stays as it is."""
     number = schema(Bounded)
     members = {field.name: core_schema.typed_dict_field(number) for field in fields(source)}
     return core_schema.no_info_after_validator_function(

@@ -1,4 +1,4 @@
-"""Isometries of the plane: what folding does to a piece of cloth."""
+"""Isometries of the plane, with which folding moves pieces of cloth."""
 
 import math
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class Isometry:
 
     @staticmethod
     def reflection(line: Segment) -> "Isometry":
-        """The reflection over the line through a segment."""
+        """Return the reflection over the line through a segment."""
         ux, uy = line.direction
         a, b = ux * ux - uy * uy, 2.0 * ux * uy
         sx, sy = line.start
@@ -36,27 +36,27 @@ class Isometry:
 
     @staticmethod
     def rotation(angle_rad: float, x: float = 0.0, y: float = 0.0) -> "Isometry":
-        """A rotation about the origin, then a translation (m)."""
+        """Return a rotation about the origin followed by a translation (m)."""
         cos, sin = math.cos(angle_rad), math.sin(angle_rad)
         return Isometry(cos, -sin, sin, cos, x, y)
 
     @property
     def is_mirrored(self) -> bool:
-        """Whether the plane comes out face down."""
+        """Whether the plane ends face down."""
         return self.a * self.d - self.b * self.c < 0.0
 
     def apply(self, points: FloatArray) -> FloatArray:
-        """Where points go, shape (..., 2), m."""
+        """Return the images of points, shape (..., 2), m."""
         matrix = np.array([[self.a, self.b], [self.c, self.d]])
         return np.asarray(points @ matrix.T + np.array([self.x, self.y]))
 
     def apply_point(self, point: Point2) -> Point2:
-        """Where one point goes (m)."""
+        """Return the image of one point (m)."""
         px, py = point
         return (self.a * px + self.b * py + self.x, self.c * px + self.d * py + self.y)
 
     def after(self, first: "Isometry") -> "Isometry":
-        """The isometry that does `first` and then this one."""
+        """Return the isometry that applies `first` and then this one."""
         x, y = self.apply_point((first.x, first.y))
         return Isometry(
             self.a * first.a + self.b * first.c,

@@ -17,14 +17,14 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 
 
 def wrapped_angle(angle_rad: float) -> float:
-    """The same direction as an angle in (-pi, pi]."""
+    """Return an angle wrapped to (-pi, pi]."""
     wrapped = math.remainder(angle_rad, math.tau)
     return math.pi if wrapped <= -math.pi else wrapped
 
 
 @dataclass(frozen=True)
 class Pose2:
-    """Where a plane figure or a base stands in another frame.
+    """The pose of a plane figure or a base in another frame.
 
     Attributes:
         x_m: origin's x in the outer frame (m).
@@ -41,20 +41,20 @@ class Pose2:
 
     @staticmethod
     def of(row: FloatArray) -> "Pose2":
-        """The pose whose x (m), y (m) and yaw (rad) are an array's, shape (3,)."""
+        """Return the pose with x (m), y (m) and yaw (rad) from an array, shape (3,)."""
         x_m, y_m, yaw_rad = row.tolist()
         return Pose2(x_m, y_m, yaw_rad)
 
     def to_outer(self, points: FloatArray) -> FloatArray:
-        """Points of the inner frame, shape (..., 2) or (..., 3), seen from the outer one (m)."""
+        """Transform points, shape (..., 2) or (..., 3), from the inner frame to the outer frame (m)."""
         return points @ self._turn[: points.shape[-1], : points.shape[-1]].T + self._offset[: points.shape[-1]]
 
     def to_inner(self, points: FloatArray) -> FloatArray:
-        """Points of the outer frame, shape (..., 2) or (..., 3), seen from the inner one (m)."""
+        """Transform points, shape (..., 2) or (..., 3), from the outer frame to the inner frame (m)."""
         return (points - self._offset[: points.shape[-1]]) @ self._turn[: points.shape[-1], : points.shape[-1]]
 
     def ahead(self, distance_m: float) -> "Pose2":
-        """The pose `distance_m` further along its own x axis (backwards if negative)."""
+        """Return the pose `distance_m` further along its own x axis (backwards if negative)."""
         return Pose2(
             self.x_m + distance_m * math.cos(self.yaw_rad),
             self.y_m + distance_m * math.sin(self.yaw_rad),
@@ -62,11 +62,11 @@ class Pose2:
         )
 
     def moved(self, dx_m: float, dy_m: float) -> "Pose2":
-        """The pose moved in the outer frame, heading kept."""
+        """Return the pose moved in the outer frame, with its heading kept."""
         return Pose2(self.x_m + dx_m, self.y_m + dy_m, self.yaw_rad)
 
     def between(self, other: "Pose2", fraction: float) -> "Pose2":
-        """The pose a fraction of the way to another, turning the short way."""
+        """Return the pose a fraction of the way to another, turning the short way."""
         turn = wrapped_angle(other.yaw_rad - self.yaw_rad)
         return Pose2(
             self.x_m + fraction * (other.x_m - self.x_m),
@@ -75,7 +75,7 @@ class Pose2:
         )
 
     def to_dict(self) -> dict[str, float]:
-        """The pose as JSON: ``{"x_m", "y_m", "yaw_rad"}``."""
+        """Return the pose as JSON: ``{"x_m", "y_m", "yaw_rad"}``."""
         return {"x_m": self.x_m, "y_m": self.y_m, "yaw_rad": self.yaw_rad}
 
     @cached_property

@@ -1,9 +1,9 @@
-"""Regions of the plane: the one place where shapely is spoken.
+"""Regions of the plane: polygons as values, computed by shapely.
 
-A `Region` is a polygon or several, possibly none. It is a value: every operation gives a new one. What was
-reflected is put back onto the micrometre grid, because reflecting leaves coordinates that differ in their last digits
-and such differences breed slivers. What is cut stays where it was, so cuts are made on a finer grid: the two sides of a
-cut add up to the whole and share their border to the last digit.
+A `Region` is one polygon or several, or none. It is a value: every operation returns a new region. Reflected regions
+are snapped to the micrometre grid, because reflecting leaves coordinates that differ in their last digits, and such
+differences produce slivers. Cuts leave everything in place, so they are made on a finer grid: the two sides of a cut
+add up to the whole and share their border to the last digit.
 """
 
 from collections.abc import Iterable, Sequence
@@ -30,35 +30,35 @@ class Region:
     """A part of the plane, closed, made of zero or more polygons.
 
     Attributes:
-        shape: the shapely geometry behind it; for this room only.
+        shape: the shapely geometry; for this package only.
     """
 
     def __init__(self, shape: BaseGeometry) -> None:
-        """Of a shape that is not of polygons alone, the polygons: where two regions only touch there is no cloth."""
+        """Take the polygons of a shape; where two regions only touch there is no cloth."""
         self.shape = polygonal(shape)
 
     @staticmethod
     def polygon(points: FloatArray | Sequence[Sequence[float]]) -> "Region":
-        """The region within a ring of points (m), in either orientation, the first not repeated."""
+        """Return the region within a ring of points (m), in either orientation, the first not repeated."""
         return Region(shapely.polygons(np.asarray(points)[:, :2]))
 
     @staticmethod
     def from_bytes(content: bytes) -> "Region":
-        """The region whose `to_bytes` these are."""
+        """Return the region that `to_bytes` wrote."""
         return Region(shapely.from_wkb(content))
 
     def to_bytes(self) -> bytes:
-        """All vertices to the last digit: well-known binary, the same for the same vertices in the same order."""
+        """Return all vertices to the last digit as well-known binary, equal for equal vertices in equal order."""
         return bytes(shapely.to_wkb(self.shape))
 
     @staticmethod
     def empty() -> "Region":
-        """The region that has no points."""
+        """Return the region that has no points."""
         return Region(shapely.Polygon())
 
     @staticmethod
     def union(regions: Iterable["Region"]) -> "Region":
-        """What at least one of the regions covers; hairline gaps between them are closed."""
+        """Return what at least one of the regions covers, with hairline gaps between them closed."""
         shapes = [r.shape for r in regions]
         if len(shapes) == 1:
             return Region(shapes[0])
@@ -69,7 +69,10 @@ class Region:
 
     @staticmethod
     def rejoined(pieces: Iterable["Region"]) -> "Region":
-        """The union of pieces that were cut from one region: they fit to the last digit, so no gap is closed."""
+        """Return the union of pieces that were cut from one region.
+
+        The pieces fit to the last digit, so no gaps are closed.
+        """
         return Region(shapely.union_all([p.shape for p in pieces], grid_size=CUT_GRID_M))
 
     # numbers
@@ -97,11 +100,11 @@ class Region:
         return np.asarray(shapely.get_coordinates(self.shape))
 
     def boundary_distance(self, point: Point2) -> float:
-        """How far a point is from the boundary (m)."""
+        """Return the distance of a point from the boundary (m)."""
         return float(shapely.distance(self.shape.boundary, shapely.Point(point)))
 
     def distance_to(self, segment: Segment) -> float:
-        """How far a segment is from the region (m); 0 if they meet."""
+        """Return the distance of a segment from the region (m); 0 if they meet."""
         return float(shapely.distance(self.shape, shapely.LineString([segment.start, segment.end])))
 
     # truths
@@ -112,18 +115,18 @@ class Region:
         return self.area < AREA_M2
 
     def contains(self, point: Point2, margin_m: float = 0.0) -> bool:
-        """Whether a point lies inside and further than a margin from the boundary."""
+        """Return whether a point lies inside and further than a margin from the boundary."""
         return bool(shapely.contains_xy(self.shape, *point)) and (
             margin_m <= 0.0 or self.boundary_distance(point) > margin_m
         )
 
     def contains_segment(self, segment: Segment) -> bool:
-        """Whether a segment runs inside or along the boundary, to the tolerance."""
+        """Return whether a segment runs inside or along the boundary, to the tolerance."""
         line = shapely.LineString([segment.start, segment.end])
         return bool(line.difference(self.shape.buffer(LENGTH_M)).length <= LENGTH_M)
 
     def runs_inside(self, segment: Segment) -> bool:
-        """Whether a stretch of a segment lies inside, further from the boundary than what counts as one place."""
+        """Return whether a part of a segment lies inside, further from the boundary than the tolerance."""
         line = shapely.LineString([segment.start, segment.end])
         inner = shapely.difference(line, shapely.buffer(self.shape.boundary, 2 * LENGTH_M))
         return bool(shapely.intersection(inner, self.shape).length > LENGTH_M)
@@ -132,7 +135,7 @@ class Region:
 
     @cached_property
     def rings(self) -> tuple[FloatArray, ...]:
-        """Each part's outer corners, counter-clockwise, shape (n, 2), m; straight runs have none."""
+        """Each part's outer corners, counter-clockwise, shape (n, 2), m, without points on straight stretches."""
         outer = shapely.get_exterior_ring(shapely.get_parts(self.shape))
         return tuple(corners(np.asarray(shapely.get_coordinates(ring))[:-1]) for ring in outer)
 
@@ -143,7 +146,7 @@ class Region:
 
     @cached_property
     def whole_ring(self) -> FloatArray:
-        """The same with all its points, those on straight runs too."""
+        """The outer ring of the largest part with all its points, those on straight stretches too."""
         outer = shapely.get_exterior_ring(shapely.get_parts(self.shape)[self._largest])
         return counter_clockwise(np.asarray(shapely.get_coordinates(outer))[:-1])
 
@@ -152,7 +155,7 @@ class Region:
         return int(np.argmax(shapely.area(shapely.get_parts(self.shape))))
 
     def inward_bisector(self, point: Point2) -> Point2 | None:
-        """The unit vector that halves the directions leading from a boundary point into the region.
+        """Return the unit vector that bisects the directions leading from a boundary point into the region.
 
         None for a point off the outer boundary.
         """
@@ -166,21 +169,22 @@ class Region:
 
     @cached_property
     def inner_point(self) -> Point2:
-        """Some point well inside."""
+        """A point well inside."""
         point = shapely.point_on_surface(self.shape)
         return (float(point.x), float(point.y))
 
     def nearest_boundary_points(self, points: FloatArray) -> FloatArray:
-        """For each point, shape (n, 2), the nearest point of the boundary, shape (n, 2), m."""
+        """Return for each point, shape (n, 2), the nearest point of the boundary, shape (n, 2), m."""
         boundary = self.shape.boundary
         lines = shapely.shortest_line(shapely.points(points), boundary)
         return np.asarray(shapely.get_coordinates(lines)).reshape(-1, 2, 2)[:, 1]
 
     def all_nearest_boundary_points(self, points: FloatArray) -> FloatArray:
-        """The points of the boundary nearest to some points, shape (n, 2), m: all that are equally near, to each.
+        """Return the boundary points nearest to each of some points, shape (n, 2), m, including all equally near ones.
 
         Returns:
-            Shape (m, 2), m >= n: for each point in turn what is nearest to it; a corner once for each of its edges.
+            Shape (m, 2), m >= n: the nearest boundary points for each point in turn; a corner once for each of its
+                edges.
         """
         found = [np.empty((0, 2))]
         for start in range(0, len(points), _AT_ONCE):
@@ -191,19 +195,19 @@ class Region:
 
     @cached_property
     def _edges(self) -> tuple[FloatArray, FloatArray]:
-        """Where each edge of the boundary begins and where it ends, shapes (n, 2), m."""
+        """The start and the end of each edge of the boundary, shapes (n, 2), m."""
         rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(self.shape))]
         return np.vstack([ring[:-1] for ring in rings]), np.vstack([ring[1:] for ring in rings])
 
     def overlaps_with(self, segment: Segment) -> tuple[tuple[Point2, Point2], ...]:
-        """The stretches of a segment within the region, boundary included to the tolerance, by their ends."""
+        """Return the parts of a segment within the region, boundary included to the tolerance, by their ends."""
         line = shapely.LineString([segment.start, segment.end])
         inside = shapely.intersection(line, self.shape.buffer(LENGTH_M))
         parts = [shapely.get_coordinates(p) for p in shapely.get_parts(inside)]
         return tuple((_point(p[0]), _point(p[-1])) for p in parts if len(p))
 
     def touches(self, segments: FloatArray) -> BoolArray:
-        """Which of some segments, shape (n, 2, 2), have a point of the region, to the tolerance; shape (n,)."""
+        """Return which segments, shape (n, 2, 2), have a point of the region, to the tolerance; shape (n,)."""
         return np.asarray(shapely.dwithin(shapely.linestrings(segments), self.shape, LENGTH_M))
 
     @cached_property
@@ -217,26 +221,26 @@ class Region:
 
     @cached_property
     def parts(self) -> tuple["Region", ...]:
-        """Its connected parts."""
+        """The connected parts."""
         return tuple(Region(p) for p in shapely.get_parts(self.shape))
 
     @cached_property
     def pieces(self) -> tuple["Region", ...]:
-        """Its connected parts, slivers left out."""
+        """The connected parts without slivers."""
         return tuple(p for p in self.parts if not p.is_sliver)
 
     @cached_property
     def slivers(self) -> tuple["Region", ...]:
-        """Its connected parts that are too small to count as cloth."""
+        """The connected parts that are too small to count as cloth."""
         return tuple(p for p in self.parts if p.is_sliver)
 
     def moved(self, isometry: Isometry) -> "Region":
-        """The region carried by an isometry and put back onto the grid."""
+        """Return the region carried by an isometry and snapped to the grid."""
         shape = shapely.transform(self.shape, isometry.apply)
         return Region(shapely.set_precision(shape, GRID_M))
 
     def evened(self, notch_m: float, fringe_m: float) -> "Region":
-        """The region without notches, and then without what sticks out, narrower than that (m); for being drawn.
+        """Return the region for drawing: notches narrower than `notch_m` filled, then fringes under `fringe_m` removed.
 
         What is wider keeps its place, but corners that point inwards are rounded.
         """
@@ -245,17 +249,17 @@ class Region:
         return Region(shapely.set_precision(smooth.simplify(_EVENED_M), GRID_M))
 
     def parted_by(self, line: Segment) -> tuple["Region", "Region"]:
-        """The parts to the left and to the right of the whole line through a segment; no area is lost."""
+        """Return the parts to the left and to the right of the line through a segment; no area is lost."""
         half = half_plane(line)
         left = shapely.intersection(self.shape, half, grid_size=CUT_GRID_M)
         return Region(left), Region(shapely.difference(self.shape, half, grid_size=CUT_GRID_M))
 
     def intersection(self, other: "Region") -> "Region":
-        """What both cover."""
+        """Return what both regions cover."""
         return Region(shapely.intersection(self.shape, other.shape, grid_size=GRID_M))
 
     def difference(self, other: "Region") -> "Region":
-        """What this one covers and the other does not."""
+        """Return what this region covers and the other does not."""
         return Region(shapely.difference(self.shape, other.shape, grid_size=GRID_M))
 
 

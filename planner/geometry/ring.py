@@ -11,9 +11,9 @@ from planner.geometry.tolerance import GRID_M, LENGTH_M
 
 
 def corners(ring: FloatArray) -> FloatArray:
-    """The true corners of a ring, shape (n, 2), counter-clockwise: straight runs lose their points.
+    """Return the true corners of a ring, shape (n, 2), counter-clockwise, without the points on straight stretches.
 
-    A point is on a straight run when leaving it out moves the boundary by less than the tolerance.
+    A point is on a straight stretch when leaving it out moves the boundary by less than the tolerance.
     """
     if len(ring) < 4:
         return counter_clockwise(ring)
@@ -25,23 +25,23 @@ def corners(ring: FloatArray) -> FloatArray:
 
 
 def counter_clockwise(ring: FloatArray) -> FloatArray:
-    """The same ring, the inside to its left."""
+    """Return the ring with its inside to its left."""
     (x, y), (x_after, y_after) = ring.T, after(ring).T
     return ring if np.dot(x, y_after) >= np.dot(y, x_after) else ring[::-1]
 
 
 def after(ring: FloatArray) -> FloatArray:
-    """For each point the next one, shape (n, 2)."""
+    """Return for each point the next one, shape (n, 2)."""
     return np.concatenate([ring[1:], ring[:1]])
 
 
 def before(ring: FloatArray) -> FloatArray:
-    """For each point the one before, shape (n, 2)."""
+    """Return for each point the previous one, shape (n, 2)."""
     return np.concatenate([ring[-1:], ring[:-1]])
 
 
 def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
-    """The unit vector that halves the directions leading from a point on a ring of corners into it.
+    """Return the unit vector that bisects the directions leading from a point on a ring of corners into it.
 
     None for a point off the ring.
     """
@@ -58,7 +58,7 @@ def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
 
 
 def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """For each point, shape (n, 2), what is nearest to it of each edge, shapes (m, 2) -> (n, m, 2), m."""
+    """Return the nearest point of each edge to each point, shapes (n, 2) and (m, 2) -> (n, m, 2), m."""
     along = ends - starts
     share = ((points[:, None] - starts) * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), GRID_M**2)
     return np.asarray(starts + np.clip(share, 0.0, 1.0)[:, :, None] * along)
@@ -71,7 +71,7 @@ def _is_on_line(point: FloatArray, a: FloatArray, b: FloatArray) -> bool:
 
 
 def _halving(arriving: Segment, leaving: Segment) -> Point2:
-    """The inward bisector at the corner between two edges of a counter-clockwise ring."""
+    """Return the inward bisector at the corner between two edges of a counter-clockwise ring."""
     (ax, ay), (bx, by) = arriving.direction, leaving.direction
     turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
     heading = math.atan2(by, bx) + (math.pi - turn) / 2

@@ -45,25 +45,25 @@ class Segment:
         return (-uy, ux)
 
     def left_distances(self, points: FloatArray) -> FloatArray:
-        """Signed distances of points, shape (n, 2), from the whole line, positive on its left (m)."""
+        """Return signed distances of points, shape (n, 2), from the whole line, positive on its left (m)."""
         return np.asarray((points - self._origin) @ self._normal)
 
     def positions(self, points: FloatArray) -> FloatArray:
-        """Where points, shape (n, 2), project onto the line, from the start along the direction (m)."""
+        """Return where points, shape (n, 2), project onto the line, from the start along the direction (m)."""
         return np.asarray((points - self._origin) @ self._tangent)
 
     def at(self, position_m: float) -> Point2:
-        """The point of the line this far from the start."""
+        """Return the point of the line at a distance from the start (m)."""
         ux, uy = self.direction
         return (self.start[0] + position_m * ux, self.start[1] + position_m * uy)
 
     def distances(self, points: FloatArray) -> FloatArray:
-        """Distances of points, shape (n, 2), from the segment itself (m)."""
+        """Return the distances of points, shape (n, 2), from the segment itself (m)."""
         across, along = self.left_distances(points), self.positions(points)
         return np.hypot(across, along - np.minimum(np.maximum(along, 0.0), self.length))
 
     def meeting_point(self, other: "Segment") -> Point2 | None:
-        """A point that two segments share, ends included to the tolerance; None if they are apart."""
+        """Return a point that two segments share, ends included to the tolerance; None if they are apart."""
         (px, py), (qx, qy) = self.start, other.start
         rx, ry = self.end[0] - px, self.end[1] - py
         sx, sy = other.end[0] - qx, other.end[1] - qy
@@ -75,7 +75,7 @@ class Segment:
         return (px + t * rx, py + t * ry) if 0.0 <= t <= 1.0 and 0.0 <= u <= 1.0 else self._shared_end(other)
 
     def _shared_end(self, other: "Segment") -> Point2 | None:
-        """An end of one that lies on the other."""
+        """Return an end of one segment that lies on the other; None if there is none."""
         for one, point in ((self, other.start), (self, other.end), (other, self.start), (other, self.end)):
             if one.distances(np.array([point]))[0] <= LENGTH_M:
                 return point
@@ -95,5 +95,5 @@ class Segment:
 
     @property
     def reversed(self) -> "Segment":
-        """The same segment, walked the other way."""
+        """The segment in the opposite direction."""
         return Segment(self.end, self.start)

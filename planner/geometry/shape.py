@@ -1,4 +1,4 @@
-"""Shapely's shapes, made or mended before they are regions."""
+"""Make and repair shapely geometries before they become regions."""
 
 from collections.abc import Iterable
 from itertools import combinations
@@ -12,12 +12,12 @@ from planner.geometry.tolerance import GRID_M, LENGTH_M
 _FAR_M = 100.0
 
 _TOUCH_M = 10 * LENGTH_M
-"""Parts that are near to each other along less than this only touch (m)."""
+"""Length of the contact below which two parts near to each other only touch (m)."""
 _POLYGONAL = (int(shapely.GeometryType.POLYGON), int(shapely.GeometryType.MULTIPOLYGON))
 
 
 def polygonal(shape: BaseGeometry) -> BaseGeometry:
-    """What a shape has of polygons: where two of them only touch, their intersection has lines and points too."""
+    """Return the polygons of a shape; the intersection of polygons that only touch also has lines and points."""
     if shapely.get_type_id(shape) in _POLYGONAL:
         return shape
     parts = shapely.get_parts(shape)
@@ -25,14 +25,14 @@ def polygonal(shape: BaseGeometry) -> BaseGeometry:
 
 
 def united(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
-    """What at least one of the shapes covers, on the grid."""
+    """Return what at least one of the shapes covers, on the grid."""
     return polygonal(shapely.union_all(list(shapes), grid_size=GRID_M))
 
 
 def without_cracks(shape: BaseGeometry) -> BaseGeometry:
-    """The shape with cracks narrower than `LENGTH_M` between its parts, and holes no wider, closed.
+    """Return the shape without cracks narrower than `LENGTH_M` between its parts, and without holes as narrow.
 
-    All else stays where it is. (To grow and shrink the whole would do the same, were it not for holes that GEOS loses.)
+    Everything else stays in place. Growing and shrinking the whole shape would do the same, but then GEOS loses holes.
     """
     seams = [_seam(a, b) for a, b in combinations(shapely.get_parts(shape), 2) if shapely.dwithin(a, b, LENGTH_M)]
     joined = united([shape, *(seam for seam in seams if seam.area > _TOUCH_M * LENGTH_M)])
@@ -43,12 +43,12 @@ def without_cracks(shape: BaseGeometry) -> BaseGeometry:
 
 
 def _seam(one: BaseGeometry, other: BaseGeometry) -> BaseGeometry:
-    """What is near to both of two parts: a strip along the crack between them."""
+    """Return what is near to both of two parts: a strip along the crack between them."""
     return shapely.intersection(shapely.buffer(one, LENGTH_M / 2), shapely.buffer(other, LENGTH_M / 2))
 
 
 def half_plane(line: Segment) -> BaseGeometry:
-    """What lies to the left of the whole line through a segment, as far as anything may lie."""
+    """Return what lies to the left of the line through a segment, as far as anything may lie."""
     nx, ny = line.left
     (ax, ay), (bx, by) = line.at(-_FAR_M), line.at(line.length + _FAR_M)
     return shapely.Polygon(

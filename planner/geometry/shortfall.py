@@ -1,4 +1,4 @@
-"""By how much a place is out of comfortable reach, and why."""
+"""By how much a place is out of reach, and why."""
 
 import math
 from dataclasses import dataclass
@@ -8,24 +8,26 @@ from planner.geometry.pose import Point3
 from planner.geometry.tolerance import LENGTH_M
 
 Cause: TypeAlias = Literal["too_far", "too_near", "joint_limit", "comfort_only", "own_body"]
-"""What is wrong with a place: it should be nearer to the shoulder, further from it, elsewhere at the same
-distance; or the tool can be there, but not everywhere on the comfort circle round it; or the joints would allow it, but
-the robot's own body is in the way."""
+"""What is wrong with a place: it should be nearer to the shoulder, further from it, or elsewhere at the same distance;
+or the tool can be there, but not everywhere within the comfort radius around it; or the joints would allow it, but the
+robot's own body is in the way."""
 
 
 @dataclass(frozen=True, slots=True)
 class Shortfall:
-    """Why a tool cannot be at a point in comfort, where and in the approach in which it comes closest to it.
+    """Why a tool at a point is not in reach with the comfort radius, in the case that comes closest.
+
+    A case is a place that the point is seen from and an approach.
 
     Attributes:
         cause: what is wrong.
         joint: the joint that limits, in plain words; None where the point is beyond the arm's length.
-        short_by_m: how far the point would have to be displaced to be in comfort (m).
-        is_at_least: whether no displacement that was tried helps, so that `short_by_m` is a number that it is at least.
+        short_by_m: how far the point would have to be displaced to be in reach with its comfort radius (m).
+        is_at_least: whether no displacement that was tried helps, so that `short_by_m` is only a lower bound.
         towards: the unit direction of the displacement, base frame.
-        approach: index of the approach.
-        seen_from: which of the places it was seen from.
-        comfort_m: with "comfort_only" the radius of the largest circle round it that the tool reaches; else None (m).
+        approach: the index of the approach.
+        seen_from: the index of the place from which it was seen.
+        comfort_m: with "comfort_only" the radius of the largest circle round it that the tool reaches (m); else None.
     """
 
     cause: Cause
@@ -38,7 +40,7 @@ class Shortfall:
     comfort_m: float | None = None
 
     def __post_init__(self) -> None:
-        """Refuse an unknown cause, a distance that is none and a direction without length one (`ValueError`)."""
+        """Refuse an unknown cause, an invalid distance, and a direction that is not of unit length (`ValueError`)."""
         if self.cause not in get_args(Cause):
             raise ValueError(f"{self.cause!r} is no cause, only {', '.join(get_args(Cause))}")
         if not (math.isfinite(self.short_by_m) and self.short_by_m >= 0.0):

@@ -7,13 +7,13 @@ from planner.geometry.tolerance import ANGLE_RAD
 
 
 def pair_centres(points: FloatArray) -> FloatArray:
-    """The midpoints of all pairs of points, shape (n, 2) -> (n(n-1)/2, 2), m."""
+    """Return the midpoints of all pairs of points, shape (n, 2) -> (n(n-1)/2, 2), m."""
     i, j = np.triu_indices(len(points), k=1)
     return np.asarray((points[i] + points[j]) / 2)
 
 
 def triple_centres(points: FloatArray) -> FloatArray:
-    """The centres of the smallest circles round all triples of points, shape (n, 2) -> (m, 2), m.
+    """Return the centres of the smallest circles round all triples of points, shape (n, 2) -> (m, 2), m.
 
     For an acute triangle it is the circumcentre; otherwise the middle of the longest side.
     """
@@ -30,7 +30,7 @@ def triple_centres(points: FloatArray) -> FloatArray:
 
 
 def _circumcentres(corners: FloatArray, squares: FloatArray) -> FloatArray:
-    """Circumcentres by barycentric weights a^2 (b^2 + c^2 - a^2); the corners' mean for a flat triangle."""
+    """Return circumcentres by barycentric weights a^2 (b^2 + c^2 - a^2); the corners' mean for a flat triangle."""
     weights = squares * (squares.sum(axis=1, keepdims=True) - 2 * squares)
     totals = weights.sum(axis=1, keepdims=True)
     safe = np.where(np.abs(totals) > 0.0, totals, 1.0)

@@ -1,8 +1,8 @@
-"""Cutting a region along a segment only, not along the whole line through it.
+"""Cut a region along a segment only, not along the whole line through it.
 
-The naive cut with the whole line also cuts whatever the line's extension crosses: folding one sleeve
-would fold the other. So the region is cut with the whole line, and pieces that touch across the line's
-extension are joined again; what is still apart afterwards was parted by the segment.
+Cutting along the whole line would also cut whatever the line's extension crosses: folding one sleeve would fold the
+other. So the region is cut along the whole line, and pieces that touch across the line's extension are joined again.
+Pieces that are still apart were separated by the segment.
 """
 
 from collections.abc import Callable, Iterable
@@ -20,12 +20,12 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """What a cut makes of a connected region.
+    """The result of cutting a connected region.
 
     Attributes:
         moving: the pieces in the part that moves.
         staying: the other pieces.
-        slivers: what is too small to be a piece of cloth.
+        slivers: parts too small to be pieces of cloth.
     """
 
     moving: tuple[Region, ...]
@@ -47,15 +47,16 @@ class _Piece:
 
 
 def split_along(region: Region, segment: Segment) -> tuple[Region, Region] | None:
-    """What a cut along a segment leaves on its left and on its right.
+    """Cut a region along a segment.
 
     Args:
-        region: what is cut.
+        region: the region to cut.
         segment: the cut; its ends are expected on the region's boundary.
 
     Returns:
-        The part joined to the segment's left side, and everything else; or None if the segment does
-        not part them: they still hang together round one of its ends. Either may be empty.
+        The part joined to the segment's left side, and everything else, either of which may be empty. None if the
+            segment
+        does not separate them: they still hang together around one of its ends.
     """
     segment = _through_corners(region, segment)
     left_side, right_side = region.parted_by(segment)
@@ -72,12 +73,12 @@ def split_along(region: Region, segment: Segment) -> tuple[Region, Region] | Non
 
 
 def cut_like(region: Region, segment: Segment, is_moving: Callable[[Point2], bool]) -> Cut:
-    """The same cut through a region that lies within the one that was split.
+    """Make a cut through a region that lies within the one that was split.
 
     Args:
-        region: what is cut.
+        region: the region to cut.
         segment: the cut, in the frame of `region`.
-        is_moving: whether a point of `region` is in the part that moves.
+        is_moving: tells whether a point of `region` is in the part that moves.
     """
     distances = segment.left_distances(region.coordinates)
     if np.all(distances >= -LENGTH_M) or np.all(distances <= LENGTH_M):
@@ -92,12 +93,12 @@ def cut_like(region: Region, segment: Segment, is_moving: Callable[[Point2], boo
 
 
 def _through_corners(region: Region, segment: Segment) -> Segment:
-    """The segment, an end that is at a corner of the region put exactly there: cut beside it, a neck would be left."""
+    """Return the segment with ends near a corner of the region moved onto it; a cut beside it would leave a neck."""
     return Segment(_corner_at(region, segment.start), _corner_at(region, segment.end))
 
 
 def _corner_at(region: Region, point: Point2) -> Point2:
-    """The region's corner at a point, or the point."""
+    """Return the region's corner at a point, or the point itself where there is none."""
     gaps = np.hypot(*(region.coordinates - point).T)
     nearest = int(np.argmin(gaps))
     x, y = region.coordinates[nearest]
@@ -113,14 +114,14 @@ def _pieces(parts: Iterable[Region], segment: Segment, *, is_left: bool) -> list
 
 
 def _hangs_on(pieces: list[_Piece], sliver: _Piece, region: Region, segment: Segment) -> bool:
-    """Whether a sliver is the tip of pieces on the other side, which cross the line's extension."""
+    """Return whether a sliver is the tip of pieces on the other side that cross the line's extension."""
     if sliver.touches(0.0, segment.length):
         return False
     return any(_share_extension(p, sliver, region, segment) for p in pieces if p.is_left != sliver.is_left)
 
 
 def _contacts(piece: Region, segment: Segment) -> list[Interval]:
-    """Where edges of a piece lie on the line, as intervals from the segment's start (m)."""
+    """Return where edges of a piece lie on the line, as intervals from the segment's start (m)."""
     points = piece.coordinates
     on_line = np.abs(segment.left_distances(points)) <= LENGTH_M
     along = segment.positions(points)
@@ -133,7 +134,7 @@ def _overlap(a: Interval, b: Interval) -> float:
 
 
 def _join_across_extension(pieces: list[_Piece], region: Region, segment: Segment) -> None:
-    """Give pieces that touch across the line, outside the segment, the same group."""
+    """Put pieces that touch across the line, outside the segment, into one group."""
     for number, piece in enumerate(pieces):
         piece.group = number
     for one in (p for p in pieces if p.is_left):
@@ -145,10 +146,10 @@ def _join_across_extension(pieces: list[_Piece], region: Region, segment: Segmen
 
 
 def _share_extension(one: _Piece, other: _Piece, region: Region, segment: Segment) -> bool:
-    """Whether two pieces touch along the line before the segment's start or beyond its end.
+    """Return whether two pieces touch along the line before the segment's start or beyond its end.
 
-    A segment that meets the boundary at a sharp angle may end a hair before it. Where the pieces touch only within a
-    hair of the boundary they are parted.
+    A segment that meets the boundary at a sharp angle may end slightly before it. Pieces that touch only that close to
+    the boundary count as separated.
     """
     for a in one.contacts:
         for b in other.contacts:

@@ -19,7 +19,7 @@ class Table:
     Attributes:
         depth_m: extent along x, away from the station `front` (m).
         width_m: extent along y (m).
-        height_m: of the top above the floor (m).
+        height_m: height of the top above the floor (m).
     """
 
     depth_m: _Side = 1.60
@@ -27,7 +27,7 @@ class Table:
     height_m: _Side = 0.79
 
     def __post_init__(self) -> None:
-        """Refuse what is no table; raises `SceneError`."""
+        """Refuse sizes out of range; raises `SceneError`."""
         require_intervals(self, SceneError)
 
     @property

@@ -1,8 +1,8 @@
-"""The boxes of which a table is made: a top, and four legs far from its edges.
+"""The boxes that make up a table: a top, and four legs far from its edges.
 
-A robot's base drives under the edges, so the legs stand where it does not come: well inside, `LEG_INSET_X_M` and
-`LEG_INSET_Y_M` from the edges to their middles. At the table of the paper, 1.60 m by 0.98 m, they then stand 4 cm
-beside the base of a PR2 at each of its five stations. Under a smaller table they move together.
+A robot's base drives under the edges, so the legs stand where the base does not come: well inside, with their middles
+`LEG_INSET_X_M` and `LEG_INSET_Y_M` from the edges. At the paper's table, 1.60 m by 0.98 m, they then stand 4 cm beside
+the base of a PR2 at each of its five stations. Under a smaller table they move together.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ LEG_INSET_Y_M = 0.25
 
 @dataclass(frozen=True, slots=True)
 class TablePart:
-    """A box with its sides along the table's.
+    """A box with its sides parallel to the table's.
 
     Attributes:
-        name: what people call it.
+        name: its name for people.
         center: its middle, table frame (m).
         size: its extents along x, y and z (m).
     """
@@ -32,7 +32,7 @@ class TablePart:
 
 
 def table_parts(table: Table) -> tuple[TablePart, ...]:
-    """The top, its upper side at z = 0, and the four legs down to the floor."""
+    """Return the top, its upper side at z = 0, and the four legs down to the floor."""
     thickness = min(TOP_THICKNESS_M, table.height_m / 2)
     top = TablePart("table top", (0.0, 0.0, -thickness / 2), (table.depth_m, table.width_m, thickness))
     height = table.height_m - thickness
@@ -46,5 +46,5 @@ def table_parts(table: Table) -> tuple[TablePart, ...]:
 
 
 def _inset(extent_m: float, inset_m: float) -> float:
-    """How far from the middle the legs stand: never less than half their width."""
+    """Return how far from the middle the legs stand (m), at least half their width."""
     return max(extent_m / 2 - inset_m, LEG_WIDTH_M / 2)

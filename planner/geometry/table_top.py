@@ -1,8 +1,8 @@
-"""From the unrolled plane over the table's edge.
+"""Map the unrolled plane over the table's edge.
 
-Cloth beyond the table hangs straight down. In the unrolled plane it lies flat beyond the edge; a point there at
-distance h beyond the table and at height z above the plane is in space the nearest point of the table at height
-z - h. The map keeps lengths and has a crease at the edge.
+Cloth beyond the table hangs straight down. In the unrolled plane it lies flat beyond the edge. A point there, at
+distance h beyond the table and at height z above the plane, is in space the nearest point of the table at height z - h.
+The map keeps lengths and has a crease at the edge.
 """
 
 import math
@@ -17,11 +17,11 @@ from planner.geometry.tolerance import LENGTH_M
 
 @dataclass(frozen=True, slots=True)
 class TableTop:
-    """The rectangle over which cloth does not hang.
+    """The rectangle on which cloth does not hang.
 
     Attributes:
-        low: smallest x and y (m).
-        high: largest x and y (m); a side may be at infinity where cloth is held out beyond it.
+        low: the smallest x and y (m).
+        high: the largest x and y (m); a side may be at infinity where cloth is held out beyond it.
     """
 
     low: Point2
@@ -29,12 +29,12 @@ class TableTop:
 
     @staticmethod
     def of(table: Table) -> "TableTop":
-        """A table's top."""
+        """Return a table's top."""
         x, y = table.depth_m / 2, table.width_m / 2
         return TableTop((-x, -y), (x, y))
 
     def open_towards(self, points: FloatArray) -> "TableTop":
-        """The top as if it went on beyond every edge over which one of the points lies, shape (n, 2)."""
+        """Return the top extended without end beyond every edge over which one of the points lies, shape (n, 2)."""
         low, high = points.min(axis=0), points.max(axis=0)
         return TableTop(
             (
@@ -48,7 +48,7 @@ class TableTop:
         )
 
     def covers(self, points: FloatArray) -> bool:
-        """Whether points, shape (..., 2 or 3), all lie on the top in the unrolled plane, to the tolerance."""
+        """Return whether points, shape (..., 2 or 3), all lie on the top in the unrolled plane, to the tolerance."""
         places = points[..., :2].reshape(-1, 2)
         if not len(places):
             return True
@@ -58,18 +58,18 @@ class TableTop:
         return bool(is_within_x and near - LENGTH_M <= y0 and y1 <= far + LENGTH_M)
 
     def beyond(self, points: FloatArray) -> FloatArray:
-        """How far points, shape (..., 2 or 3), lie beyond the top in the unrolled plane (m); 0 on it."""
+        """Return how far points, shape (..., 2 or 3), lie beyond the top in the unrolled plane (m); 0 on it."""
         out = points[..., :2] - np.minimum(np.maximum(points[..., :2], self.low), self.high)
         return np.asarray(np.hypot(out[..., 0], out[..., 1]))
 
     def over_edge(self, points: FloatArray) -> FloatArray:
-        """Points of the unrolled plane with their heights, shape (..., 3), taken over the edge.
+        """Map points of the unrolled plane with their heights, shape (..., 3), over the edge.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it (m).
 
         Returns:
-            The same points in space, table frame (m).
+            The points in space, table frame (m).
         """
         if self.covers(points):
             return points.copy()
@@ -77,18 +77,18 @@ class TableTop:
         return np.concatenate([nearest, (points[..., 2] - beyond)[..., None]], axis=-1)
 
     def clear_of_edge(self, points: FloatArray, clear_m: float, rest_m: float) -> FloatArray:
-        """Points of the unrolled plane taken over the edge as by `over_edge`, but kept clear of the edge's plane.
+        """Map points of the unrolled plane over the edge as `over_edge` does, but keep them clear of the edge's plane.
 
-        A point at rest keeps clear however little it is beyond the edge. One that rises towards the edge comes to the
-        plane gradually, as it gets above the top by as much as it is high at rest.
+        A point at rest keeps clear however little it is beyond the edge. A point that rises towards the edge approaches
+        the plane gradually, until it is as high above the top as it is high at rest.
 
         Args:
             points: place in the unrolled plane, table frame, and height above it, shape (..., 3), m.
-            clear_m: how far outside the plane (m).
+            clear_m: the distance to keep outside the plane (m).
             rest_m: the height above the plane at which points rest (m).
 
         Returns:
-            The same points in space, table frame (m).
+            The points in space, table frame (m).
         """
         found = self.over_edge(points)
         if clear_m > 0.0 and not self.covers(points):
@@ -98,7 +98,7 @@ class TableTop:
         return found
 
     def edge_beside(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """The nearest points on the top, the directions away from them, and how far beyond they lie (m)."""
+        """Return the nearest points on the top, the unit directions away from them, and the distances (m)."""
         nearest = np.minimum(np.maximum(points[..., :2], self.low), self.high)
         out = points[..., :2] - nearest
         beyond = np.hypot(out[..., 0], out[..., 1])

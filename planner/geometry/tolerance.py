@@ -1,46 +1,47 @@
-"""The one place where "equal" is made precise.
+"""The tolerances of the project: they define when two values are equal.
 
-Cloth is measured in metres, so a micrometre is far below anything that matters and far above the
-rounding of double precision at the size of a room. Every comparison of places in Pleat rests on
-these numbers; no other module has its own.
+Cloth is measured in metres, so a micrometre is far below anything that matters and far above the rounding of double
+precision at the size of a room. Every comparison of places in Pleat uses these numbers; no other module has its own.
 """
 
 import math
 from typing import Final
 
 GRID_M: Final = 1e-6
-"""The precision grid on which polygons live after every cut and reflection (m)."""
+"""Precision grid on which polygons live after every cut and reflection (m)."""
 
 CUT_GRID_M: Final = 1e-9
-"""The finer grid on which cuts are made: pieces of cloth are cut again and again, and no area may be lost by it (m)."""
+"""Finer grid for cuts (m): pieces of cloth are cut again and again, and no area may be lost by it."""
 
 LENGTH_M: Final = 1e-5
-"""Two points nearer than this are one point (m): ten steps of the grid."""
+"""Distance below which two points are one point (m): ten steps of the grid."""
 
 AREA_M2: Final = 1e-5
-"""A piece of cloth smaller than this is a sliver, dropped when it arises (m^2)."""
+"""Area below which a piece of cloth is a sliver, dropped when it arises (m^2)."""
 
 TIME_S: Final = 1e-9
-"""Two durations nearer than this are the same (s)."""
+"""Difference below which two durations are equal (s)."""
 
 DECIMALS: Final = 9
-"""Those of the finest of these (m, s, rad): what is written to be read by people has no more of them."""
+"""Decimals of the finest of these tolerances (m, s, rad), the most that files for people have."""
 
 ANGLE_RAD: Final = 1e-9
-"""Two angles nearer than this are the same (rad), where no length gives a better measure."""
+"""Difference below which two angles are equal (rad), where no length gives a better measure."""
 
 EDGE_RAD: Final = 1e-4
-"""Two edges whose directions differ by less have the same: a few centimetres long, with ends on the grid (rad)."""
+"""Angle below which two edges have the same direction (rad): the precision of a few centimetres with ends on the grid.
+"""
 
 SNAP_M: Final = 5e-3
-"""A fold's end point may lie this far from the silhouette's boundary and is put onto it (m)."""
+"""Greatest distance of a fold's end point from the silhouette's boundary, onto which it is put (m)."""
 
 
+# An odd value, so that no length that people draw lies half-way between two of its lines.
 SORTING_M: Final = 7.3e-4
-"""The grid on which places are put in order: no length that people draw lies half-way between two of its lines (m)."""
+"""Grid for sorting places (m)."""
 
 HALF_WAY: Final = 1e-3
-"""A number this near to the middle between two whole ones is half-way."""
+"""Distance from the middle between two whole numbers below which a number counts as half-way."""
 
 
 def nearest_whole(value: float) -> int:
@@ -52,5 +53,5 @@ def nearest_whole(value: float) -> int:
 
 
 def grid_key(value: float) -> int:
-    """The number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad)."""
+    """Return the number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad)."""
     return round(value / LENGTH_M)

@@ -1,4 +1,4 @@
-"""Triangles cut along lines: what is drawn of cloth bends there."""
+"""Cut triangles along lines, so that drawn cloth can bend there."""
 
 from collections.abc import Iterable
 
@@ -10,19 +10,20 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
 Parts = tuple[FloatArray, NDArray[np.int64]]
-"""Triangles, shape (n, 3, 2), m, and of which triangle before the cut each is a part, shape (n,)."""
+"""Triangles, shape (n, 3, 2), m, and the index of the triangle that each is a part of, shape (n,)."""
 
 
 def parted(triangles: FloatArray, line: Segment) -> tuple[Parts, Parts]:
-    """What lies to the left and what to the right of the whole line through a segment.
+    """Return the parts of triangles to the left and to the right of the line through a segment.
 
     Args:
         triangles: shape (n, 3, 2), m.
         line: the cut; a corner that is on it to the tolerance is not cut off.
 
     Returns:
-        The parts on either side, turned the same way round as what they are parts of. Neighbours share the ends of
-        their cuts to the last digit.
+        The parts on either side, with the orientation of their triangles. Neighbours share the ends of their cuts to
+            the
+        last digit.
     """
     distances = line.left_distances(triangles)
     sides = np.where(np.abs(distances) <= LENGTH_M, 0.0, np.sign(distances))
@@ -40,7 +41,7 @@ def parted(triangles: FloatArray, line: Segment) -> tuple[Parts, Parts]:
 
 
 def creased(triangles: FloatArray, lines: Iterable[Segment]) -> Parts:
-    """Triangles cut along whole lines, nothing left out."""
+    """Cut triangles along whole lines, and return all their parts."""
     sources = np.arange(len(triangles))
     for line in lines:
         (left, of_left), (right, of_right) = parted(triangles, line)
@@ -52,9 +53,9 @@ def creased(triangles: FloatArray, lines: Iterable[Segment]) -> Parts:
 def _halves(
     triangles: FloatArray, distances: FloatArray, sides: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int64], FloatArray]:
-    """Triangles that are crossed: their parts, which one's each is, and its side (1 left, -1 right)."""
+    """Cut triangles that the line crosses; return the parts, the triangle and the side (1 left, -1 right) of each."""
     of_all = sides.sum(axis=1, keepdims=True)
-    # first the corner on the line, if there is one, or else the one that is alone on its side
+    # Put first the corner on the line, if there is one, otherwise the one that is alone on its side.
     first = np.argmax(np.where(of_all == 0.0, sides == 0.0, sides * of_all < 0.0), axis=1)
     order = (first[:, None] + np.arange(3)) % 3
     distances = np.take_along_axis(distances, order, axis=1)
@@ -77,7 +78,7 @@ def _halves(
 def _crossing(
     start: FloatArray, end: FloatArray, from_m: FloatArray, to_m: FloatArray, chosen: NDArray[np.int64]
 ) -> FloatArray:
-    """Where sides cross the line; from the left to the right, so that it is the same whichever way round they run."""
+    """Return where sides cross the line, computed from left to right so that the sides' orientation does not matter."""
     start, end, from_m, to_m = start[chosen], end[chosen], from_m[chosen], to_m[chosen]
     is_left = (from_m > to_m)[:, None]
     left, right = np.where(is_left, start, end), np.where(is_left, end, start)
