@@ -7,6 +7,7 @@ from planner.planning.found_plan import FoundPlan
 from planner.task.plan import Plan
 
 _MOST = 4
+"""Number of plans remembered."""
 
 _Way: TypeAlias = tuple[tuple[object, ...], ...]
 

@@ -17,6 +17,7 @@ from planner.task.plan import Plan
 from planner.task.task import TIME_LIMIT_S, Task
 
 _REMEMBERED = 8
+"""Number of tasks whose answers are remembered."""
 
 
 class Show(Protocol):

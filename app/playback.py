@@ -7,6 +7,7 @@ changes nothing, and any number of viewers agree.
 from dataclasses import dataclass, replace
 
 SPEED_MIN, SPEED_MAX = 0.1, 20.0
+"""Range of the playback's speed (seconds of the plan per second)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,9 +16,8 @@ class Playback:
 
     Attributes:
         duration_s: the plan's duration (s); 0 without a plan.
-        t_s: the time in the plan at the instant `since_s` (s). It may exceed the duration of a plan that became
-        shorter,
-            for when a longer one follows.
+        t_s: the time in the plan at the instant `since_s` (s). If a plan becomes shorter, it keeps its value beyond the
+            end, and holds again once the plan is longer.
         since_s: an instant of the wall clock (s).
         is_playing: whether time runs.
         speed: seconds of the plan per second.

@@ -15,7 +15,11 @@ from planner.task.plan import Plan
 from planner.task.scene import Scene
 
 UPDATES_PER_S = 30.0
+"""Updates of a stage that someone watches (1/s)."""
+
 _UNWATCHED_PERIOD_S = 0.25
+"""Period of the updates while nobody watches (s)."""
+
 PATIENCE_S = 0.3
 """Time for which the stage waits for the plan of a changed drawing, to show both at once (s).
 
@@ -26,6 +30,7 @@ REST_S = 0.4
 """Pause in a gesture after which a stage drawn by software follows it (s)."""
 
 _CLOSING_S = 1.0
+"""Time to wait for the thread to end (s)."""
 
 _log = logging.getLogger(__name__)
 

@@ -14,6 +14,7 @@ from planner.geometry.pose import Point2
 from planner.task.plan import Plan, PlanStep
 
 _POINTS_SHOWN = 4
+"""Number of points printed before the rest is only counted."""
 
 _SUPPORTS = {
     Support.HANGS_FREELY: "must be held, hanging freely: nothing above",

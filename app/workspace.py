@@ -23,6 +23,7 @@ UNUSED_S = 60.0
 """Time after which an unused document is closed (s)."""
 
 _LOOK_EVERY_S = 10.0
+"""Period of the check for unused documents (s)."""
 
 _log = logging.getLogger(__name__)
 

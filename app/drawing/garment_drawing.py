@@ -5,7 +5,9 @@ from planner.cloth.garment import Garment
 from planner.task.scene import Scene
 
 START_STATION = "front"
+
 COMFORT_RADIUS_M = 0.03
+"""Default comfort radius (m)."""
 
 
 def drawing_of(garment: Garment, scene: Scene | None = None) -> Drawing:

@@ -32,6 +32,8 @@ SPLINE_POINTS_MAX = 1_000
 """Largest number of points of a spline; interpolating more takes too long."""
 
 _BLOCKS_DEEP = 8
+"""Largest nesting depth of blocks."""
+
 _LINES = frozenset({"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
 _TEXTS = frozenset({"TEXT", "MTEXT", "ATTRIB"})
 _BAD = (

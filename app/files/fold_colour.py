@@ -15,7 +15,11 @@ RED_DEG = (-25.0, 25.0)
 """The hues that count as blue and as red (degrees)."""
 
 _CHROMA_MIN = 0.25
+"""Least difference between the largest and the smallest of red, green and blue; colours below count as grey."""
+
 _LONGEST = 100
+"""Longest text that is parsed as a colour (characters)."""
+
 _NAMED = {
     "blue": "0000ff",
     "cornflowerblue": "6495ed",

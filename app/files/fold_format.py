@@ -18,7 +18,10 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import DECIMALS, EDGE_RAD
 
 SPEC = 1.2
+
 _ANGLE_DEG = {"B": 0, "F": 0, "M": -180, "V": 180}
+"""Fold angles by assignment: boundary, flat, mountain, valley (degrees)."""
+
 _Edges = dict[tuple[int, int], tuple[int, ...]]
 
 

@@ -115,7 +115,7 @@ def _between(start: FloatArray, end: FloatArray, points: FloatArray) -> FloatArr
 def _vertex(
     corner: FloatArray, carried: FloatArray, places: list[FloatArray], found: dict[tuple[int, int], list[int]]
 ) -> int:
-    """The vertex at a corner that lies in these places step by step; a new one if there is none yet."""
+    """Return the index of the vertex with these positions, one per step; add one if there is none."""
     cell = (round(float(corner[0]) / _CELL_M), round(float(corner[1]) / _CELL_M))
     for near in ((cell[0] + dx, cell[1] + dy) for dx in (0, -1, 1) for dy in (0, -1, 1)):
         for number in found.get(near, ()):

@@ -22,6 +22,7 @@ LARGEST_PLAN_FILE = 8 << 20
 """Largest size of a plan file (bytes). A typical one has 400 kB; one with as many folds as allowed, a few MB."""
 
 SCALES = (1e-3, 1e3)
+"""Range of the scale."""
 
 _SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": read_dxf}
 _JSON = "json"

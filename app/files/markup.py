@@ -12,7 +12,10 @@ from xml.parsers import expat
 from app.files.import_errors import ImportedFileError, broken
 
 DEPTH_MAX = 100
+"""Largest nesting depth of elements."""
+
 ELEMENTS_MAX = 50_000
+"""Largest number of elements."""
 
 
 @dataclass(slots=True, eq=False)

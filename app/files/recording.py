@@ -17,6 +17,7 @@ RATES_HZ = (1.0, 30.0)
 """Range of frame rates (Hz)."""
 
 DEFAULT_RATE_HZ = 10.0
+"""Default frame rate (Hz)."""
 
 HOLD_S = 1.0
 """Time that the last frame stays before the player starts again (s)."""

@@ -37,7 +37,10 @@ KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
 """Fields of a garment file that an exported drawing keeps besides its lines."""
 
 _NAME_MAX = 63
+"""Longest garment name (characters)."""
+
 _SHEET_MAX_M = 100.0
+"""Largest width and height of a whole drawing (m)."""
 
 
 Sizes: TypeAlias = dict[str, tuple[float, float]]

@@ -16,6 +16,7 @@ PX_PER_INCH = 96.0
 """Pixels per inch, as CSS defines them. SVG uses the same px as soon as the drawing states its physical size."""
 
 _PX_M = INCH_M / PX_PER_INCH
+
 _IN_M = {
     "mm": 1e-3,
     "cm": 1e-2,
@@ -24,7 +25,11 @@ _IN_M = {
     "pc": INCH_M / 6.0,
     "q": 0.25e-3,
 }
+"""Lengths of the physical units of CSS (m)."""
+
 _LONGEST = 100
+"""Longest text that is parsed as a length (characters)."""
+
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _LENGTH = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([a-z]*|%)\s*", re.IGNORECASE)
 

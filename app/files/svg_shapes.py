@@ -17,7 +17,10 @@ SHAPES_MAX, VISITS_MAX, CHARACTERS_MAX = 5_000, 20_000, 8_000_000
 """Largest numbers of shapes, of elements visited and of their attributes' characters; references can multiply them."""
 
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
+
 _REFERENCES_DEEP = 20
+"""Largest nesting depth of `use` references."""
+
 _QUARTERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 

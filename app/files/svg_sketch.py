@@ -26,6 +26,7 @@ GRIP_RADIUS = "data-pleat-grip-radius-m"
 """The attribute in which an exported fold line keeps its grip radius (m)."""
 
 SEGMENTS_MAX = 20_000
+"""Largest number of path segments in a drawing."""
 
 _BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError, UserWarning)
 """Exceptions that svgpathtools raises on invalid path data; its warning is about arcs without a radius."""

@@ -28,7 +28,10 @@ from planner.robot.pr2 import load_robot
 from planner.task.reason import Reason
 
 _STEPS, _CORNERS = 40, 96
+"""Grid steps from the point to each side, and corners of the disc about it."""
+
 _LEAST_M, _MOST_M = 0.12, 0.4
+"""Range of the disc's radius (m)."""
 
 
 @dataclass(frozen=True, slots=True)

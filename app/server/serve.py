@@ -16,7 +16,11 @@ from app.store.data_folder import DataFolder
 from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
+"""Largest websocket message (bytes)."""
+
 _GRACE_S = 1
+"""Time for open requests to end at shutdown (s)."""
+
 _SWITCH_S = 0.0001
 """Time for which a thread keeps the interpreter (s).
 

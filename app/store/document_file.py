@@ -12,6 +12,7 @@ from app.drawing.history import STEPS_MAX, History, Step
 from planner.strict_model import StrictModel
 
 FORMAT = 1
+"""The format number of these files."""
 
 
 class _StepModel(StrictModel):

@@ -13,6 +13,7 @@ from app.store.durable_file import sync_folder, write_at_once
 from app.store.storage_error import storing
 
 _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
+"""Characters of ids, without those that look alike (0, 1, i, l, o)."""
 
 
 class DocumentShelf:

@@ -18,6 +18,7 @@ from app.store.tape import Sheet, Tape, TapeChange
 from planner.strict_model import StrictModel
 
 FORMAT = 2
+"""The format number of journals."""
 
 _Count = Annotated[int, Field(ge=0)]
 _RawDrawing = dict[str, Any]

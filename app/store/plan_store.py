@@ -18,10 +18,14 @@ from planner.errors import FoldingError
 from planner.task.plan import Plan
 
 CAPACITY = 1000
+"""Number of plans kept."""
+
 LIVE_MAX = 16
 """Number of plans kept as objects."""
 
 _CACHE_KIB = 4096
+"""Size of the database's cache in memory (KiB)."""
+
 _ZIP_LEVEL = 1
 """Compression level. Level 1 halves a plan in 1-2 ms; higher levels take longer and save only 5 % more (measured)."""
 

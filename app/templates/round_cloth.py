@@ -10,6 +10,8 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 CORNERS = 48
+"""Number of corners that approximate the circle."""
+
 MEASURES = (Measure("diameter_m", "Diameter", "straight across", 0.32),)
 
 

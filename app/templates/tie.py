@@ -6,6 +6,8 @@ from app.templates.measure import Measure, Measures
 from app.templates.template import Cut, Template, fold, lying_away
 
 INSIDE_M, BESIDE_M = 0.03, 0.1
+"""Placement (m): distance inside the table's near edge, and shift to the left of its middle."""
+
 NAMES = ("narrow end up a quarter", "on at the half", "on again")
 MEASURES = (
     Measure("length_m", "Length", "from tip to tip", 1.498),
