@@ -1,1 +1,1 @@
-"""Whether arms, body and table are in each other's way."""
+"""Collision checks between the arms, the body and the table."""

@@ -1,7 +1,7 @@
-"""Convex bodies that move with the arms or stand still, and which of them touch.
+"""Convex bodies, moving with the arms or standing still, and tests for which of them touch.
 
-A compiled pass over all postures leaves, for most of them, no pair that could touch (`separation`); what it leaves is
-answered exactly, by coal, pair by pair until one touches.
+A compiled pass over all postures (`separation`) rules out nearly all pairs. Coal tests the remaining pairs exactly, one
+by one, until a pair touches.
 """
 
 from collections.abc import Iterator, Sequence
@@ -20,11 +20,11 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 class Pairs(NamedTuple):
-    """Bodies that are compared.
+    """Pairs of bodies to compare.
 
     Attributes:
-        numbers: their numbers, shape (q, 2).
-        margins: how far apart they must be (m), shape (q,).
+        numbers: the bodies' numbers, shape (q, 2).
+        margins: the distance that each pair must keep (m), shape (q,).
     """
 
     numbers: Index
@@ -33,15 +33,16 @@ class Pairs(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bodies:
-    """The parts of both arms, left before right, then what stands on the robot, then what stands at the table.
+    """The parts of both arms, left before right, then the rest of the robot, then the parts of the table.
 
     Attributes:
         arm: the left arm.
         torso_m: how far the torso is raised (m).
         parts: all bodies.
-        shapes: the same for coal, without their roundings.
-        poses: where those are that stand on the robot, shape (p, 5, 3).
-        places: the places of those at the table, which come last, in the table frame but from the floor (m), (t, 3).
+        shapes: the same bodies as coal shapes, without their roundings.
+        poses: the poses of the robot's static parts, shape (p, 5, 3).
+        places: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
+            shape (t, 3).
     """
 
     arm: ArmShape
@@ -54,14 +55,14 @@ class Bodies:
     def are_free(
         self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False
     ) -> BoolArray:
-        """In which postures no pair touches, shape (n,).
+        """Return in which postures no pair touches, shape (n,).
 
         Args:
-            pairs: what is compared.
-            bases: where the base stands, see `rows`.
-            joints: of each posture, the joints of each arm that is looked at (rad), shape (n, k, 7).
+            pairs: the pairs to compare.
+            bases: the base poses, see `rows`.
+            joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
             arms: those arms, 0 for the left and 1 for the right, shape (k,).
-            is_certain: whether only postures count that are certainly free, which is quicker to tell.
+            is_certain: accept only postures that the compiled pass proves free; faster, but misses some free ones.
         """
         if is_certain:
             close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
@@ -71,7 +72,10 @@ class Bodies:
         return is_free
 
     def touching(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> Iterator[int]:
-        """The postures in which some pair touches: rounds of the compiled pass, each going on where coal found none."""
+        """Yield the postures in which some pair touches.
+
+        Each round runs the compiled pass from the pair after the one that coal has found apart.
+        """
         stands = rows(bases)
         asked, start = np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
         while len(asked):
@@ -87,7 +91,7 @@ class Bodies:
     def first_close(
         self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
     ) -> tuple[Index, FloatArray]:
-        """For every posture the first pair, from one on, that is not certainly apart; see `separation.first_close`."""
+        """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
         return first_close(
             self.arm,
             self.torso_m,
@@ -103,18 +107,18 @@ class Bodies:
         )
 
     def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:
-        """How far one of a pair must move until they are as far apart as they must be (m); negative if they are."""
+        """Return how far one body of a pair must move until their margin is kept (m); negative if it is kept."""
         distance_m = coal.distance(*self._posed(pairs, pair, poses), coal.DistanceRequest(), coal.DistanceResult())
         return self._gap(pairs, pair) - float(distance_m)
 
     def _touch(self, pairs: Pairs, pair: int, poses: FloatArray) -> bool:
-        """Whether a pair is nearer than it must be, at poses of shape (2, 5, 3)."""
+        """Return whether a pair violates its margin, at poses of shape (2, 5, 3)."""
         request = coal.CollisionRequest()
         request.security_margin = self._gap(pairs, pair)
         return bool(coal.collide(*self._posed(pairs, pair, poses), request, coal.CollisionResult()))
 
     def _gap(self, pairs: Pairs, pair: int) -> float:
-        """How far apart the hulls of a pair must be (m)."""
+        """Return the distance that the hulls of a pair must keep (m): the margin and both roundings."""
         a, b = pairs.numbers[pair]
         rounding = self.parts.bounds[:, ROUNDING]
         return float(pairs.margins[pair] + rounding[a] + rounding[b])
@@ -127,13 +131,13 @@ class Bodies:
 
 
 def rows(bases: Pose2 | FloatArray) -> FloatArray:
-    """Bases as x (m), y (m) and yaw (rad), shape (n, 3) or, one for all, (1, 3)."""
+    """Return bases as rows of x (m), y (m) and yaw (rad), shape (n, 3), or (1, 3) for a single base."""
     if isinstance(bases, Pose2):
         return np.array([[bases.x_m, bases.y_m, bases.yaw_rad]])
     return np.ascontiguousarray(bases, dtype=np.float64)
 
 
 def _transform(part: int, pose: FloatArray) -> coal.Transform3s:
-    """A body's pose for coal: the frames of the right arm are made right-handed."""
+    """Return a body's pose for coal, with the left-handed frames of the right arm made right-handed."""
     rotation = pose[:PLACE] * _MIRROR if EACH <= part < 2 * EACH else pose[:PLACE]
     return coal.Transform3s(rotation, pose[PLACE])

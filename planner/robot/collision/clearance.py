@@ -1,7 +1,7 @@
-"""Do free arms keep clear of the cloth that lies on the table?
+"""Check that free arms keep clear of the cloth on the table.
 
-Cloth is soft, but a hand that passes low over it sweeps it along. So it counts as slabs of a height, and what of an arm
-may come low, from the elbow outwards, is compared with them.
+Cloth is soft, but a hand that passes low over it sweeps it along. The cloth is therefore modelled as slabs of a given
+height, and compared with the parts of an arm that may come low: those from the elbow outwards.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from planner.robot.collision.rounded_hull import prism
 
 
 class Clearance:
-    """What is too low over cloth that lies somewhere. May be shared between threads."""
+    """A check for arm parts that are too low over cloth on the table. Threads may share it."""
 
     def __init__(
         self,
@@ -29,13 +29,13 @@ class Clearance:
         height_m: float,
         torso_m: float,
     ) -> None:
-        """Put slabs beside the robot's arms.
+        """Put slabs over the cloth beside the robot's arms.
 
         Args:
-            robot: its parts.
-            level: which of `OPENINGS_M` the fingers are open to.
+            robot: the robot's parts.
+            level: the index in `OPENINGS_M` of the fingers' opening.
             pieces: convex pieces of cloth, table frame, counter-clockwise, each of shape (n, 2), m.
-            over_m: how high over them arms stay (m).
+            over_m: the height over the cloth that arms must keep (m).
             height_m: the table top's height over the floor (m).
             torso_m: how far the torso is raised (m).
         """
@@ -49,19 +49,19 @@ class Clearance:
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """At which joints of one arm, shape (n, 7), it is clear of all cloth, shape (n,).
+        """Return at which joints of one arm, shape (n, 7), it is clear of all cloth, shape (n,).
 
         Args:
-            arm: which arm.
-            bases: where the base stands: one pose of the table frame for all, or x (m), y (m), yaw (rad) of each.
+            arm: the arm's index.
+            bases: the base pose in the table frame: one for all postures, or x (m), y (m), yaw (rad) of each.
             joints: the arm's joints (rad).
-            is_certain: whether only those count that are certainly clear, which is quicker to tell.
+            is_certain: accept only postures that are proved clear; faster, but misses some clear ones.
         """
         return self._bodies.are_free(self._of_arm[arm], bases, joints[:, None], np.array([arm]), is_certain)
 
 
 def _pairs(arm: int, slabs: range) -> Pairs:
-    """An arm's outer parts and all slabs, the likeliest to be low first."""
+    """Return the pairs of an arm's outer parts with all slabs, the likeliest to be low first."""
     parts = range(EACH * arm + ELBOW, EACH * (arm + 1))
     numbers = np.array([*product(reversed(parts), slabs)], dtype=np.int64).reshape(-1, 2)
     return Pairs(numbers, np.zeros(len(numbers)))

@@ -1,10 +1,10 @@
-"""Does anything collide: arms, body, table?
+"""Collision queries for arms, body and table.
 
-The robot is taken apart into convex parts that contain its meshes (`part_shapes`). A question is a list of pairs of
-parts (see `bodies`).
+The robot is represented by convex parts that contain its meshes (`part_shapes`). A query is a list of pairs of parts
+(see `bodies`).
 
-Fingertips may come as near to the table's top as they like, for there is the cloth that they grip, but not into it.
-Cloth is no obstacle here; how free arms keep clear of it is asked of `over_cloth`.
+Fingertips may come arbitrarily close to the table's top, where the cloth they grip lies, but not into it. Cloth is no
+obstacle here; `over_cloth` checks how free arms keep clear of it.
 """
 
 from bisect import bisect_left
@@ -28,7 +28,7 @@ from planner.robot.collision.posture_pairs import postures_apart
 from planner.robot.collision.robot_parts import RobotParts, compiled_parts
 
 OPENING_M = 0.06
-"""How far open fingers are taken to be, unless told (m)."""
+"""Default upper limit of the fingers' opening (m)."""
 
 _BODY = 2 * EACH
 _TABLE = _BODY + len(BODY_PARTS)
@@ -40,7 +40,7 @@ _ORIGIN = Pose2(0.0, 0.0, 0.0)
 
 
 class Collisions:
-    """What collides at one table, with the torso at one height. May be shared between threads.
+    """Collision checks at one table, with the torso at one height. Threads may share it.
 
     Bases are poses of the robot's base in the table frame: one for all postures, or for each its x (m), y (m) and yaw
     (rad), shape (n, 3). Joints are in rad, arms from left to right.
@@ -52,12 +52,12 @@ class Collisions:
         """Put the table's parts beside the robot's (1 ms).
 
         Args:
-            robot: its parts.
+            robot: the robot's parts.
             table: the table.
             torso_m: how far the torso is raised (m).
-            opening_m: the fingers are anywhere from closed to this far apart (m); taken as the next larger of
-                `OPENINGS_M`.
-            margin_m: what comes nearer to each other than this collides (m).
+            opening_m: the largest opening of the fingers, which may be anywhere from closed to it (m); rounded up to
+                the next of `OPENINGS_M`.
+            margin_m: the distance below which parts count as colliding (m).
         """
         of_table = table_parts(table)
         level = min(bisect_left(OPENINGS_M, opening_m), len(OPENINGS_M) - 1)
@@ -81,59 +81,60 @@ class Collisions:
         self._all = Pairs(np.vstack([p.numbers for p in every]), np.concatenate([p.margins for p in every]))
 
     def _pairs(self, numbers: Iterable[tuple[int, int]]) -> Pairs:
-        """Pairs of parts, with how far apart they must be."""
+        """Return pairs of parts with the distance that each must keep."""
         found = np.array([*numbers])
         is_tip_at_top = (found[:, 1] == _TABLE + _TOP) & (found[:, 0] % EACH == FINGERTIPS) & (found[:, 0] < _BODY)
         return Pairs(found, np.where(is_tip_at_top, 0.0, self._margin_m))
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
-        """What of the arms is lower than so high (m) over convex pieces of cloth (see `Clearance`)."""
+        """Return the check that arms keep a height (m) over convex pieces of cloth (see `Clearance`)."""
         return Clearance(self._robot, self._level, pieces, over_m, self._height_m, self._bodies.torso_m)
 
     def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """In which postures, shape (n, 2, 7), nothing collides, shape (n,)."""
+        """Return in which postures, shape (n, 2, 7), nothing collides, shape (n,)."""
         return self._bodies.are_free(self._all, bases, joints, _BOTH)
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Whether nothing collides in any of some postures, shape (n, 2, 7); sooner told than `free` where not so."""
+        """Return whether nothing collides in any posture, shape (n, 2, 7); faster than `free` where something does."""
         return next(self._bodies.touching(self._all, bases, joints, _BOTH), None) is None
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """In which postures, shape (n, 7), an arm collides with neither body, table nor itself, shape (n,).
+        """Return in which postures, shape (n, 7), an arm is clear of body, table and itself, shape (n,).
 
-        Only certainly free ones count if that is asked for: a third of the time, and 0.5 % of the free ones missed.
+        With `is_certain`, accept only postures proved free: this takes a third of the time and misses 0.5 % of the free
+        ones.
         """
-        # Mirrored, the right arm is asked as a left one: what is certain is so for both alike.
+        # The right arm's query is mirrored to the left arm, so that certain answers agree on both sides.
         side = 1.0 if arm == 0 else -1.0
         stands = rows(bases) * np.array([1.0, side, side])
         named = joints if arm == 0 else joints * MIRROR
         return self._bodies.are_free(self._of_arm[0], stands, named[:, None], _LEFT, is_certain)
 
     def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        """In which postures, shape (n, 2, 7), the arms do not collide with each other, shape (n,); see `arm_free`."""
+        """Return in which postures, shape (n, 2, 7), the arms are clear of each other, shape (n,); see `arm_free`."""
         return self._bodies.are_free(self._of_arms, _ORIGIN, joints, _BOTH, is_certain)
 
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """Which postures of the left arm are certainly apart from which of the right, shape (k, l).
+        """Return which postures of the left arm are certainly apart from which of the right, shape (k, l).
 
         Args:
-            left: joints of the left arm, shape (k, 7), the tool in the same pose in all of them.
-            right: joints of the right arm, shape (l, 7), likewise.
+            left: joints of the left arm, shape (k, 7), with the tool in the same pose in all of them.
+            right: joints of the right arm, shape (l, 7), with the tool in the same pose in all of them.
         """
         return self._postures_apart(left, right, is_one_enough=False)
 
     def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
-        """Whether some posture of the left arm is certainly apart from some of the right; see `postures_apart`."""
+        """Return whether some postures of the left and right arm are certainly apart; see `postures_apart`."""
         return bool(self._postures_apart(left, right, is_one_enough=True).any())
 
     def body_free(self, base_in_table: Pose2) -> bool:
-        """Whether the base, torso and head, without the arms, stay clear of the table."""
+        """Return whether the base, torso and head, without the arms, stay clear of the table."""
         return bool(self._bodies.are_free(self._of_body, base_in_table, np.empty((1, 0, 7)), _NEITHER)[0])
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        """Of all that collides in one posture, shape (2, 7), what does so deepest; None if nothing does."""
+        """Return the deepest contact in one posture, shape (2, 7); None if nothing collides."""
         base, start = rows(base_in_table), np.zeros(1, dtype=np.int64)
         found: list[Contact] = []
         while True:
@@ -153,7 +154,7 @@ class Collisions:
 
 
 def _arm_pairs(arm: int, tables: range) -> Iterator[tuple[int, int]]:
-    """Pairs of an arm's parts with the table, the body, and the arm itself, the likeliest to collide first."""
+    """Yield pairs of an arm's parts with the table, the body and the arm itself, the likeliest to collide first."""
     low = EACH * arm
     yield from ((low + part, table) for table, part in product(tables, reversed(range(EACH))))
     yield from ((low + part, _BODY + body) for part, body in pairs_with_body())

@@ -1,16 +1,16 @@
-"""Two parts that are in each other's way."""
+"""A contact between two parts in collision."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """Two parts, of the robot or the table, that are in each other's way.
+    """A contact of two parts, of the robot or of the robot and the table.
 
     Attributes:
-        first: what people call one, always of the robot: ``left forearm``.
-        second: what they call the other: ``right palm``, ``torso``, ``table top``.
-        depth_m: how far one must move until they are apart, by the margin asked for (m).
+        first: the first part's name for people, always of the robot: ``left forearm``.
+        second: the second part's name for people: ``right palm``, ``torso``, ``table top``.
+        depth_m: how far either part must move until the margin asked for is kept (m).
     """
 
     first: str

@@ -1,8 +1,8 @@
-"""Where the surface of each part of the PR2 is: the corners of its meshes, of those shown and those for collisions.
+"""The surface points of each part of the PR2: the corners of its visual and collision meshes.
 
-The right arm's meshes are those of the left one, not their mirror images, and not quite symmetric (5 mm). Each part
-is made to do for both: of arms, it has the points of the left and the mirrored points of the right one, so that a
-mirrored posture is free where the posture is.
+The right arm's meshes are not exact mirror images of the left arm's, and not quite symmetric themselves (5 mm). Each
+arm part therefore has the points of the left arm and the mirrored points of the right arm, so that a mirrored posture
+is free exactly where the posture is.
 """
 
 import math
@@ -21,7 +21,7 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 def points_of_joints(model: pin.Model) -> dict[str, FloatArray]:
-    """The points of all that each joint moves, in its frame (m), shape (n, 3), by the joint's name."""
+    """Return the points of everything that each joint moves, in its frame (m), shape (n, 3), by the joint's name."""
     found: dict[str, list[FloatArray]] = {}
     for kind in (pin.GeometryType.VISUAL, pin.GeometryType.COLLISION):
         shown = pin.buildGeomFromUrdf(model, str(urdf_path()), kind, package_dirs=[str(package_directory())])
@@ -32,7 +32,7 @@ def points_of_joints(model: pin.Model) -> dict[str, FloatArray]:
 
 
 def _corners(geometry: coal.CollisionGeometry) -> FloatArray:
-    """The corners of a mesh, or of the bounding box of another shape, shape (n, 3)."""
+    """Return the corners of a mesh, or of the bounding box of another shape, shape (n, 3)."""
     if isinstance(geometry, coal.BVHModelBase):
         vertices: FloatArray = geometry.vertices()
         return vertices
@@ -43,12 +43,12 @@ def _corners(geometry: coal.CollisionGeometry) -> FloatArray:
 
 
 def body_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """The points of each part of the body, in its joint's frame."""
+    """Return the points of each part of the body, in its joint's frame."""
     return [points[part.joint] for part in BODY_PARTS]
 
 
 def arm_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """The points of the left arm's parts as far as the palm, in their joints' frames."""
+    """Return the points of the left arm's parts up to and including the palm, in their joints' frames."""
     return [_of_both_sides(points, part.joint) for part in ARM_PARTS[:FINGERS]]
 
 
@@ -59,10 +59,10 @@ def _of_both_sides(points: dict[str, FloatArray], joint: str) -> FloatArray:
 def finger_points(
     model: pin.Model, points: dict[str, FloatArray], gripper: GripperCard, opening_m: float
 ) -> tuple[FloatArray, FloatArray]:
-    """The points of fingers and of fingertips, in the palm's frame, all the way from closed to an opening.
+    """Return the points of fingers and of fingertips, in the palm's frame, swept from closed to an opening.
 
-    A finger turns about its joint, and the tip on it keeps its direction, so every point runs along an arc. The
-    arc lies within the polygon of its ends and of the places where its tangents meet, at the middle of each half.
+    A finger turns about its joint, and the tip on it keeps its orientation, so every point moves along an arc. The arc
+    lies within the polygon of its ends and of the points where the tangents of each half meet.
     """
     finger = model.jointPlacements[model.getJointId("l_gripper_l_finger_joint")]
     tip = model.jointPlacements[model.getJointId("l_gripper_l_finger_tip_joint")]
@@ -79,14 +79,14 @@ def finger_points(
 
 
 def _of_all_fingers(points: dict[str, FloatArray], joint: str) -> FloatArray:
-    """The points of the four fingers, or tips, as if they were all the left one of a hand."""
+    """Return the points of all four fingers, or tips, mapped onto the left finger of a hand."""
     left = [points[f"{side}_gripper_l_{joint}"] for side in "lr"]
     right = [points[f"{side}_gripper_r_{joint}"] * _MIRROR for side in "lr"]
     return np.vstack(left + right)
 
 
 def _turned(points: FloatArray, angle: float, further: float) -> FloatArray:
-    """Points turned about z, and put further from it by a factor."""
+    """Return points turned about z, with their distance from it scaled by a factor."""
     cos, sin = further * math.cos(angle), further * math.sin(angle)
     turned: FloatArray = points @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]).T
     return turned

@@ -1,10 +1,10 @@
-"""Where an arm's parts are at its seven joints, and the table's at a place of the base, compiled.
+"""Poses of an arm's parts at its seven joints, and of the table's parts at a pose of the base, compiled.
 
-The parts of the right arm are those of the left one seen in a mirror: their frames are left-handed, and the corners of
-the left one's hulls, put into them, are those of the right one's.
+The parts of the right arm are mirror images of the left arm's: their frames are left-handed, and in them the corners of
+the left arm's hulls give those of the right arm's.
 
-A pose is five rows of three: the rotation, the place of the frame's origin, and where the middle of the part's
-bounding box is (m), all in the base frame.
+A pose is five rows of three: the rotation, the position of the frame's origin, and the centre of the part's bounding
+box (m), all in the base frame.
 """
 
 import math
@@ -19,17 +19,17 @@ from planner.robot.collision.parts import ARM_PARTS, PALM
 from planner.robot.inverse_kinematics import X, Y, Z, turn
 
 EACH = len(ARM_PARTS)
-"""So many parts has an arm."""
+"""Number of parts of an arm."""
 
 PLACE, MIDDLE = 3, 4
-"""Rows of a pose, after those of the rotation."""
+"""Rows of a pose that follow the three rows of the rotation."""
 
 Index = NDArray[np.int64]
 
 
 @njit(cache=True, nogil=True)
 def _set_pose(pose: FloatArray, frame: FloatArray, x: float, y: float, z: float, side: float) -> None:
-    """A part's pose from the left arm's frame; `side` is -1 for the right arm."""
+    """Set a part's pose from the left arm's frame; `side` is -1 for the right arm."""
     for column in range(3):
         pose[0, column] = frame[0, column]
         pose[1, column] = side * frame[1, column]
@@ -39,14 +39,14 @@ def _set_pose(pose: FloatArray, frame: FloatArray, x: float, y: float, z: float,
 
 @njit(cache=True, nogil=True)
 def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, poses: FloatArray) -> None:
-    """Set rotation and place of an arm's parts in the base frame; from the palm on they are one body.
+    """Set rotation and position of an arm's parts in the base frame; from the palm on they are one body.
 
     Args:
         shape: the left arm.
         lift_m: how far the torso is raised (m).
         joints: the seven joints of this arm (rad).
         side: 1 for the left arm, -1 for the right.
-        poses: to be set, shape (EACH, 5, 3).
+        poses: the poses to set, shape (EACH, 5, 3).
     """
     frame = np.eye(3)
     x, y, z = shape.shoulder_x, shape.shoulder_y, shape.shoulder_z + lift_m
@@ -72,12 +72,12 @@ def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, po
 
 @njit(cache=True, nogil=True)
 def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
-    """Set rotation and place of the table's parts in the base frame.
+    """Set rotation and position of the table's parts in the base frame.
 
     Args:
         base: x (m), y (m), yaw (rad), table frame.
-        tables: the parts' places in the table frame but over the floor (m), shape (t, 3).
-        poses: to be set, shape (t, 5, 3).
+        tables: the parts' positions in the table frame but measured from the floor (m), shape (t, 3).
+        poses: the poses to set, shape (t, 5, 3).
     """
     cos, sin = math.cos(base[2]), math.sin(base[2])
     for part in range(len(tables)):
@@ -91,7 +91,7 @@ def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
 
 @njit(cache=True, nogil=True)
 def set_middles(bounds: FloatArray, poses: FloatArray) -> None:
-    """Set where the bounding boxes' middles are, the poses being set otherwise."""
+    """Set the centres of the bounding boxes, in poses whose other rows are set."""
     for part in range(len(poses)):
         for row in range(3):
             turned = 0.0

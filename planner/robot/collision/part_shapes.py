@@ -22,34 +22,36 @@ from planner.robot.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robot.description import urdf_path
 
 OPENINGS_M = (0.0, 0.03, 0.06, 0.09)
-"""There are shapes of the fingers for these openings."""
+"""Openings of the fingers for which there are shapes (m)."""
 
 ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M = 0.003, 0.0003
-"""A shape stands out from the hull of its meshes by no more than this, beside what makes it symmetric (m); fingertips,
-which pass the table's top by half a millimetre, by less."""
+"""Limits on how far a shape may exceed the hull of its meshes, apart from being made symmetric (m).
+
+Fingertips have a tighter limit because they pass the table's top by half a millimetre.
+"""
 
 _FORMAT = 1
-"""To be raised whenever shapes are made or kept in another way."""
+"""Version of the cache; raise it whenever shapes are made or stored differently."""
 
 PartShapes = Mapping[str, RoundedHull]
-"""Shapes by the names of their parts, an arm's as the left one has them; see `finger_key` for fingers."""
+"""Shapes by part name, an arm's as those of the left arm; see `finger_key` for fingers."""
 
 
 def finger_key(part: int, opening_m: float) -> str:
-    """The name of the shape of fingers or fingertips that may be open as far as this (m)."""
+    """Return the name of the shape of fingers or fingertips that may be open up to a width (m)."""
     level = next((level for level in OPENINGS_M if opening_m <= level), OPENINGS_M[-1])
     return f"{ARM_PARTS[part].name} {round(1000 * level)}"
 
 
 def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None = None) -> PartShapes:
-    """The shapes, from the cache if it has them, else made (a second) and put there.
+    """Return the shapes, read from the cache or made (in a second) and cached.
 
-    A cache that cannot be read is made anew; one that cannot be written does without.
+    A cache that cannot be read is made again; a cache that cannot be written is ignored.
 
     Args:
         model: the kinematic tree.
         gripper: how the fingers open.
-        directory: where the cache is; None: the platform's place for caches.
+        directory: the cache directory; None: the platform's own.
     """
     path = (directory or user_cache_path("pleat")) / f"pr2-shapes-{_digest()}.npz"
     try:
@@ -62,7 +64,7 @@ def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None =
 
 
 def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
-    """The shapes, made from the meshes."""
+    """Return the shapes, made from the meshes."""
     points = points_of_joints(model)
     body = dict(zip((part.name for part in BODY_PARTS), body_points(points), strict=True))
     arm = dict(zip((part.name for part in ARM_PARTS[:FINGERS]), arm_points(points), strict=True))
@@ -76,7 +78,7 @@ def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
 
 
 def _digest() -> str:
-    """A name for all that the shapes depend on."""
+    """Return a digest of everything that the shapes depend on."""
     digest = blake2b(
         f"{_FORMAT} {version('example-robot-data')} {ROUNDING_MAX_M} {TIPS_ROUNDING_MAX_M} {OPENINGS_M}".encode(),
         digest_size=8,
@@ -93,7 +95,7 @@ def _names() -> list[str]:
 
 
 def _read(path: Path) -> PartShapes:
-    """The shapes in a file; raises one of several errors if they are not there, or not as they should be."""
+    """Return the shapes in a file; raise one of several errors where they are missing or malformed."""
     with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
         return {
             name: RoundedHull(arrays[f"{name}/corners"], arrays[f"{name}/faces"], float(arrays[f"{name}/radius"]))
@@ -102,7 +104,7 @@ def _read(path: Path) -> PartShapes:
 
 
 def _write(path: Path, shapes: PartShapes) -> None:
-    """Put shapes into a file that is there only when it is complete."""
+    """Write shapes to a file atomically, so that it exists only once it is complete."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, shape in shapes.items():
         arrays[f"{name}/corners"], arrays[f"{name}/faces"] = shape.corners, shape.faces

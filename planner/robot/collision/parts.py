@@ -1,25 +1,25 @@
-"""The parts into which the PR2 is taken for collisions, and which of them are compared.
+"""The PR2's parts for collision checking, and the pairs of them that are compared.
 
-A part is what moves as one. The arms are mirror images, so the parts of one do for both.
+A part moves as one rigid body. The arms are mirror images, so the parts of one arm serve for both.
 
-All parts of the robot are compared, unless one carries the other over no more than `CARRIED_OVER` joints: the meshes of
-such neighbours are hollow round each other, so that their convex hulls overlap (upper arm and torso in a third of
-all postures) where the meshes never touch. The SRDF that comes with the description, made by sampling the meshes,
-asks for no such pair either. Fingers of one gripper are one part.
+All parts of the robot are compared, except where one carries the other over no more than `CARRIED_OVER` joints: the
+meshes of such neighbours enclose each other, so that their convex hulls overlap (upper arm and torso in a third of all
+postures) where the meshes never touch. The SRDF that comes with the description, made by sampling the meshes, lists no
+such pair either. The fingers of one gripper are one part.
 """
 
 from collections.abc import Iterator
 from typing import NamedTuple
 
 CARRIED_OVER = 3
-"""A part is not compared with one that carries it over this many joints or fewer."""
+"""Number of joints up to which a part is not compared with the part that carries it."""
 
 
 class Part(NamedTuple):
     """A part.
 
     Attributes:
-        name: what people call it.
+        name: its name for people.
         joint: the joint that moves it, without an arm's prefix; ``universe`` for what stands on the floor.
     """
 
@@ -38,10 +38,10 @@ ARM_PARTS = (
     Part("fingers", "gripper_l_finger_joint"),
     Part("fingertips", "gripper_l_finger_tip_joint"),
 )
-"""An arm from the shoulder outwards: each carries the next over one joint."""
+"""The parts of an arm from the shoulder outwards; each carries the next over one joint."""
 
 ELBOW, PALM, FINGERS, FINGERTIPS = 3, 6, 7, 8
-"""Numbers of parts of an arm: from the palm on they are one rigid body when the fingers do not move."""
+"""Indices of an arm's parts; from the palm on they are one rigid body while the fingers do not move."""
 
 BODY_PARTS = (
     Part("base", "universe"),
@@ -52,17 +52,17 @@ BODY_PARTS = (
 )
 
 _CARRIERS = {0: 2, 1: 1}
-"""Parts of the body that carry the arms: over how many joints they carry a shoulder."""
+"""For each body part that carries the arms, the number of joints over which it carries a shoulder."""
 
 
 def pairs_in_arm() -> Iterator[tuple[int, int]]:
-    """Pairs of parts of one arm that are compared."""
+    """Yield the pairs of parts of one arm that are compared."""
     for outer in range(len(ARM_PARTS)):
         yield from ((outer, inner) for inner in range(outer - CARRIED_OVER))
 
 
 def pairs_with_body() -> Iterator[tuple[int, int]]:
-    """Pairs of an arm's part and a part of the body that are compared."""
+    """Yield the pairs of an arm's part and a body part that are compared."""
     for outer in range(len(ARM_PARTS)):
         for number in range(len(BODY_PARTS)):
             if number not in _CARRIERS or outer + _CARRIERS[number] > CARRIED_OVER:

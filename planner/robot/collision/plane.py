@@ -1,11 +1,11 @@
-"""Is there a plane between two convex parts? Compiled.
+"""Search for a separating plane between two convex parts, compiled.
 
-It is looked for as by Chung and Wang (1996): along a direction d the two come nearest with the points p and q; if p is
-beyond q, the plane is found, else the direction is reflected at p - q, which has every plane that is possible on its
-further side. Over the middle of a table that turns round and round, so the axes of one of the two are tried as well.
+The search follows Chung and Wang (1996). Let p and q be the points at which the parts come nearest along a direction d.
+If p is beyond q, a separating plane is found; else the direction is reflected at p - q, which keeps every possible
+plane on its far side. Above the middle of a table this oscillates, so the axes of one of the parts are tried as well.
 
-The differences p - q are corners of all that the one part's points are off from the other's. Once four of them are
-round the origin the parts have a point in common, and there is no plane.
+The differences p - q are corners of the Minkowski difference of the parts. Once four of them enclose the origin, the
+parts have a point in common and there is no plane.
 """
 
 import math
@@ -17,17 +17,17 @@ from planner.geometry.pose import FloatArray
 from planner.robot.collision.part_poses import MIDDLE, PLACE, Index
 
 _REFLECTIONS = 12
-"""So many directions are tried for a pair."""
+"""Directions tried for a pair."""
 
 _FLAT_M3 = 1e-12
-"""Of a tetrahedron with less than a sixth of this volume rounding decides what is inside."""
+"""Six times the volume of a tetrahedron below which rounding decides what is inside (m3)."""
 
 Vector: TypeAlias = tuple[float, float, float]
 
 
 @njit(cache=True, nogil=True)
 def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z: float) -> int:
-    """The corner furthest along a direction, seen from the corners' frame."""
+    """Return the corner furthest along a direction given in the corners' frame."""
     best, found = -math.inf, first
     for i in range(first, last):
         along = corners[i, 0] * x + corners[i, 1] * y + corners[i, 2] * z
@@ -38,7 +38,7 @@ def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z:
 
 @njit(cache=True, nogil=True)
 def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner: int) -> float:
-    """One coordinate of a corner after a part's rotation."""
+    """Return one coordinate of a corner after a part's rotation."""
     turned: float = (
         poses[part, row, 0] * corners[corner, 0]
         + poses[part, row, 1] * corners[corner, 1]
@@ -51,7 +51,7 @@ def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner:
 def _nearest_along(
     corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, x: float, y: float, z: float
 ) -> Vector:
-    """From part b, a gap (m) added to it, to part a, between the points that are nearest along a unit direction (m)."""
+    """Return the way from part b, a gap (m) added to it, to part a, at the points nearest along a unit direction (m)."""
     ax = -(r[a, 0, 0] * x + r[a, 1, 0] * y + r[a, 2, 0] * z)
     ay = -(r[a, 0, 1] * x + r[a, 1, 1] * y + r[a, 2, 1] * z)
     az = -(r[a, 0, 2] * x + r[a, 1, 2] * y + r[a, 2, 2] * z)
@@ -70,31 +70,31 @@ def _nearest_along(
 
 @njit(cache=True, nogil=True)
 def _volume(a: Vector, b: Vector, c: Vector) -> float:
-    """Six times the volume, with its sign, of the tetrahedron of the origin and three points (m3)."""
+    """Return six times the signed volume of the tetrahedron of the origin and three points (m3)."""
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 
 
 @njit(cache=True, nogil=True)
 def _are_round_origin(a: Vector, b: Vector, c: Vector, d: Vector) -> bool:
-    """Whether the origin is inside the tetrahedron of four points."""
+    """Return whether the origin is inside the tetrahedron of four points."""
     abc, acd, adb, bdc = _volume(a, b, c), _volume(a, c, d), _volume(a, d, b), _volume(b, d, c)
     return min(abc, acd, adb, bdc) > _FLAT_M3 or max(abc, acd, adb, bdc) < -_FLAT_M3
 
 
 @njit(cache=True, nogil=True)
 def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector) -> float:
-    """By how much more than a gap parts b and a are apart where a plane is found between them (m); -1 where none is.
+    """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if none is found.
 
-    It is looked for along a direction like `way` at first, and along the axes of part b in the end.
+    The search starts along `way` and ends with the axes of part b.
 
     Args:
-        corners: of all hulls, each in its part's frame (m), shape (c, 3).
+        corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
         spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
-        r: where the parts are, shape (p, 5, 3), see `planner.robot.collision.part_poses`.
-        a: the one part.
-        b: the other.
-        gap: how far apart their hulls should be (m).
-        way: roughly from b to a (m); zero if nothing is known.
+        r: the parts' poses, shape (p, 5, 3), see `planner.robot.collision.part_poses`.
+        a: the first part.
+        b: the second part.
+        gap: the distance that their hulls should keep (m).
+        way: the rough direction from b to a (m); zero if nothing is known.
     """
     tx, ty, tz = r[a, MIDDLE, 0] - r[b, MIDDLE, 0], r[a, MIDDLE, 1] - r[b, MIDDLE, 1], r[a, MIDDLE, 2] - r[b, MIDDLE, 2]
     dx, dy, dz = way

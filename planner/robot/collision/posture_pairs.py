@@ -1,7 +1,7 @@
-"""Tell which postures of the one arm are certainly apart from which of the other: compiled, for all pairs at once.
+"""Find which postures of one arm are certainly apart from which of the other: compiled, for all pairs at once.
 
-The tool of each arm stays where it is, so its hand does, and is looked at once for all postures: it is the hands that
-come nearest to each other, and to tell what is near apart takes longest.
+The tool of each arm has the same pose in all postures, so the hands are compared only once. They come nearest to each
+other, and proving near parts separate takes longest.
 """
 
 import numpy as np
@@ -27,17 +27,17 @@ def postures_apart(
     margin: float,
     is_one_enough: bool,
 ) -> BoolArray:
-    """Which postures of the left arm are certainly apart from which of the right, shape (k, l).
+    """Return which postures of the left arm are certainly apart from which of the right, shape (k, l).
 
     Args:
         shape: the left arm.
         lift_m: how far the torso is raised (m).
         parts: all parts.
-        left: joints of the left arm (rad), shape (k, 7), the tool in the same pose in all of them.
-        right: those of the right arm, shape (l, 7), likewise.
+        left: joints of the left arm (rad), shape (k, 7), with the tool in the same pose in all of them.
+        right: joints of the right arm (rad), shape (l, 7), with the tool in the same pose in all of them.
         pairs: numbers of the parts to be compared, the left arm's first, shape (q, 2).
-        margin: how far apart they should be (m).
-        is_one_enough: once two are found that are apart, no others are looked at.
+        margin: the distance that they should keep (m).
+        is_one_enough: stop once two postures are found that are apart.
     """
     corners, spans, bounds = parts
     are_apart = np.zeros((len(left), len(right)), dtype=np.bool_)
@@ -81,9 +81,9 @@ def postures_apart(
 def _close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, likely: int, margin: float
 ) -> int:
-    """Return some pair that is not certainly apart by a margin (m), the likely one if it is; -1 if all are apart.
+    """Return a pair that is not certainly apart by a margin (m), preferably the likely one; -1 if all are apart.
 
-    Postures next to each other mostly meet in the same pair, and one pair is enough to tell.
+    Neighbouring postures mostly collide in the same pair, and one pair is enough to tell.
     """
     if len(pairs) and first_close_pair(corners, spans, bounds, poses, pairs[likely : likely + 1], 0, margin) == 0:
         return likely
@@ -92,7 +92,7 @@ def _close_pair(
 
 @njit(cache=True, nogil=True)
 def _placed(shape: ArmShape, lift_m: float, bounds: FloatArray, postures: FloatArray, side: float) -> FloatArray:
-    """Where an arm's parts are in each of some postures, shape (n, EACH, 5, 3)."""
+    """Return the poses of an arm's parts in the given postures, shape (n, EACH, 5, 3)."""
     poses = np.empty((len(postures), EACH, 5, 3))
     for i in range(len(postures)):
         pose_arm(shape, lift_m, postures[i], side, poses[i])

@@ -1,4 +1,4 @@
-"""All that is known of the PR2's parts before it is asked where they are."""
+"""The PR2's parts with everything about them that does not depend on the posture."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,12 +23,12 @@ class RobotParts:
     """The PR2's parts: the left arm's, then the right arm's, then the body's.
 
     Attributes:
-        arm: lengths of the left arm.
-        names: what people call each part.
-        hulls: for each of `OPENINGS_M` the parts' shapes, those of the right arm as the left one has them.
-        convexes: the same as coal's shapes, those of the right arm mirrored.
-        body_poses: rotations and, in their last row, places (m) of the body's parts in the base frame, the torso
-            down, shape (b, 4, 3).
+        arm: lengths and limits of the left arm.
+        names: the name of each part for people.
+        hulls: for each of `OPENINGS_M` the parts' shapes, those of the right arm as the left arm's.
+        convexes: the same shapes for coal, those of the right arm mirrored.
+        body_poses: rotations and, in their last row, positions (m) of the body's parts in the base frame, with the
+            torso down, shape (b, 4, 3).
     """
 
     arm: ArmShape
@@ -39,12 +39,12 @@ class RobotParts:
 
 
 def robot_parts(model: pin.Model, card: RobotCard, cache: Path | None = None) -> RobotParts:
-    """The parts of the PR2 (15 ms; a second when the cache has no shapes yet).
+    """Return the parts of the PR2 (15 ms; a second when the cache has no shapes yet).
 
     Args:
         model: its kinematic tree.
-        card: what else is known of it: where head and laser rest, how fingers open.
-        cache: a directory; None: the platform's place for caches.
+        card: the robot's card, with the rest pose of head and laser and the kinematics of the fingers.
+        cache: the cache directory; None: the platform's own.
     """
     shapes = part_shapes(model, card.arms[0].gripper, cache)
     left, right = {}, {}
@@ -66,12 +66,12 @@ def _fingers(opening_m: float) -> tuple[str, ...]:
 
 
 def compiled_parts(robot: RobotParts, level: int, clouds: Sequence[FloatArray] = ()) -> Parts:
-    """The robot's parts, and the hulls of some clouds of points, as the compiled pass wants them.
+    """Return the robot's parts, and the hulls of point clouds, in the form of the compiled pass.
 
     Args:
-        robot: its parts.
-        level: which of `OPENINGS_M` the fingers are open to.
-        clouds: the points of each hull, which come last, shape (n, 3), m.
+        robot: the robot's parts.
+        level: the index in `OPENINGS_M` of the fingers' opening.
+        clouds: the points of each hull, shape (n, 3), m; these hulls come last.
     """
     parts = _compiled_robot(robot, level)
     if not clouds:

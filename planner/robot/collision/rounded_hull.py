@@ -1,9 +1,9 @@
 """A convex body of few corners that contains a cloud of points.
 
-The convex hull of a mesh has a hundred corners and more, and whoever asks a convex body how far it reaches in a
-direction looks at all of them. Leaving corners out would cut into the mesh. So some are left out and the body is made
-rounder by the distance of the furthest one left out: everything within that radius of the hull of the corners kept
-is inside. Two such bodies are apart where the hulls of their corners are further apart than both radii together.
+The convex hull of a mesh has a hundred corners and more, and every support query visits all of them. Leaving out
+corners would cut into the mesh. So some corners are left out and the body is rounded by the distance of the furthest
+one left out: the points within that radius of the reduced hull contain the mesh. Two such bodies are apart where their
+hulls are further apart than the sum of both radii.
 """
 
 from collections.abc import Iterator
@@ -33,8 +33,8 @@ class RoundedHull:
 
     Attributes:
         corners: shape (n, 3), m.
-        faces: three corners for each triangle of the hull, counter-clockwise from outside, shape (m, 3).
-        radius_m: how far the body reaches beyond the hull (m).
+        faces: the corner indices of each triangle of the hull, counter-clockwise from outside, shape (m, 3).
+        radius_m: how far the body extends beyond the hull (m).
     """
 
     corners: FloatArray
@@ -42,7 +42,7 @@ class RoundedHull:
     radius_m: float
 
     def __post_init__(self) -> None:
-        """Refuse what is no such body; raises `ValueError`."""
+        """Validate the corners, the faces and the radius; raise `ValueError` where they are no such body."""
         if self.corners.ndim != 2 or self.corners.shape[1:] != (3,) or self.faces.shape[1:] != (3,):
             raise ValueError(f"corners of shape {self.corners.shape} and faces of {self.faces.shape} make no hull")
         if len(self.faces) < 4 or self.faces.min() < 0 or self.faces.max() >= len(self.corners):
@@ -51,7 +51,7 @@ class RoundedHull:
             raise ValueError(f"{self.radius_m} m is no radius")
 
     def convex(self) -> coal.Convex:
-        """The hull of the corners as coal's ``Convex``, without the rounding."""
+        """Return the hull of the corners as coal's ``Convex``, without the rounding."""
         points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
         for corner in self.corners:
             points.append(corner)
@@ -60,12 +60,12 @@ class RoundedHull:
         return coal.Convex(points, triangles)
 
     def mirrored(self) -> "RoundedHull":
-        """Its mirror image in y."""
+        """Return the mirror image in y."""
         return RoundedHull(self.corners * _MIRROR, self.faces[:, ::-1].copy(), self.radius_m)
 
 
 def prism(base: FloatArray, height_m: float) -> RoundedHull:
-    """What stands over a convex polygon, shape (n, 2), counter-clockwise, from z = 0 to a height (m)."""
+    """Return the prism over a convex polygon, shape (n, 2), counter-clockwise, from z = 0 to a height (m)."""
     count = len(base)
     corners = np.vstack([np.column_stack([base, np.full(count, z)]) for z in (0.0, height_m)])
     caps = [face for i, j, k in _strip(count) for face in ((i, k, j), (count + i, count + j, count + k))]
@@ -77,10 +77,10 @@ def prism(base: FloatArray, height_m: float) -> RoundedHull:
 
 
 def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = False) -> RoundedHull:
-    """A body round points, shape (n, 3), that do not all lie in one plane (m).
+    """Return a body that contains points, shape (n, 3), that do not all lie in one plane (m).
 
-    Corners are taken up one by one, always the point that stands out furthest from the hull of those before,
-    until none stands out further than `radius_max_m` (m). The body is symmetric in y if asked to be, points or not.
+    Corners are added one by one, always the point that is furthest outside the hull of those before, until none is
+    further out than `radius_max_m` (m). With `is_symmetric` the body is symmetric in y, even if the points are not.
     """
     points = points[_qhull(points).vertices]
     kept = points[np.argmax(points @ _DIRECTIONS.T, axis=0)]
@@ -94,7 +94,7 @@ def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = F
 
 
 def _exact_hull(points: FloatArray) -> RoundedHull:
-    """The convex hull of points, not rounded."""
+    """Return the convex hull of points, not rounded."""
     points = np.unique(points, axis=0)
     found = _qhull(points)
     number = np.full(len(points), -1)
@@ -108,7 +108,7 @@ def _exact_hull(points: FloatArray) -> RoundedHull:
 
 
 def _distances(points: FloatArray, hull: RoundedHull) -> FloatArray:
-    """How far each point is from a hull (m), 0 inside."""
+    """Return how far each point is from a hull (m), 0 inside."""
     convex, point = hull.convex(), coal.Sphere(0.0)
     request, here = coal.DistanceRequest(), coal.Transform3s.Identity()
     found = np.zeros(len(points))
@@ -125,7 +125,7 @@ def _qhull(points: FloatArray) -> "ConvexHull":
 
 
 def _strip(count: int) -> Iterator[tuple[int, int, int]]:
-    """Yield the triangles of a convex polygon of so many corners, counter-clockwise, as a strip from side to side.
+    """Yield the triangles of a convex polygon with a number of corners, counter-clockwise, as a zigzag strip.
 
     In a fan one corner would be the neighbour of all others, and coal takes no more than 255 neighbours.
     """

@@ -1,16 +1,16 @@
-"""Which pairs of convex parts are certainly apart? Compiled, for many postures at once.
+"""Tests for which pairs of convex parts are certainly apart: compiled, for many postures at once.
 
-Nearly all pairs are far apart in nearly all postures, and to be asked one by one costs far more than to be computed.
-So this finds, for every posture, the first pair that is *not* certainly apart; only those are put to the exact
+Nearly all pairs are far apart in nearly all postures, and passing them to coal one by one costs far more than testing
+them here. So this finds, for every posture, the first pair that is *not* certainly apart; only those go to the exact
 algorithm. A pair is certainly apart if
 
 - the sphere round one does not reach the box round the other, or
-- some plane has one on this side and the other on that (`planner.robot.collision.plane`).
+- a plane separates the two (`planner.robot.collision.plane`).
 
-Postures mostly follow one another along a path. So it is remembered by how much a pair was apart, and until its two
-parts have gone as far, it is not looked at again.
+Postures mostly follow one another along a path. The distance of each pair is therefore remembered, and the pair is
+skipped until its parts have moved as far.
 
-Arrays are handed on one by one: to take them out of a tuple in the inner loop costs more than the loop does.
+Arrays are passed one by one: taking them out of a tuple in the inner loop costs more than the loop does.
 """
 
 import math
@@ -25,17 +25,17 @@ from planner.robot.collision.part_poses import EACH, MIDDLE, Index, pose_arm, po
 from planner.robot.collision.plane import room_at_plane
 
 HALF, RADIUS, ROUNDING = 3, 6, 7
-"""Columns of bounds: after the bounding box's middle, half its extents, the sphere's radius, the rounding (m)."""
+"""Columns of bounds, after the bounding box's centre: half its extents, the sphere's radius, the rounding (m)."""
 
 
 class Parts(NamedTuple):
     """All parts: those of the arms first, left before right, then those that stand still while arms move.
 
     Attributes:
-        corners: of all hulls, each in its part's frame (m), shape (c, 3).
+        corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
         spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
-        bounds: of each part its bounding box's middle, in its frame, half the box's extents, the radius of the
-            sphere about that middle which holds the part, and how far it reaches beyond its hull (m), shape (p, 8).
+        bounds: for each part its bounding box's centre, in its frame, half the box's extents, the radius of the sphere
+            about that centre that contains the part, and the part's rounding beyond its hull (m), shape (p, 8).
     """
 
     corners: FloatArray
@@ -45,7 +45,7 @@ class Parts(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[float, float, float]:
-    """The way from the box round part b to the middle of part a (m); zero if that is inside."""
+    """Return the way from the box round part b to the centre of part a (m); zero if that is inside."""
     dx = poses[a, MIDDLE, 0] - poses[b, MIDDLE, 0]
     dy = poses[a, MIDDLE, 1] - poses[b, MIDDLE, 1]
     dz = poses[a, MIDDLE, 2] - poses[b, MIDDLE, 2]
@@ -64,7 +64,7 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
-    """By how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
+    """Return by how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
     wx, wy, wz = _towards(bounds, poses, a, b)
     room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
     if room > 0.0:
@@ -76,7 +76,7 @@ def _room_between(
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
     room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
     if room < 0.0 and a < EACH <= b < 2 * EACH:
-        # From which of two arms a plane is found may be chance; a mirror image has to have the same answer.
+        # Which of two arms finds a plane may be chance; a mirror image must give the same answer.
         room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
     return room
 
@@ -85,7 +85,7 @@ def _room_between(
 def first_close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
 ) -> int:
-    """The first pair, from one on, that is not certainly apart by a margin (m); -1 if all are."""
+    """Return the first pair, from a start, that is not certainly apart by a margin (m); -1 if all are."""
     for pair in range(start, len(pairs)):
         if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
             return pair
@@ -94,10 +94,10 @@ def first_close_pair(
 
 @njit(cache=True, nogil=True)
 def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
-    """Add to how far any point of each part has gone (m) what it goes from a pose to the next; remember that.
+    """Add to the distances (m) that any point of each part has moved those since the last pose, and keep the pose.
 
-    The middle goes its way, and what is round it no further than the radius times how far the rotation's matrix turns
-    a vector: its Frobenius norm over the square root of two, for the difference of two rotations.
+    The bound adds the centre's displacement and the radius times the most by which the rotations' difference can
+    stretch a vector: its Frobenius norm over the square root of two.
     """
     for part in range(len(poses)):
         turned = moved = 0.0
@@ -126,20 +126,22 @@ def first_close(
     start: Index,
     margins: FloatArray,
 ) -> tuple[Index, FloatArray]:
-    """For every posture the first pair that is not certainly apart, from a given one on.
+    """Return for every posture the first pair, from a start, that is not certainly apart.
 
     Args:
         shape: the left arm.
         lift_m: how far the torso is raised (m).
         parts: all parts.
-        poses: those of the body are set, shape (p, 5, 3); those of arms and table become the last posture's.
+        poses: the poses of all parts, shape (p, 5, 3); the body's are given, the arms' and table's are overwritten and
+            end as those of the last posture.
         pairs: numbers of the parts to be compared, shape (q, 2).
-        joints: of each posture, the joints of each arm that is looked at (rad), shape (n, k, 7).
+        joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
         arms: those arms, 0 for the left and 1 for the right, shape (k,).
-        bases: where the base stands: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
-        tables: the places of the table's parts, which come last, in the table frame but from the floor (m), (t, 3).
+        bases: the base poses: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
+        tables: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
+            shape (t, 3).
         start: the pair with which to start, shape (n,).
-        margins: how far apart each pair should be (m), shape (q,).
+        margins: the distance that each pair should keep (m), shape (q,).
 
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
