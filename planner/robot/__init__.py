@@ -1,1 +1,1 @@
-"""The robot: its card, which poses its tools can take, and the joints that take them there."""
+"""The robot: its card, the poses its tools can take, and the joints that take them there."""

@@ -1,4 +1,4 @@
-"""An aim: where the wrist must be and which way the tool points; and what rules one out at no cost.
+"""Tool poses, given by the wrist's position and the approach axis, with cheap tests that rule them out.
 
 Everything is seen from the left arm's shoulder (m), parallel to the base, as in `planner.robot.kernel`.
 """
@@ -12,7 +12,7 @@ from planner.robot.arm import ArmShape
 
 
 class ToolPose(NamedTuple):
-    """Where the wrist's centre must be (m) and the unit vector along which the tool points."""
+    """A tool pose: the position of the wrist's centre (m) and the unit vector along which the tool points."""
 
     x: float
     y: float
@@ -24,13 +24,13 @@ class ToolPose(NamedTuple):
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def aim_at(shape: ArmShape, x: float, y: float, z: float, ax: float, ay: float, az: float) -> ToolPose:
-    """The aim that brings the tool to (x, y, z) along the axis (ax, ay, az)."""
+    """Return the tool pose that brings the tool to (x, y, z) along the axis (ax, ay, az)."""
     return ToolPose(x - shape.tool * ax, y - shape.tool * ay, z - shape.tool * az, ax, ay, az)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def beside(aim: ToolPose, radius: float, number: int) -> ToolPose:
-    """The aim itself (0), or one beside it on a circle: ahead, back, left or right (1 to 4)."""
+    """Return the tool pose itself (0), or one beside it on a circle: ahead, back, left or right (1 to 4)."""
     dx = radius if number == 1 else -radius if number == 2 else 0.0
     dy = radius if number == 3 else -radius if number == 4 else 0.0
     return ToolPose(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az)
@@ -38,7 +38,7 @@ def beside(aim: ToolPose, radius: float, number: int) -> ToolPose:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def is_within_length(shape: ArmShape, aim: ToolPose) -> bool:
-    """Whether the wrist is no further from the lift axis than the arm is long; limits aside."""
+    """Return whether the wrist is no further from the lift axis than the arm is long, ignoring joint limits."""
     outward = math.hypot(aim.x, aim.y) - shape.offset
     length = shape.upper + shape.fore
     return outward * outward + aim.z * aim.z <= length * length
@@ -46,7 +46,7 @@ def is_within_length(shape: ArmShape, aim: ToolPose) -> bool:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def is_within_height(shape: ArmShape, aim: ToolPose) -> bool:
-    """Whether the wrist is no higher than the forearm could stick up from the highest elbow, and no lower; roughly."""
+    """Return whether the wrist's height is within what elbow and forearm allow; an approximate test."""
     highest = shape.fore - shape.upper * shape.lift.sin_low
     lowest = -shape.fore - shape.upper * shape.lift.sin_high
     return lowest <= aim.z <= highest

@@ -1,15 +1,13 @@
 """The lengths and limits of an arm, read from the URDF.
 
-Both arms of a PR2 are one arm and its mirror image (y to -y). Everything is computed for the left
-one; a question to the right arm is mirrored, asked of the left, and the answer mirrored back. What
-is read here is checked for that symmetry, and for the layout on which the closed form rests: the
-seven axes z y x y x y x, every link lying along x.
+The arms of a PR2 are mirror images of each other (y to -y). Everything is computed for the left arm: a query for the
+right arm is mirrored, answered for the left arm, and the answer mirrored back. Reading checks this symmetry, and the
+layout that the closed form requires: the seven axes z y x y x y x, with every link along x.
 
-Limits are the URDF's `lower` and `upper`: what lies within them counts as reachable. (The softer
-limits of its safety controllers are where a real controller starts to slow an arm down.) This is
-the one place where they are chosen.
+Limits are the URDF's `lower` and `upper`: joints within them count as reachable. (The softer limits of its safety
+controllers are where a real controller starts to slow an arm down.) No other place chooses them.
 
-Shapes are named tuples of numbers because that is what compiled kernels take as arguments.
+Shapes are named tuples of numbers because compiled kernels take those as arguments.
 """
 
 import math
@@ -34,7 +32,7 @@ JOINTS = (
 """The joints of an arm from the shoulder outwards, without the side's prefix."""
 
 MIRROR = np.array([-1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-"""What mirroring does to the seven joint angles: z and x axes turn the other way round."""
+"""Factors that mirror the seven joint angles: z and x axes turn the other way round."""
 
 _AXES = ("RZ", "RY", "RX", "RY", "RUBX", "RY", "RUBX")
 _LIFT = "torso_lift_joint"
@@ -52,10 +50,10 @@ class Sector(NamedTuple):
 
 
 class ArmShape(NamedTuple):
-    """The left arm: where its shoulder is, its lengths (m), its limits.
+    """The left arm: the position of its shoulder, its lengths (m), its limits.
 
-    The shoulder is the point of the pan axis at the height of the lift axis, in the base frame with
-    the torso down. `offset` leads from there to the lift axis, `tool` from wrist to tool frame.
+    The shoulder is the point of the pan axis at the height of the lift axis, in the base frame with the torso down.
+    `offset` leads from there to the lift axis, `tool` from wrist to tool frame.
     """
 
     shoulder_x: float
@@ -73,7 +71,7 @@ class ArmShape(NamedTuple):
 
 
 def read_arm(model: pin.Model) -> ArmShape:
-    """The left arm of a model; raises `FoldingError` where the closed form would not hold."""
+    """Return the left arm of a model; raise `FoldingError` where the closed form would not hold."""
     left, right = _read_side(model, "l"), _read_side(model, "r")
     if not np.allclose(numbers_of(left), numbers_of(_mirrored(right)), rtol=0.0, atol=ANGLE_RAD):
         raise FoldingError("the robot's arms are not mirror images of each other")
@@ -101,7 +99,7 @@ def _shoulder(model: pin.Model, joint: int) -> FloatArray:
 
 
 def _length(placement: pin.SE3) -> float:
-    """How far a link leads along x (m)."""
+    """Return the length of a link along x (m)."""
     along_x = pin.SE3(np.eye(3), np.array([placement.translation[0], 0.0, 0.0]))
     if not placement.isApprox(along_x, ANGLE_RAD):
         raise FoldingError(f"a link of the arm does not lie along x but leads to {placement.translation}")
@@ -114,7 +112,7 @@ def _limits(model: pin.Model, joint: int) -> Sector:
 
 
 def sector(low: float, high: float) -> Sector:
-    """The sector between two angles (rad)."""
+    """Return the sector between two angles (rad)."""
     return Sector(low, high, math.cos(low), math.sin(low), math.cos(high), math.sin(high))
 
 
@@ -127,5 +125,5 @@ def _mirrored(shape: ArmShape) -> ArmShape:
 
 
 def numbers_of(shape: ArmShape) -> FloatArray:
-    """All lengths and limits of an arm, one after the other, shape (37,)."""
+    """Return all lengths and limits of an arm as one array, shape (37,)."""
     return np.hstack(tuple(shape))

@@ -1,9 +1,9 @@
-"""At least how far is an aim from what the arm can take? A lower bound in closed form, compiled.
+"""A lower bound in closed form on how far a tool pose is from the arm's reach, compiled.
 
-Let go of every limit but two: the shoulder's lift keeps its own, and the bones keep their lengths. The pan may then
-turn the arm's plane through the wrist, and in that plane, (outward from the pan axis, upward), the elbow is somewhere
-on an arc of radius `upper` round the lift axis, and the wrist within `fore` of the elbow. So a wrist at distance d from
-the arc is out of reach by d - `fore` at least, and no displacement shorter than that is any use.
+The bound relaxes every limit but two: the shoulder's lift keeps its own, and the links keep their lengths. The pan may
+then turn the arm's plane through the wrist. In that plane (outward from the pan axis, upward) the elbow is on an arc of
+radius `upper` round the lift axis, and the wrist within `fore` of the elbow. So a wrist at distance d from the arc is
+out of reach by at least d - `fore`, and no shorter displacement brings it into reach.
 
 Points are seen from the left arm's shoulder (m), parallel to the base.
 """
@@ -20,7 +20,7 @@ from planner.robot.arm import ArmShape
 
 @njit(cache=True, nogil=True)
 def gap(shape: ArmShape, x: float, y: float, z: float) -> float:
-    """How far a wrist is out of reach at least (m); 0 or less where nothing speaks against it so far.
+    """Return the least distance by which a wrist is out of reach (m); 0 or less where the bound excludes nothing.
 
     The lift's limits must be less than half a turn apart.
     """
@@ -37,7 +37,7 @@ def gap(shape: ArmShape, x: float, y: float, z: float) -> float:
 
 @njit(cache=True, nogil=True)
 def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
-    """The same for an aim and four on the circle of radius `comfort` round it: the worst of them decides."""
+    """Return the largest gap of a tool pose and the four on the circle of radius `comfort` round it (m)."""
     worst = gap(shape, aim.x, aim.y, aim.z)
     if comfort > 0.0:
         for dx, dy in ((comfort, 0.0), (-comfort, 0.0), (0.0, comfort), (0.0, -comfort)):
@@ -49,15 +49,17 @@ def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
 def least_gaps(
     shape: ArmShape, ways: FloatArray, axes: FloatArray, back_offs: int, step: float, comfort: float
 ) -> FloatArray:
-    """For each way how far its worst point is out of comfort at least in the best approach (m), shape (n,).
+    """Return for each way a lower bound on how far its worst point is from reach with margin (m), shape (n,).
+
+    The best approach counts.
 
     Args:
         shape: the arm.
-        ways: tool points at back-off 0, those of a way to be had in one approach, shape (n, p, 3).
+        ways: tool points at standoff 0, all to be reached in one approach for each way, shape (n, p, 3).
         axes: approach axes, shape (k, 3).
-        back_offs: how many there are; for each point the best of them counts.
-        step: from one back-off to the next (m): the points move along x by it.
-        comfort: radius of the comfort circle (m).
+        back_offs: the number of standoffs; for each point the best of them counts.
+        step: the distance between standoffs (m), by which the points move along x.
+        comfort: the comfort radius (m).
     """
     gaps = np.empty(len(ways))
     for i in range(len(ways)):
@@ -76,7 +78,7 @@ def least_gaps(
 def _least_gap(
     shape: ArmShape, point: FloatArray, axis: FloatArray, back_offs: int, step: float, comfort: float
 ) -> float:
-    """How far a point is out of comfort at least in an approach from the best back-off (m)."""
+    """Return a lower bound on a point's gap (m) in one approach from the best standoff."""
     least = math.inf
     for back_off in range(back_offs):
         aim = aim_at(shape, point[0] + back_off * step, point[1], point[2], axis[0], axis[1], axis[2])

@@ -1,9 +1,8 @@
 """Joints for two arms whose tools follow a path each: continuous, within limits, free of collision.
 
-Each arm is led by itself first (`planner.robot.arm_path`). Where the two come into each other's way they are led
-together: by the dynamic programme of `planner.robot.joint_chain_pair`, which knows at first of no pair of samples that
-they touch. The pairs are asked where the chains found touch, all of a pose at once, but of a few poses first, and the
-chains are found anew.
+Each arm's path is first found on its own (`planner.robot.arm_path`). Where the arms collide,
+`planner.robot.joint_chain_pair` searches for both at once. It starts by allowing every pair of samples; where the
+chains found collide, the pairs of those poses are checked, at a few of the poses first, and the search is repeated.
 """
 
 from typing import Protocol
@@ -19,18 +18,18 @@ from planner.robot.tool_path import NoPath
 _TRIES_MAX = 24
 
 _ASKED_OF = (4, 2, 1)
-"""Of the poses to be asked every so many are asked first, those between them if that changes nothing."""
+"""Strides over the poses to be checked: few are checked first, the others only if that changes nothing."""
 
 
 class BothArms(Protocol):
-    """What knows whether the arms are in each other's way."""
+    """A check of whether the arms collide with each other."""
 
     def arms_apart(self, joints: FloatArray) -> BoolArray:
-        """In which postures, shape (m, 2, 7), no arm touches the other; shape (m,)."""
+        """Return in which postures, shape (m, 2, 7), the arms do not touch, shape (m,)."""
         ...
 
     def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """Which postures of the left arm, (k, 7), certainly touch none of which of the right, (l, 7); shape (k, l).
+        """Return which postures of the left arm, (k, 7), are certainly clear of which of the right, (l, 7): (k, l).
 
         In all postures of an arm its tool is in the same pose.
         """
@@ -38,12 +37,12 @@ class BothArms(Protocol):
 
 
 def arm_pair_path(left: ArmSearch, right: ArmSearch, both_arms: BothArms) -> FloatArray | NoPath:
-    """The calmest joints that keep both tools on their paths, each as long as the other.
+    """Return the calmest joints that keep both tools on their paths, which have equally many poses.
 
     Args:
         left: the search for the left arm's path.
-        right: that for the right arm's.
-        both_arms: knows whether the arms are in each other's way.
+        right: the search for the right arm's path.
+        both_arms: the check of whether the arms collide with each other.
 
     Returns:
         Joints (rad), shape (n, 2, 7), forearm and wrist roll unwound; or that there are none.
@@ -57,7 +56,7 @@ def arm_pair_path(left: ArmSearch, right: ArmSearch, both_arms: BothArms) -> Flo
 
 
 class _PairSearch:
-    """The search for the paths of two arms that are in each other's way."""
+    """The search for the paths of two arms that collide on their separate paths."""
 
     def __init__(self, arms: tuple[ArmSearch, ArmSearch], both_arms: BothArms) -> None:
         self._arms = arms
@@ -86,14 +85,14 @@ class _PairSearch:
         return self._none()
 
     def _chains(self, part: slice) -> NDArray[np.int64]:
-        """The cheapest chains through a part of the links."""
+        """Return the cheapest chains through a part of the links."""
         samples = np.ascontiguousarray(self._samples[:, part])
         costs = np.stack([arm.costs[part] for arm in self._arms])
         spans = np.ascontiguousarray(self._spans[:, part][:, : costs.shape[1] - 1])
         return cheapest_chain_pair(samples, costs, self._is_allowed[part], self._speeds, spans)
 
     def _followed(self, guides: list[FloatArray]) -> tuple[FloatArray, NDArray[np.int64]]:
-        """Both arms' joints along the whole path, shape (n, 2, 7), and the poses at which they will not do."""
+        """Return both arms' joints along the whole path, shape (n, 2, 7), and the poses at which they are not valid."""
         pairs = list(zip(self._arms, guides, strict=True))
         at_links = np.stack([arm.joints(guide) for arm, guide in pairs], axis=1)
         are_free = np.all([arm.are_free(guide) for arm, guide in pairs], axis=0)
@@ -104,9 +103,9 @@ class _PairSearch:
         return both, np.concatenate(bad) if any(map(len, bad)) else np.flatnonzero(~self._both_arms.arms_apart(both))
 
     def _strike(self, chains: NDArray[np.int64], bad: NDArray[np.int64]) -> bool:
-        """Ask the pairs beside bad poses until some that were taken touch; false once no pair is left somewhere.
+        """Check the pairs beside invalid poses until a chosen pair is rejected; return false if a link has none left.
 
-        Where none of those that were taken touches they are dropped.
+        Where every chosen pair passes the checks, reject them all the same, so that the search moves on.
         """
         beside = links_beside(self._links, bad)
         taken = (beside, chains[0, beside], chains[1, beside])
@@ -120,7 +119,7 @@ class _PairSearch:
         return True
 
     def _ask(self, link: int) -> bool:
-        """Ask all pairs of samples at a link, once; whether there is one that does not touch."""
+        """Check all pairs of samples at a link, once; return whether a pair is collision-free."""
         if not self._is_asked[link]:
             self._is_asked[link] = True
             (rows, left), (columns, right) = (arm.able(link) for arm in self._arms)
@@ -130,7 +129,7 @@ class _PairSearch:
         return bool(self._is_allowed[link].any())
 
     def _smoothed(self, guides: list[FloatArray], joints: FloatArray) -> FloatArray:
-        """The same paths with the pans' corners rounded, where that keeps the arms apart."""
+        """Return the paths with the pans' corners rounded, or unchanged where that makes the arms collide."""
         each = [
             arm.smoothed(guide, joints[:, k]) for k, (arm, guide) in enumerate(zip(self._arms, guides, strict=True))
         ]

@@ -1,9 +1,9 @@
 """Joints for an arm whose tool follows a path: continuous, within limits, free of collision.
 
-The dynamic programme of `planner.robot.joint_chain` runs on every few poses of the path. Whether a sample collides is
-asked only where the chain found does: the samples of those poses are then asked, the colliding ones struck out, and the
-chain is found anew, until it is free or none is left. Between its poses the joints keep to the pan of the chain,
-smoothed, and follow in closed form, so the tool is exactly where it must be at every pose.
+The dynamic programme of `planner.robot.joint_chain` runs on every few poses of the path. Collisions are checked lazily:
+only where the chain found collides are all samples of those poses checked, the colliding ones rejected, and the chain
+is searched again, until it is free or no chain is left. Between its poses the joints keep to the smoothed pan of the
+chain and follow in closed form, so the tool is exactly on its path at every pose.
 """
 
 import numpy as np
@@ -15,13 +15,13 @@ from planner.robot.sided_arm import SidedArm
 from planner.robot.tool_path import IsFree, NoPath, ToolPath, joints_along
 
 STRIDE = 3
-"""Every so many poses the chain has a link."""
+"""Poses of the path for each link of the chain."""
 
 _SMOOTHINGS = 6
 _TRIES_MAX = 16
 
 _ASKED_OF = {1: 3, 2: 1}
-"""At these tries the samples of every so many links are asked: whether there is no way at all soon shows in a few."""
+"""By try, the stride over the links whose samples are checked: a few links soon show that there is no path."""
 
 
 class ArmSearch:
@@ -29,27 +29,27 @@ class ArmSearch:
 
     Attributes:
         links: the poses at which the chain has a link, shape (l,).
-        samples: joints that bring the tool there, as the left arm names them (rad), shape (l, m, 7).
-        costs: what each costs, shape (l, m); infinite where there is none, and where one has been struck out.
-        speeds: how fast the joints turn (rad/s), shape (7,).
-        spans: how long each link should take at most (s), shape (l - 1,).
+        samples: joints that bring the tool there, as the left arm's (rad), shape (l, m, 7).
+        costs: the samples' costs, shape (l, m); infinite where there is no sample or it was rejected.
+        speeds: the joints' top speeds (rad/s), shape (7,).
+        spans: the longest duration wanted for each link (s), shape (l - 1,).
         core: the first of the poses that matter, and the one after their last.
-        chain: the sample taken at each link, shape (l,); the cheapest chain of those not struck out.
-        has_dropped: whether samples were struck out that do not collide, since no path could be made of them.
+        chain: the sample taken at each link, shape (l,); the cheapest chain of those not rejected.
+        has_dropped: whether collision-free samples were rejected because no path could be made of them.
     """
 
     def __init__(
         self, arm: SidedArm, speeds: FloatArray, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree
     ) -> None:
-        """Nothing has been looked for yet.
+        """Prepare the search.
 
         Args:
             arm: the arm.
-            speeds: how fast its joints turn (rad/s), shape (7,).
-            path: where the tool must be.
+            speeds: the joints' top speeds (rad/s), shape (7,).
+            path: the tool's path.
             torso_m: how far the torso is raised (m).
-            floor_m: the height over which elbows had better stay, base frame (m).
-            is_free: which joints do not collide.
+            floor_m: the height over which elbows should preferably stay, base frame (m).
+            is_free: the check of which joints are collision-free.
         """
         self._arm = arm
         self._is_free = is_free
@@ -68,7 +68,7 @@ class ArmSearch:
         self.has_dropped = False
 
     def found(self) -> FloatArray | NoPath:
-        """The calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
+        """Return the calmest joints that keep the tool on the path (rad), shape (n, 7), or that there are none.
 
         Forearm and wrist roll are unwound.
         """
@@ -88,28 +88,28 @@ class ArmSearch:
         return self._none()
 
     def guides(self, chain: NDArray[np.int64]) -> FloatArray:
-        """The chain's joints, continuous ones unwound, shape (l, 7)."""
+        """Return the chain's joints, continuous ones unwound, shape (l, 7)."""
         guides = self.samples[np.arange(len(chain)), chain]
         for joint in (4, 6):
             guides[:, joint] = np.unwrap(guides[:, joint])
         return guides
 
     def are_free(self, guides: FloatArray) -> BoolArray:
-        """At which links the arm does not collide, shape (l,)."""
+        """Return at which links the arm does not collide, shape (l,)."""
         return self._is_free(self.links, self.joints(guides), False)
 
     def joints(self, guides: FloatArray) -> FloatArray:
-        """Guides as this arm names its joints, shape (l, 7)."""
+        """Return guides as this arm's joints, shape (l, 7)."""
         return self._arm.mirrored_joints(guides)
 
     def followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
-        """The joints along the whole path, shape (n, 7), and the poses at which they will not do."""
+        """Return the joints along the whole path, shape (n, 7), and the poses at which they are not valid."""
         everywhere = np.arange(len(self._positions))
         between = np.column_stack([np.interp(everywhere, self.links, column) for column in guides.T])
         return joints_along(self._arm, self._positions, self._rotations, between, self._is_free)
 
     def smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
-        """The same path with the pan's corners rounded, as far as that keeps it possible."""
+        """Return the path with the pan's corners rounded, or unchanged where that makes it invalid."""
         calmer = guides.copy()
         for _ in range(_SMOOTHINGS):
             calmer[1:-1] = 0.25 * calmer[:-2] + 0.5 * calmer[1:-1] + 0.25 * calmer[2:]
@@ -117,7 +117,7 @@ class ArmSearch:
         return joints if len(bad) else smooth
 
     def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
-        """The samples at a link that certainly do not collide: which they are, shape (k,), and their joints (k, 7)."""
+        """Return the samples at a link that certainly do not collide: their indices, shape (k,), and joints, (k, 7)."""
         self._ask(np.array([link])[~self._is_asked[[link]]])
         which = np.flatnonzero(np.isfinite(self.costs[link]))
         return which, self._arm.mirrored_joints(self.samples[link, which])
@@ -130,9 +130,10 @@ class ArmSearch:
         return NoPath(blocked, is_core=not (len(chain) or self.has_dropped))
 
     def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:
-        """Ask all samples beside bad poses, at some tries more; where nothing collides drop the ones that were taken.
+        """Check all samples beside invalid poses, at some tries more of them, and reject those that collide.
 
-        Whether there is no way at all shows in a few links mostly, so some are asked before the others.
+        Where none of the chain's samples collides, reject the chain's, so that the search moves on. A lack of any path
+        mostly shows at a few links, so some links are checked before the others.
         """
         beside = links_beside(self.links, bad)
         everywhere = np.arange(len(chain))
@@ -154,10 +155,10 @@ class ArmSearch:
 
 
 def links_inside(links: NDArray[np.int64], core: tuple[int, int]) -> NDArray[np.int64]:
-    """Of the poses that are links, the numbers of those from one pose on and before another."""
+    """Return the indices of the links from the core's first pose to before its end."""
     return np.flatnonzero((links >= core[0]) & (links < core[1]))
 
 
 def links_beside(links: NDArray[np.int64], poses: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Of the poses that are links, the numbers of those next to some poses."""
+    """Return the indices of the links next to the given poses."""
     return np.unique(np.clip(np.searchsorted(links, poses)[:, None] - [0, 1], 0, None))

@@ -1,13 +1,13 @@
-"""From which back-offs is a tool comfortable at each of many points? The search's questions, compiled.
+"""The standoffs from which a tool is within reach with margin at each of many points: the search's queries, compiled.
 
-Asked naively this is points x approaches x back-offs x five comfort points of exact queries, and a search
-asks again and again. Besides the memory (see `planner.robot.comfort`) two things make it cheap:
+The naive way takes points x approaches x standoffs x five points of exact queries, and a search repeats them again and
+again. Besides the memory (see `planner.robot.comfort`) two things make it cheap:
 
-- *Dying early.* A path is followed in one orientation, so an approach is dropped at the first point that
-  can be had from no back-off. A path's end and middle are asked first: they are the likeliest to fail.
-- *Centre first.* The comfort points are asked only where the point itself is reachable.
+- *Early rejection.* A path is followed in one orientation, so an approach is dropped at the first point that no
+  standoff reaches. A path's end and middle are tested first: they are the likeliest to fail.
+- *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
 
-A call is as cheap as its arguments: an arm comes as one array of numbers (see `planner.robot.kernel.shape_of`).
+Arguments dominate the cost of a call, so an arm comes as one array of numbers (see `planner.robot.kernel.shape_of`).
 """
 
 import numpy as np
@@ -37,7 +37,7 @@ from planner.robot.posture_room import Room
 
 @njit(cache=True, nogil=True)
 def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, count: int) -> bool:
-    """Whether a place can be had from no back-off at all."""
+    """Return whether no standoff reaches a place."""
     if not is_within_height(ask.shape, aim_from(ask, place, 0)):
         return True
     slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
@@ -56,9 +56,9 @@ def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray
 def _arrivals(
     ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, before: int, count: int
 ) -> int:
-    """The back-offs at which the base may be at a place, having come from some at the place before.
+    """Return the standoffs at which the base may be at a place, having come from some at the place before.
 
-    Those it came from that reach the place too, and those to which it can drive on from there.
+    These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
     """
     mask, slot = 0, row_slot(ask, memory.keys, memory.counts, place)
     for back_off in range(count):
@@ -87,21 +87,21 @@ def back_off_masks(
     before: int,
     room: Room,
 ) -> NDArray[np.uint32]:
-    """For each approach and point the back-offs from which the tool is there in comfort.
+    """Return for each approach and point a bit mask of the standoffs from which the tool is there with margin.
 
     Args:
         numbers: the arm.
-        shoulder: where its shoulder is, in the frame of the points (m), shape (3,).
-        memory: for this comfort, added to.
-        points: tool points at back-off 0 (m), shape (n, 3).
+        shoulder: its shoulder, in the frame of the points (m), shape (3,).
+        memory: earlier answers for this comfort radius; added to.
+        points: tool points at standoff 0 (m), shape (n, 3).
         axes: all approach axes, shape (m, 3).
-        labels: what the memory calls the approaches asked for: one more than their index, shape (k,).
-        count: how many back-offs there are, at most 32.
-        step: from one back-off to the next, in steps of `LENGTH_M`: the points move along x by it.
-        comfort: radius of the circle (m).
-        enough: after so many approaches that can follow the path the others are left at 0.
-        before: bit mask of the back-offs from which the base may come to the first point.
-        room: what the arm may be hindered by.
+        labels: the memory's labels of the approaches tested: one more than their index, shape (k,).
+        count: the number of standoffs, at most 32.
+        step: the distance between standoffs, in steps of `LENGTH_M`, by which the points move along x.
+        comfort: the comfort radius (m).
+        enough: the number of approaches that can follow the path after which the others are left at 0.
+        before: bit mask of the standoffs from which the base may come to the first point.
+        room: the obstacles to the arm's postures.
     """
     arcs = np.empty((MOST_ARCS, 2))
     masks = np.zeros((len(labels), len(points)), dtype=np.uint32)
@@ -141,10 +141,10 @@ def anywhere(
     enough: int,
     room: Room,
 ) -> BoolArray:
-    """For each approach and point, each on its own, whether some back-off has the tool there in comfort.
+    """Return for each approach and point, each on its own, whether some standoff has the tool there with margin.
 
-    The arguments are those of `back_off_masks`, but there may be any number of back-offs. After `enough` approaches
-    that have every point in comfort the others are left false.
+    The arguments are those of `back_off_masks`, but there may be any number of standoffs. After `enough` approaches
+    that reach every point the others are left false.
     """
     arcs = np.empty((MOST_ARCS, 2))
     answers = np.zeros((len(labels), len(points)), dtype=np.bool_)

@@ -1,4 +1,4 @@
-"""A robot's card: what anyone who shows, places or describes the robot has to know of it."""
+"""A robot's card: all that is needed to show, place or describe the robot."""
 
 import math
 from collections.abc import Sequence
@@ -14,11 +14,11 @@ class GripperCard:
 
     Attributes:
         joint_name: the joint that drives both fingers; the others mimic it.
-        link_x_m: where the fingertip's hinge is ahead of the driven one, gripper closed (m).
-        link_y_m: how far it is to the side of it (m).
+        link_x_m: how far the fingertip's hinge is ahead of the driven hinge, gripper closed (m).
+        link_y_m: how far it is to the side of the driven hinge (m).
         opening_max_m: the widest opening (m).
-        finger_width_m: how wide a finger is across the closing direction (m).
-        speed_rad_s: how fast the driven joint may turn (rad/s).
+        finger_width_m: a finger's width across the closing direction (m).
+        speed_rad_s: the top speed of the driven joint (rad/s).
     """
 
     joint_name: str
@@ -29,17 +29,17 @@ class GripperCard:
     speed_rad_s: float
 
     def angle(self, opening_m: float) -> float:
-        """The driven joint (rad) at which the fingers are an opening apart (m), kept to 0..opening_max_m.
+        """Return the driven joint (rad) at which the fingers are an opening apart (m), clipped to 0..opening_max_m.
 
-        The hinge is at y = link_x sin(q) + link_y cos(q) from the driven joint, and that has grown by
-        half of the opening since q = 0.
+        The hinge is at y = link_x sin(q) + link_y cos(q) from the driven joint, and that has grown by half of the
+        opening since q = 0.
         """
         half = 0.5 * min(max(opening_m, 0.0), self.opening_max_m)
         length = math.hypot(self.link_x_m, self.link_y_m)
         return math.asin((half + self.link_y_m) / length) - math.asin(self.link_y_m / length)
 
     def least_s(self, wide_m: float, narrow_m: float) -> float:
-        """The least time to go evenly from one opening (m) to a narrower one, or back (s).
+        """Return the least time to go at constant speed from one opening (m) to a narrower one, or back (s).
 
         Per metre the driven joint turns most where the fingers are widest apart.
         """
@@ -49,12 +49,12 @@ class GripperCard:
 
 @dataclass(frozen=True, slots=True)
 class ArmCard:
-    """One arm.
+    """An arm.
 
     Attributes:
-        name: what people call it.
+        name: its name for people.
         joint_names: its seven joints in the URDF, from the shoulder outwards.
-        speeds_rad_s: how fast each of them may turn (rad/s).
+        speeds_rad_s: their top speeds (rad/s).
         is_continuous: which of them turn without end.
         tool_frame: the URDF frame between the fingertips, x along the approach axis.
         home: the joints when the arm is out of the way (rad).
@@ -72,15 +72,15 @@ class ArmCard:
 
 @dataclass(frozen=True, slots=True)
 class RobotCard:
-    """One robot.
+    """A robot.
 
     Attributes:
-        name: the name it is asked for by.
+        name: the name it is loaded by.
         title: the name for people.
         arms: its arms, from left to right as the robot sees them.
         base_kind: how the base moves.
         base_size_m: length and width of the base (m).
-        base_radius_m: radius of a circle that holds the base as it turns, a margin included (m).
+        base_radius_m: radius of a circle that contains the base as it turns, a margin included (m).
         lift_joint: the joint that raises the shoulders.
         lift_limits_m: its lowest and highest value (m).
         resting: all other actuated joints and where they rest, as (name, rad).
@@ -103,7 +103,7 @@ class RobotCard:
     def joint_values(
         self, torso_m: float, arm_joints: Sequence[FloatArray], openings_m: Sequence[float]
     ) -> dict[str, float]:
-        """Every actuated joint of the URDF by name (rad; m for the lift), as plain floats.
+        """Return every actuated joint of the URDF by name (rad; m for the lift), as plain floats.
 
         Args:
             torso_m: how far the lift is raised (m).
@@ -111,7 +111,7 @@ class RobotCard:
             openings_m: how far each gripper is open (m).
 
         Raises:
-            ValueError: there are not as many of each as the robot has arms, or not seven joints.
+            ValueError: the numbers of arms or openings differ from the robot's arms, or an arm has not seven joints.
         """
         values = {self.lift_joint: float(torso_m), **dict(self.resting)}
         for arm, joints, opening_m in zip(self.arms, arm_joints, openings_m, strict=True):

@@ -1,13 +1,13 @@
-"""Is a tool comfortable at a place? Asked of the closed form once, then remembered. Compiled.
+"""A test of whether a tool is within reach with margin at a place: computed once, then remembered. Compiled.
 
-A place is in comfort when it and four places on a circle round it are within reach. Back-offs lie on a grid of 5 cm
-and drags on one of 10 cm, so the same places return in the base frame, again and again, and always in rows along its
-x axis. So what is remembered are rows: the places of one approach, one y and one z that lie a step apart in x, one bit
-each. A row is found once and then answers for all back-offs.
+A place is within reach with margin when it and four places on the circle of the comfort radius round it are within
+reach. Standoffs lie on a grid of 5 cm and drags on a grid of 10 cm, so the same places recur in the base frame, always
+in rows along its x axis. The memory therefore holds rows: the places of one approach, one y and one z that lie a step
+apart in x, one bit each. A row is looked up once and then answers for all standoffs.
 
-Every place is put onto the grid of `LENGTH_M` before it is asked, so that what is remembered for it is exact, whichever
-question came first. Mirroring has both arms share the memory. The memory is a hash table; a row that finds its place
-taken moves on to the next. When it is three quarters full it learns no more, and the answers stay the same.
+Every place is put onto the grid of `LENGTH_M` before it is tested, so that remembered answers are exact, whichever
+query came first. Mirroring lets both arms share the memory. The memory is a hash table with linear probing. When it is
+three quarters full it stores no more rows, and the answers stay the same.
 
 A place also counts only if the body leaves the arm room there (see `planner.robot.posture_room`).
 """
@@ -27,19 +27,19 @@ from planner.robot.kernel import is_reachable_near, shape_of
 from planner.robot.posture_room import Room, has_room_about, may_be_hindered
 
 COORDINATE_BITS = 18
-"""A coordinate is kept as this many bits of `LENGTH_M` steps: 1.3 m either way from the shoulder."""
+"""Bits of a coordinate in `LENGTH_M` steps: 1.3 m either way from the shoulder."""
 
 ROW_CELLS = 60
-"""So many places has a row, the middle one beside the shoulder; beyond them no arm is long enough."""
+"""Number of places in a row, the middle one beside the shoulder; beyond them no arm is long enough."""
 
 ROW_STEP = 5_000
-"""From one place of a row to the next, in steps of `LENGTH_M`: 5 cm. Other steps are answered, but not remembered."""
+"""Steps of `LENGTH_M` between the places of a row: 5 cm. Other steps are answered, but not remembered."""
 
 ROWS, QUERIES = 0, 1
-"""What is counted: rows, and queries made."""
+"""Indices of the counts: rows, and queries made."""
 
 KNOWN, GOOD = 0, 1
-"""The bits of a row: which places have been asked, and which of them are comfortable."""
+"""Indices of a row's bits: which places have been tested, and which of them are within reach with margin."""
 
 FORGETFUL = -1
 """The slot of a row that finds no room in the memory."""
@@ -48,12 +48,12 @@ _SCATTER = 0x1E3779B97F4A7C15
 
 
 class Memory(NamedTuple):
-    """What has been answered.
+    """The memory of answers.
 
     Attributes:
-        keys: of the rows, shape (size,), size a power of two; 0 is empty.
-        bits: of the rows, shape (size, 2).
-        counts: what is counted, shape (2,).
+        keys: the rows' keys, shape (size,), size a power of two; 0 is empty.
+        bits: the rows' bits, shape (size, 2).
+        counts: see `ROWS` and `QUERIES`, shape (2,).
         hints: for each approach the pan that served last (rad) and its branch, shape (64, 2).
     """
 
@@ -64,14 +64,14 @@ class Memory(NamedTuple):
 
 
 def empty_memory(size_bits: int = 16) -> Memory:
-    """A memory with room for 2 ** size_bits rows, of which it uses three quarters."""
+    """Return a memory with room for 2 ** size_bits rows, of which it uses three quarters."""
     size = 1 << size_bits
     bits, counts = np.zeros((size, 2), dtype=np.int64), np.zeros(2, dtype=np.int64)
     return Memory(np.zeros(size, dtype=np.int64), bits, counts, np.tile((0.5, 1.0), (64, 1)))
 
 
 class Place(NamedTuple):
-    """A tool point, seen from the shoulder as the base stands at back-off 0, in steps of `LENGTH_M`."""
+    """A tool point, seen from the shoulder with the base at standoff 0, in steps of `LENGTH_M`."""
 
     x: int
     y: int
@@ -79,15 +79,15 @@ class Place(NamedTuple):
 
 
 class Question(NamedTuple):
-    """What stays the same while places are asked in one approach; numbers alone, to be handed on without cost.
+    """The constants of the queries in one approach; numbers alone, because those are passed on without cost.
 
     Attributes:
         shape: the arm.
-        rest: what the shoulder is off the grid of `LENGTH_M` (m).
+        rest: the shoulder's offset from the grid of `LENGTH_M` (m).
         axis: the approach axis.
-        label: what to call the approach in the memory, 1..63.
-        comfort: radius of the comfort circle (m).
-        step: from one back-off to the next, in steps of `LENGTH_M`.
+        label: the approach's label in the memory, 1..63.
+        comfort: the comfort radius (m).
+        step: the distance between standoffs, in steps of `LENGTH_M`.
     """
 
     shape: ArmShape
@@ -100,13 +100,13 @@ class Question(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def in_steps(value: float) -> int:
-    """A coordinate in steps of `LENGTH_M`."""
+    """Return a coordinate in steps of `LENGTH_M`."""
     return round(value / LENGTH_M)
 
 
 @njit(cache=True, nogil=True)
 def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
-    """The place of a tool point, both given in the base frame (m)."""
+    """Return the place of a tool point, with point and shoulder in the base frame (m)."""
     return Place(
         in_steps(point[0]) - in_steps(shoulder[0]),
         in_steps(point[1]) - in_steps(shoulder[1]),
@@ -118,7 +118,7 @@ def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
 def question(
     numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
 ) -> Question:
-    """What is asked in the approach of a label."""
+    """Return the query in the approach of a label."""
     rest = (
         shoulder[0] - in_steps(shoulder[0]) * LENGTH_M,
         shoulder[1] - in_steps(shoulder[1]) * LENGTH_M,
@@ -130,7 +130,7 @@ def question(
 
 @njit(cache=True, nogil=True)
 def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
-    """Where in the memory the row of a place is; it is begun if there is none yet."""
+    """Return the slot in the memory of the row of a place; begin the row if there is none yet."""
     half = 1 << (COORDINATE_BITS - 1)
     if abs(place.y) >= half or abs(place.z) >= half or ask.step % ROW_STEP != 0:
         return FORGETFUL
@@ -151,13 +151,13 @@ def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], 
 
 @njit(cache=True, nogil=True)
 def cell_of(x: int) -> int:
-    """The cell of a place in its row, which may lie beyond the row's ends, by its x."""
+    """Return the cell of a place in its row from its x; it may lie beyond the row's ends."""
     return x // ROW_STEP + ROW_CELLS // 2
 
 
 @njit(cache=True, nogil=True)
 def cells_of(x: int, count: int) -> int:
-    """The bits of a row for so many places by the row's step, the first by its x; none for those beyond its ends."""
+    """Return the bits of `count` cells of a row, the first at the place's x; none for cells beyond its ends."""
     first = max(cell_of(x), 0)
     after = min(cell_of(x) + count, ROW_CELLS)
     return ((1 << max(after - first, 0)) - 1) << min(first, ROW_CELLS)
@@ -165,13 +165,13 @@ def cells_of(x: int, count: int) -> int:
 
 @njit(cache=True, nogil=True)
 def from_cell(bits: int, cell: int) -> int:
-    """The bits of a row from a cell on: one for each back-off by the row's step."""
+    """Return the bits of a row from a cell on: one for each standoff by the row's step."""
     return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
 
 
 @njit(cache=True, nogil=True)
 def aim_from(ask: Question, place: Place, back_off: int) -> ToolPose:
-    """The aim at a place, the base having backed off."""
+    """Return the tool pose at a place with the base at a standoff."""
     x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
     ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
     return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
@@ -181,11 +181,11 @@ def aim_from(ask: Question, place: Place, back_off: int) -> ToolPose:
 def is_comfortable_at(
     ask: Question, memory: Memory, room: Room, arcs: FloatArray, slot: int, place: Place, back_off: int
 ) -> bool:
-    """Whether a tool is comfortable at a place, the base having backed off, from memory if it is known there.
+    """Return whether a tool is within reach with margin at a place from a standoff, from memory if it is known there.
 
-    Compiled into what calls it: to hand on so many arrays costs as much as many an answer.
+    Inlined into its callers: passing so many arrays costs as much as many an answer.
 
-    `arcs`, shape (MOST_ARCS, 2), is space to work in.
+    `arcs`, shape (MOST_ARCS, 2), is scratch space.
     """
     cell = cell_of(place.x + back_off * ask.step)
     bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
@@ -208,9 +208,9 @@ def is_comfortable_at(
 def is_comfortable(
     shape: ArmShape, aim: ToolPose, comfort: float, arcs: FloatArray, hint: FloatArray
 ) -> tuple[bool, int]:
-    """Whether an aim and four on the circle of radius `comfort` round it are reachable; queries made.
+    """Return whether a tool pose and four on the circle of radius `comfort` round it are reachable; queries made.
 
-    Mostly the pan that served last, `hint`, serves all five. If not, the one that it serves least is asked first.
+    Mostly the pan that served last, `hint`, serves all five. If not, the pose that it serves least is tested first.
     """
     if comfort <= 0.0:
         return is_reachable_near(shape, aim, arcs, hint), 1

@@ -1,7 +1,7 @@
-"""Where the hands of a PR2 are in comfort, asked for either arm: the compiled questions, with what they share.
+"""The places that the hands of a PR2 reach with margin, for either arm: the compiled queries and the state they share.
 
-Both arms are one arm and its mirror image: places and approaches are mirrored on the way in, and the memory of answers
-(see `planner.robot.comfort`) is the left arm's. What is asked is counted and timed here.
+The arms are mirror images: places and approaches are mirrored on the way in, and the memory of answers (see
+`planner.robot.comfort`) is the left arm's. Queries are counted and timed here.
 """
 
 from time import thread_time
@@ -23,14 +23,14 @@ from planner.robot.sided_arm import SidedArm
 _MOST_BACK_OFFS = 32
 
 _SMALL_BITS = 4
-"""The size of a memory from which nothing much is wanted any more, as a power of two."""
+"""Size of a memory that will hardly be used any more, as a power of two."""
 
 
 class ComfortReach:
-    """The comfortable reach of a PR2 with its torso at one height, to one comfort radius.
+    """The reach with margin of a PR2 with its torso at one height, for one comfort radius.
 
-    It remembers its answers and counts its queries, so each plan should have one of its own; it is
-    not to be shared between threads. Places are asked on the grid of `LENGTH_M`, base frame.
+    It remembers its answers and counts its queries, so each plan should have its own; it must not be shared between
+    threads. Places are tested on the grid of `LENGTH_M`, base frame.
     """
 
     def __init__(
@@ -41,9 +41,9 @@ class ComfortReach:
         comfort_m: float,
         room: Room | None = None,
     ) -> None:
-        """Start with nothing remembered: names and arms from left to right, torso and comfort in m.
+        """Start with an empty memory: names and arms from left to right, torso and comfort in m.
 
-        `room` is what the left arm has of it; None: the body is in nobody's way.
+        `room` holds the obstacles to the left arm's postures; None: the body is no obstacle.
         """
         self._arm_names = arm_names
         self._arms = arms
@@ -60,7 +60,7 @@ class ComfortReach:
         self._query_time_s = 0.0
 
     def forget(self) -> None:
-        """Drop what it remembers, some 2 MB; its answers stay the same, and what it counted."""
+        """Drop the memory, some 2 MB, and keep the counts; the answers stay the same."""
         queries = self.queries - self._shortfall_queries
         self._memory = empty_memory(_SMALL_BITS)
         self._memory.counts[QUERIES] = queries
@@ -77,7 +77,7 @@ class ComfortReach:
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
-        """Where each arm is hung up, base frame (m)."""
+        """The shoulder of each arm, base frame (m)."""
         found = [arm.mirrored_places(arm.shoulder(self._torso_m)[None])[0] for arm in self._arms]
         return tuple((float(x), float(y), float(z)) for x, y, z in found)
 
@@ -93,9 +93,9 @@ class ComfortReach:
 
     @property
     def queries(self) -> int:
-        """Queries computed by the exact kernel so far, comfort points counted.
+        """The number of queries computed by the exact kernel so far, points on the comfort circle included.
 
-        What is remembered, or further away than the arm is long, is answered without one.
+        What is remembered, or further away than the arm is long, is answered without a query.
         """
         return int(self._memory.counts[QUERIES]) + self._shortfall_queries
 
@@ -114,20 +114,20 @@ class ComfortReach:
         enough: int | None = None,
         start: int | None = None,
     ) -> NDArray[np.uint32]:
-        """Bit masks, shape (k, n): from which back-offs each point is within comfortable reach.
+        """Return bit masks, shape (k, n), of the standoffs from which each point is within reach with margin.
 
         Args:
             arm: index into `arm_names`.
-            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,).
-            count: how many back-offs there are, at most 32; raises `ValueError` beyond.
-            step_m: from one back-off to the next (m).
-            enough: so many approaches that can follow the points are enough; None: all are wanted.
-            start: where the base stands when the hand is at the first point already; None: anywhere.
+            count: the number of standoffs, at most 32; raises `ValueError` beyond.
+            step_m: the distance between standoffs (m).
+            enough: the number of approaches wanted that can follow the points; None: all.
+            start: the standoff at which the hand is at the first point already; None: any.
 
         Returns:
-            Bit j is set where the base may stand, having backed off by j * step_m, when the hand has
-            followed the points up to there; a row is 0 if it cannot follow them all.
+            Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
+                there; a row is 0 if it cannot follow them all.
         """
         if count > _MOST_BACK_OFFS:
             raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
@@ -152,13 +152,13 @@ class ComfortReach:
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
     ) -> Following:
-        """Hands that are to follow paths, each in one approach.
+        """Return hands that are to follow paths, each in one approach.
 
         Args:
             arms: for each hand its index into `arm_names`; one or two.
-            paths: for each hand its tool points in the base frame at back-off 0 (m), shape (hands, n, 3).
+            paths: for each hand its tool points in the base frame at standoff 0 (m), shape (hands, n, 3).
             approaches: for each hand indices into `approaches`, best first.
-            step_m: from one back-off to the next (m).
+            step_m: the distance between standoffs (m).
         """
         labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
         places = np.empty(paths.shape, dtype=np.int64)
@@ -196,15 +196,15 @@ class ComfortReach:
         step_m: float,
         enough: int | None = None,
     ) -> BoolArray:
-        """Which points, each on its own, are within comfortable reach from at least one back-off, shape (k, n).
+        """Return which points, each on its own, are within reach with margin from at least one standoff, shape (k, n).
 
         Args:
             arm: index into `arm_names`.
-            points: tool points in the base frame at back-off 0 (m), shape (n, 3).
+            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,).
-            count: how many back-offs there are.
-            step_m: from one back-off to the next (m).
-            enough: so many approaches that have every point within reach are enough; None: all are wanted.
+            count: the number of standoffs.
+            step_m: the distance between standoffs (m).
+            enough: the number of approaches wanted that reach every point; None: all.
         """
         started = thread_time()
         answers = anywhere(

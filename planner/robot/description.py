@@ -1,4 +1,4 @@
-"""Where the PR2's description lies on disk, and how it is read."""
+"""The location of the PR2's description on disk, and functions that read it."""
 
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
@@ -13,7 +13,7 @@ _URDF = "example-robot-data/robots/pr2_description/urdf/pr2.urdf"
 
 
 def package_directory() -> Path:
-    """The directory to which the URDF's ``package://`` addresses are relative.
+    """Return the directory to which the URDF's ``package://`` addresses are relative.
 
     Raises:
         FoldingError: the package that carries the PR2 is not installed, or came without it.
@@ -28,10 +28,10 @@ def package_directory() -> Path:
 
 
 def urdf_path() -> Path:
-    """The PR2's URDF; raises `FoldingError` like `package_directory`."""
+    """Return the path of the PR2's URDF; raise `FoldingError` like `package_directory`."""
     return package_directory() / _URDF
 
 
 def read_model() -> pin.Model:
-    """The kinematic tree of the PR2, its root fixed to ``base_footprint`` (4 ms)."""
+    """Return the kinematic tree of the PR2, its root fixed to ``base_footprint`` (4 ms)."""
     return pin.buildModelFromUrdf(str(urdf_path()))

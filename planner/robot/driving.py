@@ -1,18 +1,19 @@
-"""The least driving with which hands follow their paths. The search's one question, compiled.
+"""The least driving with which hands follow their paths, compiled.
 
-Each hand keeps one approach. At every waypoint the base may drive to and fro as long as every hand, resting, is in
-comfort at each back-off on the way. Which approaches, and where to stand, so that the base drives least?
+Each hand keeps one approach. At every waypoint the base may drive to and fro as long as every hand, resting, is within
+reach with margin at each standoff on the way. The task is to choose the approaches and the standoffs so that the base
+drives least.
 
-The naive way finds the back-offs for every approach at every waypoint, combines the approaches of all hands, and looks
-for the shortest way through each combination. Nearly all of that is idle. Instead:
+The naive way finds the standoffs for every approach at every waypoint, combines the approaches of all hands, and
+searches for the shortest way through each combination. Nearly all of that work is unnecessary. Instead:
 
-- *In the order of cost.* A set of back-offs is the bits of a number. With `t` steps of driving the base can be where it
-  can be with `t - 1`, one step beside that, and where it was at the waypoint before with `t`: a few operations on
-  numbers, and only places that come up are ever asked for.
-- *Bounds first.* The beginning, the apex and the end of a path, looked at alone, mostly tell how far the base must
-  drive at least in a combination, or that it is hopeless.
-- *Only what can still be better.* A place matters with `t` steps only if no end found so far is as good from there.
-- *No more than asked.* What takes more than `most` steps is left for another time.
+- *By rising cost.* A set of standoffs is the bits of a number. With `t` steps of driving the base can be where it can
+  be with `t - 1`, one step beside that, and where it was at the waypoint before with `t`: a few operations on numbers,
+  and only places that occur are ever tested.
+- *Bounds first.* The beginning, the apex and the end of a path alone mostly tell the least driving of a combination, or
+  that it is infeasible.
+- *Pruning by incumbents.* A place matters with `t` steps only if no end found so far is as good from there.
+- *Limited steps.* Ways of more than `most` steps are left for a later call.
 """
 
 import numpy as np
@@ -30,7 +31,7 @@ from planner.robot.pan_arcs import MOST_ARCS
 def _follow(
     task: Task, arcs: FloatArray, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]
 ) -> bool:
-    """Follow the paths in one choice of approaches and note the ends improved; whether more steps may help."""
+    """Follow the paths in one choice of approaches and record improved ends; return whether more steps may help."""
     bits, slots, cells, useful = task.memory.bits, task.slots, task.cells, best.useful
     reached, last_begun = np.zeros(cells.shape[1], dtype=np.int64), 0
     for level in range(len(best.begun)):
@@ -65,18 +66,18 @@ def _follow(
 
 @njit(cache=True, nogil=True)
 def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) -> tuple[NDArray[np.int64], int]:
-    """The least steps of driving in all, for each back-off at which the base may stand in the end.
+    """Return the least total steps of driving for each standoff at which the base may stand in the end.
 
     Args:
-        task: what the hands are to follow.
-        begun: for each back-off the steps in which the base can be there when the hands begin, shape (count,); count
-            at most 32.
-        most: ways of more steps than this are left out.
-        wanted: which ends.
+        task: the paths that the hands follow.
+        begun: for each standoff the steps in which the base can be there when the hands begin, shape (count,); count at
+            most 32.
+        most: the largest number of steps considered.
+        wanted: which ends, see `planner.geometry.driving.Wanted`.
 
     Returns:
-        For each back-off a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
-        hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
+        For each standoff a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
+            hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
     """
     hands, count, arcs = len(task.labels), len(begun), np.empty((MOST_ARCS, 2))
     answer = np.full((2 + hands, count), IMPOSSIBLE, dtype=np.int64)
@@ -110,7 +111,7 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
 
 @njit(cache=True, nogil=True)
 def _pairs(masks: NDArray[np.int64], hands: int, best: Incumbents) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The choices of approaches that are not hopeless and the least steps of each; notes what ends are possible."""
+    """Return the feasible choices of approaches and a lower bound on the steps of each; record the possible ends."""
     ones = np.flatnonzero(masks[0, :, 0])
     others = np.flatnonzero(masks[1, :, 0]) if hands == 2 else np.zeros(1, dtype=np.int64)
     pairs = np.empty((len(ones) * len(others), 2), dtype=np.int64)
@@ -133,7 +134,7 @@ def _pairs(masks: NDArray[np.int64], hands: int, best: Incumbents) -> tuple[NDAr
 
 @njit(cache=True, nogil=True)
 def _settle(task: Task, arcs: FloatArray, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
-    """Leave out ends that were beaten later on, and find where the base begins on the way to the others."""
+    """Remove ends that were beaten later on, and find where the base begins on the way to the others."""
     count = len(begun)
     alone, found = np.empty(count, dtype=np.int64), np.empty_like(answer)
     for end in range(count):

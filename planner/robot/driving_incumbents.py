@@ -1,10 +1,10 @@
-"""The least driving to each end found so far, and what may still be less: the bounds of a branch and bound. Compiled.
+"""The least driving found to each end, and the places that may still improve it: branch and bound, compiled.
 
-Sets of back-offs are the bits of a number, one number for each count of steps (a *level*). With `t` steps the base can
+Sets of standoffs are the bits of a number, one number for each count of steps (a *level*). With `t` steps the base can
 be where it can be with `t - 1` and one step beside that, so that a bound is a few operations on numbers.
 
-A place matters with `t` steps only if no end found so far is as good from there: ends found make such sets smaller, and
-the search ends when they are empty.
+A place matters with `t` steps only if no end found so far is as good from there. Each end found shrinks these sets, and
+the search stops when they are empty.
 """
 
 from typing import NamedTuple
@@ -16,17 +16,17 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 
 UNBEATEN, EVERY, ANY = range(3)
-"""Which ends are wanted, see `planner.geometry.driving.Wanted`."""
+"""Values for the ends wanted, see `planner.geometry.driving.Wanted`."""
 
 
 class Incumbents(NamedTuple):
-    """The best ends so far and what may improve on them; sets are the bits of numbers, one for each number of steps.
+    """The best ends so far and the places that may improve them; sets are the bits of numbers, one for each level.
 
     Attributes:
         wanted: which ends.
-        ends: the least steps to each back-off so far, shape (count,).
-        possible: the back-offs that may be ends at all, shape (1,).
-        near: the steps to each back-off, nothing in the way: no end takes less; shape (count,).
+        ends: the least steps to each standoff so far, shape (count,).
+        possible: the standoffs that may be ends at all, shape (1,).
+        near: the steps to each standoff with nothing in the way, a lower bound for any end; shape (count,).
         begun: where the base can be when the hands begin, shape (levels,).
         useful: from where an end can still be improved, shape (levels,).
     """
@@ -41,7 +41,7 @@ class Incumbents(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def no_incumbents(begun: NDArray[np.int64], most: int, wanted: int) -> Incumbents:
-    """The start of a search, no end found yet; at `most` steps it ends."""
+    """Return the incumbents of a search that starts, with no end found, and considers at most `most` steps."""
     count = len(begun)
     levels = min(most, 3 * count) + 1
     near, sets = begun.copy(), np.empty(levels, dtype=np.int64)
@@ -55,10 +55,10 @@ def no_incumbents(begun: NDArray[np.int64], most: int, wanted: int) -> Incumbent
 
 @njit(cache=True, nogil=True)
 def tell_useful(best: Incumbents) -> None:
-    """Work out from where an end can still be improved.
+    """Update from where an end can still be improved.
 
-    An end can be driven on to from another, nothing in the way, where unbeaten ends are wanted; else only the end
-    itself counts.
+    Where unbeaten ends are wanted, the base can drive on from one end to another with nothing in the way; else only the
+    end itself counts.
     """
     count, ends = len(best.ends), best.ends
     limits = np.zeros(count, dtype=np.int64)
@@ -77,7 +77,7 @@ def tell_useful(best: Incumbents) -> None:
 
 @njit(cache=True, nogil=True)
 def least_steps(begun: NDArray[np.int64], useful: NDArray[np.int64], begin: int, apex: int, end: int) -> int:
-    """The least steps in which the base can be in three sets one after the other and still improve an end."""
+    """Return the least steps in which the base can be in three sets one after the other and still improve an end."""
     after_begin, after_apex = 0, 0
     for level in range(len(begun)):
         after_begin |= after_begin << 1 | after_begin >> 1 | begun[level] & begin
@@ -91,7 +91,7 @@ def least_steps(begun: NDArray[np.int64], useful: NDArray[np.int64], begin: int,
 
 @njit(cache=True, nogil=True)
 def _sets(steps: NDArray[np.int64], sets: NDArray[np.int64]) -> None:
-    """For each number of steps the back-offs for which there are more."""
+    """Set for each number of steps the standoffs that have larger entries in `steps`."""
     sets[:] = 0
     for j in range(len(steps)):
         for level in range(min(steps[j], len(sets))):
@@ -100,7 +100,7 @@ def _sets(steps: NDArray[np.int64], sets: NDArray[np.int64]) -> None:
 
 @njit(cache=True, nogil=True)
 def _spread(steps: NDArray[np.int64]) -> None:
-    """Let the base drive from wherever it is, nothing in its way."""
+    """Let the base drive from every place with nothing in its way."""
     for j in range(1, len(steps)):
         steps[j] = min(steps[j], steps[j - 1] + 1)
     for j in range(len(steps) - 2, -1, -1):

@@ -1,7 +1,7 @@
-"""What hands are to follow, and from which back-offs they are in comfort on the way. Compiled.
+"""The paths that hands follow, and the standoffs from which they are within reach with margin on the way. Compiled.
 
-Sets of back-offs are the bits of a number, so that a row of the memory (see `planner.robot.comfort`) answers for all of
-them at once. Only what is not remembered is asked, place by place.
+Sets of standoffs are the bits of a number, so that a row of the memory (see `planner.robot.comfort`) answers for all of
+them at once. Only what is not remembered is tested, place by place.
 """
 
 from typing import NamedTuple
@@ -27,28 +27,28 @@ from planner.robot.comfort import (
 from planner.robot.posture_room import Room
 
 UNSEEN = -2
-"""The slot of a row that nobody has asked for."""
+"""The slot of a row that has not been looked up."""
 
 _WHOLE_ROW = (1 << ROW_CELLS) - 1
 
 
 class Task(NamedTuple):
-    """What hands are to follow.
+    """The paths that hands follow.
 
     Attributes:
         numbers: the arm, see `planner.robot.kernel.shape_of`.
-        shoulder: where its shoulder is, in the base frame (m), shape (3,).
-        memory: what was answered before, for this comfort; added to.
+        shoulder: its shoulder, in the base frame (m), shape (3,).
+        memory: earlier answers for this comfort radius; added to.
         axes: all approach axes, shape (m, 3).
-        labels: for each hand what the memory calls the approaches it may use, best first, 0 after the last; shape
+        labels: for each hand the memory's labels of the approaches it may use, best first, 0 after the last; shape
             (hands, k).
         places: for each hand, one or two, and waypoint the place, in steps of `LENGTH_M`, shape (hands, n, 3).
         cells: for each hand and waypoint the place's cell in its row, shape (hands, n).
-        slots: for each hand, approach and waypoint where in the memory its row is, if the base drives by the row's
-            step; `UNSEEN` until it has been asked for. Shape (hands, k, n); added to.
-        comfort: radius of the comfort circle (m).
-        step: from one back-off to the next, in steps of `LENGTH_M`.
-        room: what the arms may be hindered by.
+        slots: for each hand, approach and waypoint the row's slot in the memory, if the base drives by the row's step;
+            `UNSEEN` until it is looked up. Shape (hands, k, n); added to.
+        comfort: the comfort radius (m).
+        step: the distance between standoffs, in steps of `LENGTH_M`.
+        room: the obstacles to the arms' postures.
     """
 
     numbers: FloatArray
@@ -66,7 +66,7 @@ class Task(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: int, wanted: int) -> int:
-    """Those of the wanted back-offs from which one hand is in comfort, asked one by one."""
+    """Return which of the wanted standoffs have one hand within reach with margin, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
     place = Place(x, y, z)
     ask = question(task.numbers, task.shoulder, task.axes, task.labels[hand, approach], task.comfort, task.step)
@@ -87,7 +87,7 @@ def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: i
 
 @njit(cache=True, nogil=True)
 def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> int:
-    """Those of the wanted back-offs from which a hand is in comfort, if all of that is remembered in a row; else -1."""
+    """Return which of the wanted standoffs reach with margin, if a row remembers all of them; else -1."""
     if slot < 0 or wanted & from_cell(_WHOLE_ROW, cell) & ~from_cell(bits[slot, KNOWN], cell):
         return -1
     return wanted & from_cell(bits[slot, GOOD], cell)
@@ -95,7 +95,7 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
 
 @njit(cache=True, nogil=True)
 def at_extremes(task: Task, arcs: FloatArray, hand: int, near: int) -> NDArray[np.int64]:
-    """The back-offs near enough at which a hand is in comfort at its path's begin, apex and end.
+    """Return the near standoffs that reach with margin at the beginning, apex and end of a hand's path.
 
     Shape (k, 3), for each approach; all 0 where one of them is.
     """

@@ -1,4 +1,4 @@
-"""Hands that are to follow paths, and what the base may do meanwhile: `planner.robot.driving`, for one robot."""
+"""Hands that follow paths, and the driving of the base meanwhile: `planner.robot.driving`, for one robot."""
 
 from collections.abc import Callable
 from time import thread_time
@@ -15,22 +15,22 @@ _WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
 
 
 class Following:
-    """One or two hands that are to follow paths."""
+    """One or two hands that follow paths."""
 
     def __init__(self, task: Task, charge: Callable[[float], None]) -> None:
-        """`charge` is told the time that is spent (s)."""
+        """Take the task; `charge` is called with the time spent on each query (s)."""
         self._task = task
         self._charge = charge
 
     def least_driving(
         self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
     ) -> Driving:
-        """How the base may drive meanwhile, in as few steps as can be.
+        """Return how the base may drive meanwhile, in as few steps as possible.
 
         Args:
-            begun: for each back-off the steps in which the base can be there when the hands begin; `IMPOSSIBLE`
-                where it cannot. Shape (count,), count at most 32.
-            most: ways of more steps are not looked for.
+            begun: for each standoff the steps in which the base can be there when the hands begin; `IMPOSSIBLE` where
+                it cannot. Shape (count,), count at most 32.
+            most: the largest number of steps considered.
             wanted: which ends are wanted.
         """
         started = thread_time()

@@ -1,12 +1,12 @@
-"""All seven joints for a whole pose of the tool, as near as possible to where the arm is now.
+"""The seven joints for a full pose of the tool, as near as possible to the arm's present joints.
 
-`planner.robot.kernel` says that some pan will do; here one is chosen. With pan and branch fixed the
-other six joints follow in closed form, so the nearest solution is the lowest point of a distance
-along the closed curves of the arcs. It is sampled, with the present pan and a known witness among the
-samples, and the best sample is settled by halving steps. Wrist and forearm roll are continuous
-joints: they are unwound to the turn nearest to where they are, so that joints may be interpolated.
+`planner.robot.kernel` shows that some pan reaches the pose; this module chooses one. With pan and branch fixed the
+other six joints follow in closed form, so the nearest solution is the minimum of a distance along the closed curves of
+the arcs. The curve is sampled, with the present pan and a known witness among the samples, and the best sample is
+refined by halving steps. Wrist and forearm roll are continuous joints: they are unwound to the turn nearest to their
+present angle, so that joints may be interpolated.
 
-As in the kernel the arm is a left one and poses are in its shoulder's frame (m, rad).
+As in the kernel the arm is a left arm and poses are in its shoulder's frame (m, rad).
 """
 
 import math
@@ -25,11 +25,13 @@ SAMPLES = 16
 """Samples for each branch of the elbow along an arc."""
 
 FINEST = 1e-7
-"""Settling ends when its step along the curve is smaller than this (rad)."""
+"""Step along the curve at which the refinement ends (rad)."""
 
 NEARBY, SETTLED, PROBE = 0.2, 1e-4, 1e-5
-"""How far along the curve neighbouring poses of a path may be apart, how finely they are settled, and how far on it is
-looked which way to go (rad)."""
+"""Limits along the curve for neighbouring poses of a path (rad).
+
+The largest distance between them, the precision to which they are refined, and the step that probes the direction.
+"""
 
 X, Y, Z = 0, 1, 2
 
@@ -45,7 +47,7 @@ def turn(frame: FloatArray, i: int, j: int, angle: float) -> None:
 
 @njit(cache=True, nogil=True)
 def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The tool's position, shape (3,), and rotation, shape (3, 3), at seven joint angles."""
+    """Return the tool's position, shape (3,), and rotation, shape (3, 3), at seven joint angles."""
     frame = np.eye(3)
     turn(frame, X, Y, joints[0])
     position = shape.offset * frame[:, 0]
@@ -63,7 +65,7 @@ def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArr
 
 @njit(cache=True, nogil=True)
 def tool_places(shape: ArmShape, joints: FloatArray) -> FloatArray:
-    """Where the tool is at each of some joints, shape (n, 7), seen from the shoulder (m), shape (n, 3)."""
+    """Return the tool's positions for rows of joints, shape (n, 7), seen from the shoulder (m), shape (n, 3)."""
     found = np.empty((len(joints), 3))
     for i in range(len(joints)):
         found[i] = tool_pose(shape, joints[i])[0]
@@ -72,20 +74,20 @@ def tool_places(shape: ArmShape, joints: FloatArray) -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def _within(limits: Sector, angle: float) -> float:
-    """The same direction as an angle within limits, or nan; what rounding put outside is put back."""
+    """Return the equivalent of an angle within limits, or nan; an angle outside by rounding is clipped."""
     angle += math.tau * math.ceil((limits.low - ANGLE_RAD - angle) / math.tau)
     return min(max(angle, limits.low), limits.high) if angle <= limits.high + ANGLE_RAD else math.nan
 
 
 @njit(cache=True, nogil=True)
 def _unwound(angle: float, near: float) -> float:
-    """The same direction as an angle within half a turn of another."""
+    """Return the equivalent of an angle within half a turn of another."""
     return angle - math.tau * math.floor((angle - near) / math.tau + 0.5)
 
 
 @njit(cache=True, nogil=True)
 def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joints: FloatArray) -> None:
-    """Set pan, lift, roll and elbow so that the wrist's centre is where it must be; nan where it cannot."""
+    """Set pan, lift, roll and elbow so that the wrist's centre is at the tool pose's; nan where it cannot be."""
     pan = _within(shape.pan, pan)
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
@@ -103,7 +105,7 @@ def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joint
 
 @njit(cache=True, nogil=True)
 def _along(frame: FloatArray, aim: ToolPose, axis: int) -> float:
-    """The component of the approach axis along an axis of a frame."""
+    """Return the component of the approach axis along an axis of a frame."""
     component: float = aim.ax * frame[0, axis] + aim.ay * frame[1, axis] + aim.az * frame[2, axis]
     return component
 
@@ -143,7 +145,7 @@ def _solve_on(
     joints: FloatArray,
     frame: FloatArray,
 ) -> float:
-    """Set the joints at a place of an arc's curve; the squared distance from `near`, or infinity."""
+    """Set the joints at a point of an arc's curve; return the squared distance from `near`, or infinity."""
     place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
     turn_hand(shape, aim, rotation, near, joints, frame)
     distance = 0.0
@@ -154,7 +156,7 @@ def _solve_on(
 
 @njit(cache=True, nogil=True)
 def _theta_of(arc: FloatArray, pan: float) -> float:
-    """Where on an arc's curve the pan is nearest to another, on the first branch."""
+    """Return the angle of an arc's curve, on the first branch, where the pan is nearest to a given pan."""
     return math.acos(min(max((arc[0] - pan) / max(arc[1], ANGLE_RAD), -1.0), 1.0))
 
 
@@ -162,7 +164,7 @@ def _theta_of(arc: FloatArray, pan: float) -> float:
 def nearest_joints(
     shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
 ) -> tuple[bool, FloatArray]:
-    """The joints nearest to `near`, shape (7,), that bring the tool to a pose, and whether there are any."""
+    """Return whether any joints bring the tool to a pose, and those nearest to `near`, shape (7,)."""
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
     arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
     step = math.pi / SAMPLES
@@ -193,9 +195,10 @@ def nearest_joints(
 def nearby_joints(
     shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
 ) -> tuple[bool, FloatArray]:
-    """Joints that bring the tool to a pose, settled from where the pan is now; and whether there are any there.
+    """Return whether joints near the present pan bring the tool to a pose, and those joints.
 
-    As `nearest_joints`, but blind to what is far away, and by Gauss-Newton steps: for neighbouring poses of a path.
+    Like `nearest_joints`, but restricted to the neighbourhood, and by Gauss-Newton steps: for neighbouring poses of a
+    path.
     """
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
     arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
@@ -236,7 +239,7 @@ def _step_towards(
     ahead: FloatArray,
     frame: FloatArray,
 ) -> float:
-    """How far along an arc's curve the joints would be nearest to `near` if they went on straight (rad).
+    """Return how far along an arc's curve the linearised joints are nearest to `near` (rad).
 
     `ahead` and `frame` are scratch space, shapes (7,) and (3, 3).
     """

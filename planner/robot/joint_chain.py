@@ -1,13 +1,12 @@
-"""An arm along a path of its tool: of all joint paths that keep to it, the calmest.
+"""The calmest joint path of an arm whose tool follows a path.
 
-At every pose of a tool path the arm has a family of solutions (see `planner.robot.kernel`): closed curves over the
-arcs of pans. To take the solution nearest to the one before, pose after pose, is short-sighted: the arm walks into
-a joint's limit, or through the table, and must jump. So the curves are sampled at every pose, and the cheapest chain
-through the samples is found by dynamic programming. A link costs the squared time that the slowest joints need for it;
-a sample costs the more the nearer a joint is to its limit and the lower the elbow hangs. No link is longer than
-`JUMP_RAD`.
+At every pose of a tool path the arm has a family of solutions (see `planner.robot.kernel`): closed curves over the arcs
+of pans. Taking the solution nearest to the one before, pose after pose, is short-sighted: the arm runs into a joint's
+limit, or through the table, and must jump. So the curves are sampled at every pose, and dynamic programming finds the
+cheapest chain through the samples. A link costs the squared time that the slowest joints need for it; a sample costs
+more the nearer a joint is to its limit and the lower the elbow hangs. No link is longer than `JUMP_RAD`.
 
-As in the kernel the arm is a left one and poses are in its shoulder's frame (m, rad).
+As in the kernel the arm is a left arm and poses are in its shoulder's frame (m, rad).
 """
 
 import math
@@ -28,41 +27,41 @@ SAMPLES = 24
 """Samples at each pose for each branch of the elbow, over all arcs."""
 
 JUMP_RAD = 0.8
-"""No joint goes further than this from one pose of a chain to the next (rad)."""
+"""Largest movement of a joint between neighbouring poses of a chain (rad)."""
 
 _LIMIT_COST, _NEAR_LIMIT = 0.05, 0.15
-"""What a joint at its limit costs a sample, and the slack from which it costs nothing."""
+"""Cost of a sample with a joint at its limit, and the slack from which it costs nothing."""
 
 _ELBOW_COST, _ELBOW_CLEAR_M = 2.0, 0.12
-"""What an elbow at the floor's height costs, and how far above it costs nothing (m)."""
+"""Cost of an elbow at the floor's height, and the height above it from which it costs nothing (m)."""
 
 _CROSSING_COST = 0.5
-"""What each square metre costs by which an elbow is on the other arm's side of its shoulder."""
+"""Cost per square metre of an elbow's squared distance beyond its shoulder, on the other arm's side."""
 
 _MEET = 0.4
-"""Where cos(roll) is less than this the elbow's branches are about to meet, and pan says too little about the rest."""
+"""Value of cos(roll) below which the elbow's branches nearly meet, and pan hardly determines the other joints."""
 
 _LATE_COST = 100.0
-"""What each second costs that a link takes longer than there is time."""
+"""Cost of each second that a link exceeds its span."""
 
 _FOREARM, _HAND = 4, 6
-"""The joints that turn without end."""
+"""Indices of the joints that turn without end: forearm and wrist roll."""
 
 
 @njit(cache=True, nogil=True)
 def solutions(
     shape: ArmShape, positions: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Samples of the joints that bring the tool to each pose.
+    """Return samples of the joints that bring the tool to each pose.
 
     Args:
         shape: the arm.
         positions: tool points, shape (n, 3).
         rotations: the tool's axes as columns, shape (n, 3, 3).
-        floor: the height over which elbows had better stay.
+        floor: the height over which elbows should preferably stay.
 
     Returns:
-        The joints, shape (n, m, 7), and what each sample costs, shape (n, m): infinite where there is none.
+        The joints, shape (n, m, 7), and the samples' costs, shape (n, m): infinite where there is no solution.
     """
     count = len(positions)
     size = 2 * SAMPLES + 1
@@ -109,9 +108,9 @@ def _sample_cost(shape: ArmShape, joints: FloatArray, slack: float, floor: float
 
 @njit(cache=True, nogil=True)
 def link_cost(before: FloatArray, after: FloatArray, speeds: FloatArray, span: float) -> float:
-    """The squared times (s2) that the joints need from one sample to another, summed; infinite for a jump.
+    """Return the summed squared times (s2) that the joints need from one sample to another; infinite for a jump.
 
-    What the slowest joint needs beyond the time that there is costs much more.
+    Where the slowest joint exceeds the span, the excess costs much more.
     """
     cost, slowest = 0.0, 0.0
     for k in range(7):
@@ -128,13 +127,13 @@ def link_cost(before: FloatArray, after: FloatArray, speeds: FloatArray, span: f
 
 @njit(cache=True, nogil=True)
 def cheapest_chain(joints: FloatArray, costs: FloatArray, speeds: FloatArray, spans: FloatArray) -> NDArray[np.int64]:
-    """The cheapest way through samples, one from each pose.
+    """Return the cheapest way through samples, one from each pose.
 
     Args:
         joints: the samples, shape (n, m, 7).
-        costs: what each costs, shape (n, m); infinite where it must not be taken.
-        speeds: how fast each joint turns (rad/s), shape (7,).
-        spans: how long each link may take (s), shape (n - 1,); infinite where time does not press.
+        costs: the samples' costs, shape (n, m); infinite where a sample must not be taken.
+        speeds: the joints' top speeds (rad/s), shape (7,).
+        spans: the longest duration wanted for each link (s), shape (n - 1,); infinite where time does not matter.
 
     Returns:
         The sample at each pose, shape (n,); empty if there is no way.
@@ -170,7 +169,7 @@ def cheapest_chain(joints: FloatArray, costs: FloatArray, speeds: FloatArray, sp
 def filled(
     shape: ArmShape, positions: FloatArray, rotations: FloatArray, guides: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """The joints at every pose of a path: those with the pan and branch of its guide, or else the nearest to it.
+    """Return the joints at every pose of a path: those with the pan and branch of its guide, or else the nearest to it.
 
     Args:
         shape: the arm.
@@ -179,7 +178,7 @@ def filled(
         guides: joints to be near to, shape (n, 7).
 
     Returns:
-        The joints, shape (n, 7), continuous ones unwound along the path, and where there are any, shape (n,).
+        The joints, shape (n, 7), continuous ones unwound along the path, and whether there are any, shape (n,).
     """
     count = len(positions)
     joints, is_found = np.empty((count, 7)), np.ones(count, dtype=np.bool_)

@@ -1,9 +1,9 @@
-"""Two arms along the paths of their tools: of all pairs of joint paths that keep clear of each other, the calmest.
+"""The calmest collision-free pair of joint paths for two arms whose tools follow paths.
 
-To lead one arm first and the other round it is short-sighted: the calmest path of the first may take the room that the
-second cannot do without. So the dynamic programme of `planner.robot.joint_chain` runs on pairs of samples. What a pair
-costs is the sum over its arms, as is what a link costs; so the arms can take a link one after the other, and with m
-samples each that is 2 m^3 sums, not m^4.
+Planning one arm first and the other round it is short-sighted: the calmest path of the first may take the room that the
+second needs. So the dynamic programme of `planner.robot.joint_chain` runs on pairs of samples. The costs of pairs and
+of links are sums over the arms; so the arms can take a link one after the other, and with m samples each that is 2 m^3
+sums, not m^4.
 """
 
 import numpy as np
@@ -18,14 +18,14 @@ from planner.robot.joint_chain import link_cost
 def cheapest_chain_pair(
     joints: FloatArray, costs: FloatArray, is_allowed: BoolArray, speeds: FloatArray, spans: FloatArray
 ) -> NDArray[np.int64]:
-    """The cheapest way through pairs of samples, one pair at each pose.
+    """Return the cheapest way through pairs of samples, one pair at each pose.
 
     Args:
         joints: each arm's samples (rad), shape (2, n, m, 7).
-        costs: what each costs, shape (2, n, m); infinite where it must not be taken.
-        is_allowed: which may be taken together, shape (n, m, m).
-        speeds: how fast each joint turns (rad/s), shape (2, 7).
-        spans: how long each link may take (s), shape (2, n - 1); infinite where time does not press.
+        costs: the samples' costs, shape (2, n, m); infinite where a sample must not be taken.
+        is_allowed: which samples may be taken together, shape (n, m, m).
+        speeds: the joints' top speeds (rad/s), shape (2, 7).
+        spans: the longest duration wanted for each link (s), shape (2, n - 1); infinite where time does not matter.
 
     Returns:
         Each arm's sample at each pose, shape (2, n); shape (2, 0) if there is no way.
@@ -56,7 +56,7 @@ def cheapest_chain_pair(
 
 @njit(cache=True, nogil=True)
 def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, span: float) -> FloatArray:
-    """What the links from an arm's samples at a pose to those at the next cost, shape (m, m)."""
+    """Return the costs of the links from an arm's samples at a pose to those at the next, shape (m, m)."""
     size = costs.shape[1]
     links = np.full((size, size), np.inf)
     for before in range(size):
@@ -68,7 +68,7 @@ def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, span: floa
 
 @njit(cache=True, nogil=True)
 def _linked(totals: FloatArray, links: FloatArray, parents: NDArray[np.int16]) -> FloatArray:
-    """The least totals, shape (m, m), once the arm of the rows has taken a link; from which row each came is noted."""
+    """Return the least totals, shape (m, m), after a link of the rows' arm; record in `parents` the row each came from."""
     size = len(links)
     found = np.full((size, size), np.inf)
     for before in range(size):

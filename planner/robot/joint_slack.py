@@ -1,6 +1,6 @@
-"""How far joints are within their limits at one pan: the *slack* that is climbed, in closed form.
+"""How far joints are within their limits at one pan: the *slack* that is maximised, in closed form.
 
-A slack is the sine of an angle, so that it costs no arc functions: negative outside of the limits, and as smooth as the
+A slack is the sine of an angle, so that it needs no arc functions: negative outside of the limits, and as smooth as the
 angle itself near them. The formulas are those of `planner.robot.kernel`.
 """
 
@@ -14,7 +14,7 @@ from planner.robot.arm import ArmShape, Sector
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def slack_within(limits: Sector, cos: float, sin: float) -> float:
-    """The sine of the angle by which a direction lies within limits; negative outside of them."""
+    """Return the sine of the angle by which a direction lies within limits; negative outside of them."""
     above = sin * limits.cos_low - cos * limits.sin_low
     below = cos * limits.sin_high - sin * limits.cos_high
     return min(above, below) if limits.high - limits.low <= math.pi else max(above, below)
@@ -22,7 +22,7 @@ def slack_within(limits: Sector, cos: float, sin: float) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def slacks(shape: ArmShape, aim: ToolPose, pan: float) -> tuple[float, float]:
-    """The least slack of lift, roll, elbow and wrist at a pan, for cos(roll) >= 0 and for cos(roll) <= 0."""
+    """Return the least slack of lift, roll, elbow and wrist at a pan, for cos(roll) >= 0 and for cos(roll) <= 0."""
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
     bones_2 = shape.upper * shape.upper + shape.fore * shape.fore
@@ -51,7 +51,7 @@ def slacks(shape: ArmShape, aim: ToolPose, pan: float) -> tuple[float, float]:
 def _lift_and_wrist_slack(
     shape: ArmShape, wrist: tuple[float, float, float], axis: tuple[float, float, float], a: float, b: float
 ) -> float:
-    """The lesser slack of lift and wrist for a wrist's centre and an axis seen from the panned shoulder."""
+    """Return the lesser slack of lift and wrist for a wrist's centre and an axis seen from the panned shoulder."""
     u, v, w = wrist
     length_2 = a * a + b * b
     cos_lift, sin_lift = (a * u + b * w) / length_2, (b * u - a * w) / length_2
@@ -64,9 +64,9 @@ def _lift_and_wrist_slack(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def ring_slack(shape: ArmShape, aim: ToolPose, radius: float, pan: float, branch: float) -> tuple[float, int]:
-    """The least slack at one pan and branch (cos(roll) of its sign) of an aim and four on a circle round it.
+    """Return the least slack at one pan and branch (sign of cos(roll)) of a tool pose and four on a circle round it.
 
-    And of which: 0 is the aim itself, the others as by `beside`.
+    The second value tells which pose has it: 0 is the tool pose itself, the others are numbered as in `beside`.
     """
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     bones_2 = shape.upper * shape.upper + shape.fore * shape.fore

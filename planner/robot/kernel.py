@@ -1,8 +1,8 @@
-"""Can the arm bring its tool to this point, pointing this way? In closed form, compiled.
+"""Reachability of a tool position and approach axis, in closed form, compiled.
 
-The naive way is numerical inverse kinematics: a millisecond a question, and no answer when it fails
-to converge. But lock the shoulder's pan and the arm of a PR2 is a textbook exercise. With the
-approach axis a, the wrist stands at W = tool - tool_length * a, and in the panned shoulder's frame
+Numerical inverse kinematics would take a millisecond a query, and gives no answer when it fails to converge. But with
+the shoulder's pan locked the arm of a PR2 has a closed-form solution. With the approach axis a, the wrist stands at W =
+tool - tool_length * a, and in the panned shoulder's frame
 
     (u, v, w) = Rz(-pan) W - (offset, 0, 0)
     cos elbow = (u2 + v2 + w2 - upper2 - fore2) / (2 upper fore),     elbow <= 0
@@ -10,28 +10,27 @@ approach axis a, the wrist stands at W = tool - tool_length * a, and in the pann
     lift      = atan2(B, A) - atan2(w, u),   A = upper + fore cos elbow,   B = fore cos roll |sin elbow|
     cos wrist = forearm . a,                                          wrist <= 0
 
-while forearm and wrist roll are continuous and can always be met. So the question is whether some pan
-leaves all five joints within their limits.
+while forearm and wrist roll are continuous and can always be met. The query is then whether some pan leaves all five
+joints within their limits.
 
-- The elbow's limits, and |sin roll| <= 1, bound cos(pan - bearing of W) by a linear and a quadratic
-  inequality: the pans that are possible at all are a few *arcs*, found exactly (`planner.robot.pan_arcs`).
-- An arc is walked by an angle theta from 0 to pi: pan = middle - half cos(theta). The branches usually
-  meet at the arc's ends, where |sin roll| is 1, and there pan has a square root's infinite slope; in
-  theta all is smooth, and with theta from -pi to 0 for the second branch the two form a closed curve.
-- *slack* is the least distance from all other limits, taken as the sine of an angle so that
-  walking costs no arc functions (`planner.robot.joint_slack`). It is sampled for both branches at
-  once, and from every promising peak among the samples climbed; the answer is yes as soon as it is
-  not negative.
+- The elbow's limits, and |sin roll| <= 1, bound cos(pan - bearing of W) by a linear and a quadratic inequality: the
+  feasible pans are a few *arcs*, found exactly (`planner.robot.pan_arcs`).
+- An arc is parametrised by an angle theta from 0 to pi: pan = middle - half cos(theta). The branches usually meet at
+  the arc's ends, where |sin roll| is 1, and there pan has a square root's infinite slope; in theta everything is
+  smooth, and with theta from -pi to 0 for the second branch the two form a closed curve.
+- *slack* is the least distance from all other limits, taken as the sine of an angle so that it needs no arc functions
+  (`planner.robot.joint_slack`). It is sampled for both branches at once, and climbed from every promising peak among
+  the samples; the answer is yes as soon as it is not negative.
 
-A yes is therefore always right: the theta where the walk stopped is a witness. A no may be wrong
-only where the set of good pans is narrower than the climb can find.
+A yes is therefore always right: the theta where the climb stopped is a witness. A no may be wrong only where the set of
+good pans is narrower than the climb can find.
 
-Lengths in m, angles in rad, everything in the shoulder's frame: parallel to the base, its origin on
-the pan axis at the height of the lift axis. The arm is a left one (see `planner.robot.arm`).
+Lengths are in m, angles in rad, and everything is in the shoulder's frame: parallel to the base, its origin on the pan
+axis at the height of the lift axis. The arm is a left arm (see `planner.robot.arm`).
 
-The compiled code is cached on disk, file by file, and does not notice when a function or number that it
-uses from *another* file changes: so the arm's numbers are arguments, and whoever changes a compiled
-function should delete the caches (``__pycache__``) of all that import its file too.
+The compiled code is cached on disk, file by file, and the cache ignores changes of functions or numbers in *other*
+files: so the arm's numbers are arguments, and after changing a compiled function, delete the caches (``__pycache__``)
+of all files that import it too.
 """
 
 import math
@@ -49,23 +48,23 @@ SAMPLES = 8
 """Samples for each branch of the elbow along an arc."""
 
 PROMISING = -0.35
-"""A sample whose slack is less than this is not worth climbing from."""
+"""Least slack of a sample from which to climb."""
 
 FINEST = 1e-4
-"""The climb ends when its step along the curve is smaller than this (rad)."""
+"""Step along the curve at which the climb ends (rad)."""
 
 STEEPEST = 3.0
-"""A climb ends when even a slack growing this fast would stay negative."""
+"""Largest growth of the slack assumed: a climb ends when even this would leave it negative."""
 
 NEARBY = 0.15
-"""How far beside the pan that served last another is tried (rad)."""
+"""Distance from the pan that served last at which others are tried (rad)."""
 
 
 @njit(cache=True, nogil=True)
 def shape_of(numbers: FloatArray) -> ArmShape:
-    """The arm whose lengths and limits are these, one after the other (see `planner.robot.arm.numbers_of`).
+    """Return the arm whose lengths and limits are given as one array (see `planner.robot.arm.numbers_of`).
 
-    To hand a kernel a tuple of so many numbers costs more than what some kernels do.
+    Passing a kernel a tuple of so many numbers costs more than what some kernels do.
     """
     n = numbers
     return ArmShape(
@@ -88,7 +87,7 @@ def shape_of(numbers: FloatArray) -> ArmShape:
 def _climbed(
     shape: ArmShape, aim: ToolPose, arc: FloatArray, branch: int, theta: float, here: float, step: float
 ) -> tuple[float, float]:
-    """The slack and theta of a peak within a step of theta, or of the first place that is good enough."""
+    """Return the slack and theta of a peak within a step of theta, or of the first point that is good enough."""
     while here < 0.0 and step > FINEST and here > -STEEPEST * step:
         step *= 0.5
         left = slacks(shape, aim, pan_on(arc, theta - step))[branch]
@@ -101,7 +100,7 @@ def _climbed(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def witness(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> tuple[int, float]:
-    """An arc and theta at which every joint is within its limits; arc -1 if there is none.
+    """Return an arc and theta at which every joint is within its limits; arc -1 if there is none.
 
     `arcs` is overwritten with the arcs (see `pan_arcs`).
     """
@@ -125,16 +124,16 @@ def witness(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> tuple[int, floa
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def is_reachable(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> bool:
-    """Whether the arm can take this aim with every joint within its limits."""
+    """Return whether the arm can take this tool pose with every joint within its limits."""
     return witness(shape, aim, arcs)[0] >= 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def is_reachable_near(shape: ArmShape, aim: ToolPose, arcs: FloatArray, hint: FloatArray) -> bool:
-    """The same, trying first the pan that served last, `hint`, shape (1,), which is kept up to date.
+    """Return whether the arm can take this tool pose, trying the pan in `hint`, shape (1,), first.
 
-    Neighbouring places mostly share a pan, or nearly, and to check one costs a tenth of finding one. A yes is as
-    certain.
+    `hint` holds the pan that served last and is kept up to date. Neighbouring places mostly share a pan, or nearly, and
+    checking a pan costs a tenth of finding one. A yes is as certain as that of `is_reachable`.
     """
     for shift in (0.0, NEARBY, -NEARBY):
         pan = min(max(hint[0] + shift, shape.pan.low), shape.pan.high)
@@ -151,7 +150,7 @@ def is_reachable_near(shape: ArmShape, aim: ToolPose, arcs: FloatArray, hint: Fl
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def reachable_batch(shape: ArmShape, points: FloatArray, axes: FloatArray) -> BoolArray:
-    """Which tool points and approach axes, each of shape (n, 3), are reachable; shape (n,)."""
+    """Return which tool points and approach axes, each of shape (n, 3), are reachable; shape (n,)."""
     arcs = np.empty((MOST_ARCS, 2))
     answers = np.empty(len(points), dtype=np.bool_)
     for i in range(len(points)):

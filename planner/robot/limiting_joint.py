@@ -1,9 +1,9 @@
-"""Which joint keeps the arm from an aim?
+"""The joint that keeps the arm from a tool pose.
 
-With all limits kept there is no answer to look at, so the pan's limits are let go: along the arcs that are then
-left (see `planner.robot.kernel`) every joint but the elbow may be outside of its own, and the slack of each says
-by how much. The pan at which the least of the five is greatest is the arm's best try, and the joint that has
-the least there is the one to blame.
+Where all limits are kept, an unreachable pose has no solution to examine. So the pan's limits are dropped: along the
+arcs that are then left (see `planner.robot.kernel`) every joint but the elbow may be outside its limits, and its slack
+says by how much. The arm's best try is the pan at which the least of the five slacks is greatest, and the joint with
+that least slack is the limiting one.
 """
 
 import math
@@ -19,7 +19,7 @@ from planner.robot.kernel import FINEST
 from planner.robot.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 JOINT_NAMES = ("shoulder pan", "shoulder lift", "upper arm roll", "elbow", "wrist")
-"""Plain words for the joints that have limits."""
+"""Names for people of the joints that have limits."""
 
 SAMPLES = 64
 """Samples along an arc, both branches together."""
@@ -29,10 +29,10 @@ ELBOW = 3
 
 @njit(cache=True, nogil=True)
 def joint_slacks(shape: ArmShape, aim: ToolPose, pan: float, branch: float) -> tuple[float, float, float, float, float]:
-    """The slack of each of `JOINT_NAMES` at a pan, with cos(roll) of the sign of `branch`.
+    """Return the slack of each of `JOINT_NAMES` at a pan, with cos(roll) of the sign of `branch`.
 
-    A slack is the sine of the angle by which the joint lies within its limits. Where rounding has left no
-    solution for elbow or roll the nearest is taken.
+    A slack is the sine of the angle by which the joint lies within its limits. Where rounding has left no solution for
+    elbow or roll the nearest is taken.
     """
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
     u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
@@ -59,13 +59,13 @@ def joint_slacks(shape: ArmShape, aim: ToolPose, pan: float, branch: float) -> t
 
 @njit(cache=True, nogil=True)
 def _least_slack(shape: ArmShape, aim: ToolPose, arc: FloatArray, theta: float) -> float:
-    """The least slack at an angle of the closed curve over an arc."""
+    """Return the least slack at an angle of the closed curve over an arc."""
     return min(joint_slacks(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta))))
 
 
 @njit(cache=True, nogil=True)
 def _best_try(shape: ArmShape, aim: ToolPose, arcs: FloatArray, count: int) -> tuple[int, float]:
-    """The arc, of so many, and the angle of its curve at which the least slack is greatest."""
+    """Return the arc, among the first `count`, and the angle of its curve at which the least slack is greatest."""
     step = math.tau / SAMPLES
     best, best_arc, best_theta = -math.inf, 0, 0.0
     for arc in range(count):
@@ -85,7 +85,10 @@ def _best_try(shape: ArmShape, aim: ToolPose, arcs: FloatArray, count: int) -> t
 
 @njit(cache=True, nogil=True)
 def _limiting(shape: ArmShape, unpanned: ArmShape, point: FloatArray, axis: FloatArray) -> int:
-    """Which of `JOINT_NAMES` limits; -1 beyond the arm's length. `unpanned` is the arm without limits to its pan."""
+    """Return the index in `JOINT_NAMES` of the limiting joint; -1 beyond the arm's length.
+
+    `unpanned` is the arm without limits to its pan.
+    """
     aim = aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
     if not is_within_length(shape, aim):
         return -1
@@ -103,14 +106,14 @@ def _limiting(shape: ArmShape, unpanned: ArmShape, point: FloatArray, axis: Floa
 
 
 def limiting_joint(shape: ArmShape, point: FloatArray, axis: FloatArray) -> str | None:
-    """The joint that most keeps the tool from a point along an axis; None beyond the arm's length.
+    """Return the joint that most keeps the tool from a point along an axis; None beyond the arm's length.
 
-    Where no pan at all lets the elbow bend as it must, it is the elbow. Where nothing keeps the tool from
-    there it is the joint nearest to a limit.
+    It is the elbow where no pan at all lets the elbow bend as required, and the joint nearest to a limit where the pose
+    is reachable.
 
     Args:
         shape: the arm.
-        point: the tool's place in the shoulder's frame (m), shape (3,).
+        point: the tool's position in the shoulder's frame (m), shape (3,).
         axis: the approach axis, shape (3,).
     """
     limiting = _limiting(shape, shape._replace(pan=sector(-math.pi, math.pi)), point, axis)

@@ -1,11 +1,11 @@
-"""How far is a point from comfort? A question for people, asked once a plan has failed, compiled.
+"""The distance of a point from reach with margin: computed for explanations, after planning has failed. Compiled.
 
-The comfortable places of an approach are no simple region: limits cut slivers and notches into them. Doubling
+The places that an approach reaches with margin form no simple region: limits cut slivers and notches into it. Doubling
 steps leap over those and would then call a far place the nearest. So the search goes outwards in thin shells, along all
-directions and approaches and from all places of the base at once, and ends in the first shell that has a comfortable
-place. Only there is each find settled by halving, and a line that is not comfortable where it would
-beat the best so far is left at that. What makes it cheap is a lower bound (`planner.robot.arm_gap`): shells within it
-are skipped, line by line.
+directions and approaches and from all places of the base at once, and ends in the first shell that has a place within
+reach with margin. Only there is each find refined by bisection, and a line is skipped if it is not within reach where
+it would beat the best so far. A lower bound (`planner.robot.arm_gap`) makes this cheap: shells within it are skipped,
+line by line.
 
 Points are seen from the left arm's shoulder (m), parallel to the base.
 """
@@ -26,20 +26,20 @@ from planner.robot.pan_arcs import MOST_ARCS
 from planner.robot.posture_room import Room, has_room_about
 
 SHELL_M, WIDENING = 0.002, 0.03
-"""A shell is so thick (m), or so large a part of its distance where that is more."""
+"""Thickness of a shell (m), or as a fraction of its distance where that is more."""
 
 FINEST_M = 0.001
-"""Halving ends here."""
+"""Precision at which the bisection ends (m)."""
 
 
 class Wanted(NamedTuple):
-    """What is asked of a place.
+    """The requirements on a place.
 
     Attributes:
-        axes: the approach axes that will do, shape (k, 3).
-        labels: what the room's memory calls each, shape (k,).
-        comfort: radius of the comfort circle (m).
-        room: what the arm may be hindered by.
+        axes: the approach axes allowed, shape (k, 3).
+        labels: the labels of the axes in the room's memory, shape (k,).
+        comfort: the comfort radius (m).
+        room: the obstacles to the arm's postures.
     """
 
     axes: FloatArray
@@ -49,7 +49,7 @@ class Wanted(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Room to work in.
+    """Scratch space.
 
     Attributes:
         arcs: shape (MOST_ARCS, 2).
@@ -67,14 +67,14 @@ def _scratch(shape: ArmShape) -> Scratch:
 
 @njit(cache=True, nogil=True)
 def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
-    """The aim that brings the tool to a point."""
+    """Return the tool pose that brings the tool to a point in an approach."""
     axis = wanted.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
 
 
 @njit(cache=True, nogil=True)
 def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
-    """At least how far a tool point is out of comfort in an approach (m), see `comfort_gap`."""
+    """Return a lower bound on how far a tool point is from reach with margin in an approach (m), see `comfort_gap`."""
     return comfort_gap(shape, _aim(shape, wanted, point, approach), wanted.comfort)
 
 
@@ -82,7 +82,7 @@ def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) 
 def _is_wanted(
     shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
-    """Whether a tool point is had in an approach, with room, to a comfort radius; queries made."""
+    """Return whether a tool point meets the requirements in an approach, with a comfort radius; and the queries made."""
     aim = _aim(shape, wanted, point, approach)
     found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
     return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
@@ -92,18 +92,19 @@ def _is_wanted(
 def nearest_comfort(
     shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray, furthest: float
 ) -> tuple[float, int, int, int, int]:
-    """The smallest displacement along one of the directions that brings the tool into comfort.
+    """Return the smallest displacement along one of the directions that brings the tool within reach with margin.
 
     Args:
         shape: the arm.
-        wanted: what is asked of a place.
-        points: one place of the tool as seen from several places of the base, shape (n, 3); in comfort from none.
+        wanted: the requirements on the place.
+        points: one place of the tool as seen from several places of the base, shape (n, 3); within reach with margin
+            from none.
         directions: unit vectors, shape (m, 3).
-        furthest: how far to look (m); the last shell is looked at whole.
+        furthest: the furthest displacement searched (m); the last shell is searched whole.
 
     Returns:
-        The displacement (m), to `FINEST_M` and rather too long; the point; the approach; the direction; queries made.
-        Infinity, -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
+        The displacement (m), rounded up to `FINEST_M`; the point; the approach; the direction; queries made. Infinity,
+            -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
     """
     scratch, comfort, axes = _scratch(shape), wanted.comfort, wanted.axes
     hopeless = np.empty((len(points), len(axes), len(directions)))
@@ -147,18 +148,19 @@ def nearest_comfort(
 def least_worst(
     shape: ArmShape, wanted: Wanted, places: FloatArray, directions: FloatArray, furthest: float
 ) -> tuple[float, int, int]:
-    """Of several places that are all to be had in one approach: the worst, in the approach in which it is least so.
+    """Return the worst of several places that are all to be reached in one approach, in the best approach for it.
 
     Args:
         shape: the arm.
-        wanted: what is asked of each place.
+        wanted: the requirements on each place.
         places: places of the tool, each as seen from several places of the base, shape (p, n, 3).
         directions: unit vectors, shape (m, 3).
-        furthest: displacements as long as this are no longer of interest (m).
+        furthest: displacements as long as this no longer matter (m).
 
     Returns:
-        How far the worst place must be displaced (m), which it is, and the approach; 0, -1 and the approach where all
-        are in comfort; infinity, -1 and the approach that is nearest by length where none is better than `furthest`.
+        How far the worst place must be displaced (m), its index, and the approach; 0, -1 and the approach where all are
+            within reach with margin; infinity, -1 and the approach that is nearest by length where none is better than
+            `furthest`.
     """
     scratch = _scratch(shape)
     gaps = np.full((len(wanted.axes), len(places)), math.inf)
@@ -193,7 +195,7 @@ def least_worst(
 
 @njit(cache=True, nogil=True)
 def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratch) -> bool:
-    """Whether a place is in comfort in the first approach from at least one of several places of the base."""
+    """Return whether the first approach reaches a place with margin from at least one of several places of the base."""
     for point in points:
         if aims_gap(shape, wanted, point, 0) <= 0.0 and _is_wanted(shape, wanted, point, 0, wanted.comfort, scratch)[0]:
             return True
@@ -202,16 +204,18 @@ def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratc
 
 @njit(cache=True, nogil=True)
 def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple[float, int, int, int]:
-    """The largest circle round a point on which the tool still is in comfort, the point itself not being so.
+    """Return the largest circle round a point on which the tool is still within reach.
+
+    The point itself is not within reach with the full margin.
 
     Args:
         shape: the arm.
-        wanted: what is asked of the place, its comfort radius being too large.
+        wanted: the requirements on the place, with a comfort radius that is too large.
         points: one place of the tool as seen from several places of the base, shape (n, 3).
 
     Returns:
-        The radius (m), to `FINEST_M` and rather too small; the point; the approach; queries made. 0, -1, -1 where the
-        place itself is out of reach.
+        The radius (m), rounded down to `FINEST_M`; the point; the approach; queries made. 0, -1, -1 where the place
+            itself is out of reach.
     """
     scratch = _scratch(shape)
     bare = Wanted(wanted.axes, wanted.labels, 0.0, wanted.room)
@@ -239,7 +243,7 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
 
 @njit(cache=True, nogil=True)
 def is_hindered(shape: ArmShape, wanted: Wanted, points: FloatArray) -> bool:
-    """Whether the joints allow a place in comfort, from some point in some approach, and only room is lacking."""
+    """Return whether the joints reach a place with margin from some point, so that only the body prevents it."""
     scratch = _scratch(shape)
     for point in points:
         for approach in range(len(wanted.axes)):

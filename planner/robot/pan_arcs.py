@@ -1,8 +1,8 @@
-"""The pans at which an aim is possible at all, found exactly: a few arcs, and the closed curve over each.
+"""The pans at which a tool pose is feasible, found exactly: a few arcs, and the closed curve over each.
 
 With c = cos(pan - bearing of the wrist) the elbow's limits are linear in c, and |sin roll| <= 1 is quadratic: together
-they leave c one or two intervals, and pan, within its own limits, a few arcs. What the other joints say there is asked
-along an arc (see `planner.robot.kernel`, also for why it is walked by an angle).
+they leave c one or two intervals, and pan, within its own limits, a few arcs. The limits of the other joints are tested
+along an arc (see `planner.robot.kernel`, also for why an angle parametrises it).
 """
 
 import math
@@ -22,11 +22,11 @@ def pan_arcs(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> int:
 
     Args:
         shape: the arm.
-        aim: where the wrist must be.
+        aim: the tool pose.
         arcs: shape (MOST_ARCS, 2), overwritten with the middle and half width of each arc (rad).
 
     Returns:
-        How many arcs there are.
+        The number of arcs.
     """
     distance = max(math.hypot(aim.x, aim.y), 1e-9)
     reach_2 = distance * distance + aim.z * aim.z + shape.offset * shape.offset
@@ -54,7 +54,7 @@ def pan_arcs(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> int:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _add_band(limits: Sector, bearing: float, lowest: float, highest: float, arcs: FloatArray, count: int) -> int:
-    """Add the arcs where cos(pan - bearing) is from lowest to highest; returns the new count."""
+    """Add the arcs where cos(pan - bearing) is from lowest to highest; return the new count."""
     if lowest > highest:
         return count
     near, far = math.acos(highest), math.acos(lowest)
@@ -66,7 +66,7 @@ def _add_band(limits: Sector, bearing: float, lowest: float, highest: float, arc
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _add_arc(limits: Sector, start: float, end: float, arcs: FloatArray, count: int) -> int:
-    """Add what lies within the limits of an arc, whole turns allowed; returns the new count."""
+    """Add the part of an arc within the limits, whole turns allowed; return the new count."""
     for turn in (-math.tau, 0.0, math.tau):
         low, high = max(start + turn, limits.low), min(end + turn, limits.high)
         if low <= high and count < MOST_ARCS:
@@ -77,6 +77,6 @@ def _add_arc(limits: Sector, start: float, end: float, arcs: FloatArray, count: 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def pan_on(arc: FloatArray, theta: float) -> float:
-    """The pan at an angle of the closed curve over an arc (middle, half width)."""
+    """Return the pan at an angle of the closed curve over an arc (middle, half width)."""
     pan: float = arc[0] - arc[1] * math.cos(theta)
     return pan

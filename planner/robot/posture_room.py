@@ -1,12 +1,12 @@
-"""Has the arm room for any of its postures at an aim, or is the robot's own body in the way of all?
+"""A test of whether any of the arm's postures at a tool pose is clear of the robot's own body.
 
-Whoever reaches for something close to the body folds the forearm against the shoulder. Joint limits allow it, the body
-does not; and as a path is only followed in the end, the search would plan with such places and be told so one by one.
-So a place counts as reachable only if at least one of some postures there is clear of what stands still while this arm
-moves: the body, its own shoulder and the other arm at home. Whether a path leads from one posture to the next, past
-the table and an arm that moves too, is left to the joint paths.
+To reach something close to the body the arm folds its forearm against the shoulder. Joint limits allow it, the body
+does not. Paths are validated only in the end, so without this test the search would plan with such places and have them
+rejected one by one. So a place counts as reachable only if at least one of some sampled postures there is clear of what
+stands still while this arm moves: the body, its own shoulder and the other arm at home. Whether a path leads from one
+posture to the next, past the table and an arm that moves too, is left to the joint paths.
 
-As in `planner.robot.kernel` the arm is a left one, and aims are seen from its shoulder.
+As in `planner.robot.kernel` the arm is a left arm, and tool poses are seen from its shoulder.
 """
 
 import math
@@ -28,29 +28,29 @@ from planner.robot.pan_arcs import pan_arcs, pan_on
 from planner.robot.place_memory import Memory, empty_memory, learn, place_key, slot_of
 
 SAMPLES = 12
-"""Postures at each aim for each branch of the elbow, over all arcs."""
+"""Postures at each tool pose for each branch of the elbow, over all arcs."""
 
 SHOULDER, SHOULDER_LIFT, UPPER_ARM, FOREARM, WRIST, PALM, FINGERS = 0, 1, 2, 4, 5, 6, 7
 BASE, TORSO = 0, 1
-"""Numbers of parts, of an arm and of the body."""
+"""Indices of parts of the body."""
 
 CELL_M = 0.02
-"""The size of a cell: what is asked in its middle holds for all of it (m)."""
+"""Size of a cell (m); the answer at its centre holds for all of it."""
 
 AHEAD_M = 0.5
-"""A wrist further ahead of the shoulder than this is never hindered by the body (m)."""
+"""Distance ahead of the shoulder beyond which the body never hinders a wrist (m)."""
 
 
 class Room(NamedTuple):
-    """What an arm may be hindered by.
+    """The obstacles to an arm's postures.
 
     Attributes:
         lift: how far the torso is raised (m).
         parts: all parts of the robot.
-        poses: where they are; those of the left arm are overwritten, shape (p, 5, 3).
+        poses: the parts' poses; those of the left arm are overwritten, shape (p, 5, 3).
         pairs: the parts compared, shape (q, 2); none: there is room everywhere.
-        margin: how far apart they should be (m).
-        memory: what was answered before for cells of places.
+        margin: the distance that they should keep (m).
+        memory: earlier answers for cells of places.
     """
 
     lift: float
@@ -63,16 +63,16 @@ class Room(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def may_be_hindered(aim: ToolPose) -> bool:
-    """Whether a wrist is so near that the body may be in the way; to ask this costs nothing."""
+    """Return whether a wrist is so near that the body may hinder it; a test at no cost."""
     return aim.x <= AHEAD_M
 
 
 @njit(cache=True, nogil=True)
 def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs: FloatArray) -> bool:
-    """Whether some posture is clear in the middle of the cell in which a wrist is to be.
+    """Return whether some posture is clear at the centre of the cell that contains the wrist.
 
-    `label` tells approaches apart. The room's margin should allow for the size of a cell, so that nowhere in a cell
-    without room there is any.
+    `label` distinguishes approaches. The room's margin should allow for the size of a cell, so that a cell without room
+    at its centre has none anywhere.
     """
     if len(room.pairs) == 0 or not may_be_hindered(aim):
         return True
@@ -90,7 +90,7 @@ def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs:
 
 @njit(cache=True, nogil=True)
 def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bool:
-    """Whether some posture at an aim is clear; `arcs`, shape (MOST_ARCS, 2), is room to work in."""
+    """Return whether some posture at a tool pose is clear; `arcs`, shape (MOST_ARCS, 2), is scratch space."""
     joints, frame, near, rotation = np.empty(7), np.empty((3, 3)), np.zeros(7), np.zeros((3, 3))
     _level(aim, rotation)
     count = pan_arcs(shape, aim, arcs)
@@ -111,7 +111,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
 
 @njit(cache=True, nogil=True)
 def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
-    """Whether the left arm's parts are certainly apart from what they are compared with."""
+    """Return whether the left arm's parts are certainly apart from what they are compared with."""
     corners, spans, bounds = room.parts
     pose_arm(shape, room.lift, joints, 1.0, room.poses[:EACH])
     set_middles(bounds[:EACH], room.poses[:EACH])
@@ -120,7 +120,7 @@ def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
 
 @njit(cache=True, nogil=True)
 def _level(aim: ToolPose, rotation: FloatArray) -> None:
-    """Set a tool's axes for an aim, its y axis horizontal."""
+    """Set a tool's axes for a tool pose, its y axis horizontal."""
     flat = math.hypot(aim.ax, aim.ay)
     cos, sin = (aim.ax / flat, aim.ay / flat) if flat > 0.0 else (1.0, 0.0)
     rotation[0, 0], rotation[1, 0], rotation[2, 0] = aim.ax, aim.ay, aim.az
@@ -129,10 +129,10 @@ def _level(aim: ToolPose, rotation: FloatArray) -> None:
 
 
 def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
-    """The room that the body, and the right arm at home, leave the left one.
+    """Return the room that the body, and the right arm at home, leave the left arm.
 
     Args:
-        robot: its parts.
+        robot: the robot's parts.
         torso_m: how far the torso is raised (m).
         home: the right arm's joints (rad), shape (7,).
     """
@@ -149,6 +149,6 @@ def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
 
 
 def no_walls() -> Room:
-    """Room everywhere."""
+    """Return a room without obstacles."""
     nothing = Parts(np.empty((0, 3)), np.empty((0, 2), dtype=np.int64), np.empty((0, 8)))
     return Room(0.0, nothing, np.empty((0, 5, 3)), np.empty((0, 2), dtype=np.int64), 0.0, empty_memory(1))

@@ -1,4 +1,4 @@
-"""The PR2: a robot by name, its card, its reach and its joints."""
+"""The PR2: a robot loaded by name, with its card, its reach and its joints."""
 
 import math
 from collections.abc import Callable
@@ -26,14 +26,14 @@ ROBOT_NAMES = ("pr2",)
 
 
 class Pr2:
-    """A PR2. It does not change, so one may be shared by everyone.
+    """A PR2. It does not change, so all users may share one instance.
 
-    Arms are numbered from left to right as the robot sees them. Poses are of the tool frame, in the
-    base frame (``base_footprint``: x ahead, z up from the floor), in m.
+    Arms are numbered from left to right as the robot sees them. Poses are of the tool frame, in the base frame
+    (``base_footprint``: x ahead, z up from the floor), in m.
     """
 
     def __init__(self) -> None:
-        """Read the robot's description (10 ms); raises `FoldingError` where it is missing."""
+        """Read the robot's description (10 ms); raise `FoldingError` where it is missing."""
         model = read_model()
         shape = read_arm(model)
         self._model = model
@@ -43,15 +43,15 @@ class Pr2:
 
     @property
     def card(self) -> RobotCard:
-        """What the robot is."""
+        """The robot's card."""
         return self._card
 
     def home(self, arm: int) -> FloatArray:
-        """The joints of an arm that is out of the way (rad), shape (7,)."""
+        """Return the joints of an arm that is out of the way (rad), shape (7,)."""
         return np.array(self._card.arms[arm].home)
 
     def reach(self, torso_m: float, comfort_m: float) -> Pr2Reach:
-        """The reach with the torso raised so far, to a comfort radius (m).
+        """Return the reach with the torso raised by `torso_m`, for a comfort radius (m).
 
         Raises:
             SceneError: the torso does not go there.
@@ -66,7 +66,7 @@ class Pr2:
         return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)))
 
     def _room(self, torso_m: float) -> Room:
-        """What room the body leaves an arm; remembered, for it is asked in every plan anew."""
+        """Return the room that the body leaves an arm; cached, because every plan needs it."""
         if torso_m not in self._rooms:
             self._rooms = {torso_m: room_beside(self._parts, torso_m, self.home(1))}
         return self._rooms[torso_m]
@@ -74,29 +74,29 @@ class Pr2:
     def collisions(
         self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
     ) -> Collisions:
-        """What collides at a table, with the torso raised so far (1 ms).
+        """Return the collision checks at a table, with the torso raised (1 ms).
 
         Args:
             table: the table.
             torso_m: how far the torso is raised (m).
-            opening_m: the fingers are anywhere from closed to this far apart (m).
-            margin_m: what comes nearer to each other than this collides (m).
+            opening_m: the largest opening of the fingers, which may be anywhere from closed to it (m).
+            margin_m: the distance below which parts count as colliding (m).
         """
         return Collisions(self._parts, table, torso_m, opening_m, margin_m)
 
     @cached_property
     def _parts(self) -> RobotParts:
-        """What may collide; 15 ms the first time, a second where the cache of shapes is empty."""
+        """The parts that may collide; 15 ms the first time, a second where the cache of shapes is empty."""
         return robot_parts(self._model, self._card)
 
     def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
-        """Which tool poses an arm can take with every joint within its limits, shape (n,).
+        """Return which tool poses an arm can take with every joint within its limits, shape (n,).
 
-        Only the approach axis is looked at: forearm and wrist roll are continuous, so a PR2's tool
-        that reaches a point along an axis does so at any roll about it.
+        Only the approach axis matters: forearm and wrist roll are continuous, so a PR2's tool that reaches a point
+        along an axis does so at any roll about it.
 
         Args:
-            arm: which arm.
+            arm: the arm's index.
             positions: tool points (m), shape (n, 3).
             rotations: tool rotations, shape (n, 3, 3).
             torso_m: how far the torso is raised (m).
@@ -106,18 +106,18 @@ class Pr2:
     def joints_near(
         self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
     ) -> FloatArray | None:
-        """The joints nearest to given ones that bring an arm's tool to a pose.
+        """Return the joints nearest to given ones that bring an arm's tool to a pose.
 
         Args:
-            arm: which arm.
-            position: the tool's place (m), shape (3,).
+            arm: the arm's index.
+            position: the tool's position (m), shape (3,).
             rotation: the tool's axes as columns, shape (3, 3).
             torso_m: how far the torso is raised (m).
             near: joints to be near to (rad), shape (7,).
 
         Returns:
-            Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of
-            `near`; or None where the pose is out of reach.
+            Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of `near`; or None
+                where the pose is out of reach.
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 
@@ -129,14 +129,14 @@ class Pr2:
         floor_m: float,
         is_free: IsFree,
     ) -> FloatArray | NoPath:
-        """The calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
+        """Return the calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
 
         Args:
-            arm: which arm.
-            path: where its tool must be.
+            arm: the arm's index.
+            path: the tool's path.
             torso_m: how far the torso is raised (m).
-            floor_m: the height over which elbows had better stay, base frame (m).
-            is_free: which joints do not collide.
+            floor_m: the height over which elbows should preferably stay, base frame (m).
+            is_free: the check of which joints are collision-free.
 
         Returns:
             Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
@@ -146,7 +146,7 @@ class Pr2:
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
     ) -> FloatArray | None:
-        """Joints that keep an arm's tool on a path, near to others that are known, shape (n, 7) (see `near_path`)."""
+        """Return joints that keep an arm's tool on a path, near to known joints, shape (n, 7) (see `near_path`)."""
         return near_path(self._arms[arm], path, float(torso_m), is_free, known)
 
     def arm_pair_path(
@@ -157,14 +157,14 @@ class Pr2:
         are_free: tuple[IsFree, IsFree],
         both_arms: BothArms,
     ) -> FloatArray | NoPath:
-        """The calmest joints that keep both tools on their paths, or that there are none (see `arm_pair_path`).
+        """Return the calmest joints that keep both tools on their paths, or that there are none (see `arm_pair_path`).
 
         Args:
-            paths: where the tools must be, one path as long as the other.
+            paths: the tools' paths, with equally many poses.
             torso_m: how far the torso is raised (m).
-            floor_m: the height over which elbows had better stay, base frame (m).
-            are_free: of each arm which joints do not collide, whatever the other does.
-            both_arms: knows whether the arms are in each other's way.
+            floor_m: the height over which elbows should preferably stay, base frame (m).
+            are_free: for each arm the check of which joints are collision-free, whatever the other arm does.
+            both_arms: the check of whether the arms collide with each other.
 
         Returns:
             Joints within their limits (rad), shape (n, 2, 7), forearm and wrist roll unwound.
@@ -185,25 +185,25 @@ class Pr2:
         torso_m: float,
         is_free: Callable[[FloatArray], BoolArray],
     ) -> FloatArray:
-        """Samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
+        """Return samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
         return free_postures(self._arms[arm], position, rotation, float(torso_m), is_free)
 
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
-        """The tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
+        """Return the tool's positions in the base frame for rows of joints, shape (n, 7) -> (n, 3), m."""
         return self._arms[arm].tool_places(joints, float(torso_m))
 
     def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
-        """How high an arm's elbow is above the floor (m) at seven joint angles."""
+        """Return how high an arm's elbow is above the floor (m) at seven joint angles."""
         return self._arms[arm].elbow_height(joints, float(torso_m))
 
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
-        """The tool's position (m), shape (3,), and rotation, shape (3, 3), at seven joint angles."""
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), at seven joint angles."""
         return self._arms[arm].tool_pose(joints, float(torso_m))
 
 
 @cache
 def load_robot(name: str) -> Pr2:
-    """The robot of a name; raises `RequestError` for an unknown one."""
+    """Return the robot of a name; raise `RequestError` for an unknown name."""
     if name not in ROBOT_NAMES:
         raise RequestError("robot", f"there is no robot {name!r}, only {', '.join(ROBOT_NAMES)}")
     return Pr2()

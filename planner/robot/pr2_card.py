@@ -1,4 +1,4 @@
-"""The PR2's card, its numbers read from the URDF where that has them."""
+"""The PR2's card, with numbers read from the URDF where it has them."""
 
 import math
 
@@ -11,14 +11,14 @@ from planner.robot.description import package_directory, urdf_path
 _LIFT = "torso_lift_joint"
 
 _HOME = (0.8, -0.2, 0.0, -1.6, math.pi, -1.4, 0.0)
-"""The left arm raised beside the body, elbow bent upwards, the gripper pointing ahead (rad)."""
+"""Home joints of the left arm: raised beside the body, elbow bent upwards, the gripper pointing ahead (rad)."""
 
 _RESTING = (("head_pan_joint", 0.0), ("head_tilt_joint", 0.6), ("laser_tilt_mount_joint", 0.0))
-"""The head looks down at the table (rad)."""
+"""Resting joints of head and laser: the head looks down at the table (rad)."""
 
 
 def pr2_card(model: pin.Model) -> RobotCard:
-    """The card of a PR2 whose kinematic tree has been read."""
+    """Return the card of a PR2 from its kinematic tree."""
     lift = model.joints[model.getJointId(_LIFT)].idx_q
     return RobotCard(
         name="pr2",

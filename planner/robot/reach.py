@@ -1,7 +1,7 @@
-"""The PR2's answer to what the primitives ask of a robot's reach: where it is, and how far a place is from it.
+"""The PR2's implementation of the reach that the primitives ask for, with the shortfall of places out of reach.
 
-Plans are made of what is in comfort. How far a place falls short is asked once there is no plan, for people and to know
-what is hopeless.
+Plans use only places within reach with margin. How far a place falls short is computed once there is no plan, for
+explanations and to tell what is hopeless.
 """
 
 import math
@@ -22,21 +22,21 @@ from planner.robot.sided_arm import SidedArm
 
 
 class Pr2Reach(ComfortReach):
-    """The reach of a PR2 with its torso at one height, to one comfort radius: see `ComfortReach`."""
+    """The reach of a PR2 with its torso at one height, for one comfort radius: see `ComfortReach`."""
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
-        """A lower bound on what `shortfall_together` finds for the points of each way (m), shape (n,).
+        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
 
-        In closed form, and so without a query.
+        The bound is in closed form, and so makes no query.
 
         Args:
             arm: index into `arm_names`.
-            ways: tool points in the base frame at back-off 0 (m), shape (n, p, 3).
+            ways: tool points in the base frame at standoff 0 (m), shape (n, p, 3).
             approaches: indices into `approaches`, shape (k,); the best of them counts.
-            count: how many back-offs there are; the best of them counts.
-            step_m: from one back-off to the next (m).
+            count: the number of standoffs; the best of them counts.
+            step_m: the distance between standoffs (m).
         """
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         places = sided.mirrored_places(ways) - sided.shoulder(self._torso_m)
@@ -45,18 +45,18 @@ class Pr2Reach(ComfortReach):
     def shortfall(
         self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
     ) -> Shortfall | None:
-        """Why, and by how much, a place is not within comfortable reach, in the best of some approaches.
+        """Return why, and by how much, a place is not within reach with margin, in the best of some approaches.
 
-        Tried are displacements up to 0.8 m, along eight horizontal directions, straight down and straight up.
+        Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up.
 
         Args:
             arm: index into `arm_names`.
-            points: the tool's place as seen from each of the places where the base may stand (m), shape (n, 3).
+            points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
-            at_most_m: no displacement longer than this is tried either (m).
+            at_most_m: the longest displacement tried (m), if less than that.
 
         Returns:
-            The smallest shortfall; None where the place is in comfort from somewhere in one of the approaches.
+            The smallest shortfall; None where some approach reaches the place with margin from somewhere.
         """
         if len(approaches) == 0:
             raise ValueError("without an approach no point is within reach")
@@ -75,18 +75,18 @@ class Pr2Reach(ComfortReach):
     def shortfall_together(
         self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
     ) -> tuple[int, Shortfall] | None:
-        """Of places that are all to be had in one approach the worst, in the approach in which it is least so.
+        """Return the worst of places that are all to be reached in one approach, in the best approach for it.
 
         Args:
             arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand (m), shape
-                (p, n, 3).
+            places: places of the tool, each as seen from each of the places where the base may stand (m), shape (p, n,
+                3).
             approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: no displacement longer than this is tried (m).
+            at_most_m: the longest displacement tried (m).
 
         Returns:
-            Which place, and its shortfall in that approach; None where some approach brings all into comfort. Where
-            `at_most_m` is lacking or more, nothing counts of the answer but that.
+            The place's index, and its shortfall in that approach; None where some approach brings all within reach with
+                margin. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
         """
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         started = thread_time()
@@ -107,11 +107,11 @@ class Pr2Reach(ComfortReach):
         return worst, replace(found, short_by_m=max(found.short_by_m, furthest), is_at_least=True)
 
     def _wanted(self, seen: NDArray[np.int64]) -> Wanted:
-        """What is asked of a place that is to be had in one of some approaches, as the left arm sees them."""
+        """Return the requirements on a place to be reached in one of some approaches, as the left arm sees them."""
         return Wanted(self._axes[seen], seen + 1, self._comfort_m, self._room)
 
     def _from_shoulder(self, sided: SidedArm, points: FloatArray) -> FloatArray:
-        """Points on the grid, as the left arm's shoulder sees them (m)."""
+        """Return points on the grid, as seen from the left arm's shoulder (m)."""
         on_grid = LENGTH_M * np.round(sided.mirrored_places(points) / LENGTH_M)
         return np.asarray(on_grid - sided.shoulder(self._torso_m))
 

@@ -1,7 +1,7 @@
-"""Why is a place not in comfortable reach of the left arm, and by how much?
+"""Why, and by how much, a place is not within the left arm's reach with margin.
 
-Everything is seen from its shoulder (m), parallel to the base. The base may stand in several places: the place is given
-as it is seen from each.
+Everything is seen from the arm's shoulder (m), parallel to the base. The base may stand in several places: the place is
+given as it is seen from each.
 """
 
 import math
@@ -16,27 +16,27 @@ from planner.robot.limiting_joint import limiting_joint
 from planner.robot.nearest_comfort import Wanted, aims_gap, is_hindered, nearest_comfort, widest_comfort
 
 FURTHEST_M = 0.8
-"""No displacement further than this is tried."""
+"""Largest displacement tried (m)."""
 
 SIDEWAYS = 0.1
-"""A displacement that changes the distance to the shoulder by less than this part of it leads sideways."""
+"""Fraction of a displacement below which its change of the distance to the shoulder counts as sideways."""
 
 _STRAIGHT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 _SLANTING = tuple((x * math.sqrt(0.5), y * math.sqrt(0.5), 0.0) for x in (1.0, -1.0) for y in (1.0, -1.0))
 DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)))
-"""The directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
+"""Directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
 
 _RING = np.array(_STRAIGHT)
 
 
 def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float) -> tuple[Shortfall, int]:
-    """The shortfall of a place that is in comfort from nowhere, and the queries made.
+    """Return the shortfall of a place that is not within reach with margin from anywhere, and the queries made.
 
     Args:
         shape: the arm.
-        wanted: what is asked of the place, at least one approach; the shortfall's `approach` is an index into them.
-        points: the tool's place as seen from each place of the base, shape (n, 3).
-        at_most_m: no displacement longer than this, or than `FURTHEST_M`, is tried.
+        wanted: the requirements on the place, at least one approach; the shortfall's `approach` is an index into them.
+        points: the tool's position as seen from each place of the base, shape (n, 3).
+        at_most_m: the longest displacement tried, if less than `FURTHEST_M`.
     """
     furthest = min(at_most_m, FURTHEST_M)
     short_by_m, seen_from, approach, direction, queries = nearest_comfort(shape, wanted, points, DIRECTIONS, furthest)
@@ -59,16 +59,16 @@ def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_
 
 
 def _missed_on_ring(shape: ArmShape, point: FloatArray, axis: FloatArray, comfort_m: float) -> str | None:
-    """The joint that limits at a place of the comfort circle that is out of reach."""
+    """Return the joint that limits at an unreachable place of the comfort circle."""
     ring = point + comfort_m * _RING
     missed = ring[~reachable_batch(shape, ring, np.repeat(axis[None], len(ring), axis=0))]
     return limiting_joint(shape, missed[0] if len(missed) else point, axis)
 
 
 def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m: float) -> Cause:
-    """Why a point is out of reach that a displacement brings into it.
+    """Return why a point is out of reach that a displacement brings into it.
 
-    One whose wrist is above the shoulder and that must come down is too far, even where the tool hangs below.
+    A point whose wrist is above the shoulder and must come down is too far, even where the tool hangs below.
     """
     further_m = np.linalg.norm(point + short_by_m * towards) - np.linalg.norm(point)
     is_too_high = towards[2] < 0.0 and wrist[2] > 0.0
@@ -78,10 +78,10 @@ def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m
 
 
 def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, furthest: float) -> tuple[int, int, float]:
-    """Of a place that no displacement brings into comfort: from where and how it is nearest, and a bound.
+    """Return from where and how an unreachable place is nearest by length, and a lower bound on its shortfall.
 
-    It is short by at least what its wrist is beyond the arm (`planner.robot.arm_gap`), and by at least `furthest` in
-    the directions tried: the larger of the two is given.
+    The bound is the larger of what its wrist is beyond the arm (`planner.robot.arm_gap`) and `furthest`, up to which
+    all directions were tried.
     """
     approaches = range(len(wanted.axes))
     gaps = np.array([[aims_gap(shape, wanted, point, approach) for approach in approaches] for point in points])
@@ -90,7 +90,7 @@ def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, furt
 
 
 def _homewards(point: FloatArray) -> FloatArray:
-    """The unit direction to the shoulder; straight ahead from the shoulder itself."""
+    """Return the unit direction to the shoulder; straight ahead from the shoulder itself."""
     distance = float(np.linalg.norm(point))
     return -point / distance if distance > 0.0 else DIRECTIONS[0]
 

@@ -1,7 +1,7 @@
-"""Where an arm's tool must be, pose after pose, and the joints near to known ones that bring it there.
+"""The path of an arm's tool, pose after pose, and joints near to known ones that follow it.
 
-At every pose the arm keeps to the known pan and branch of the elbow, and all else follows in closed form, so the tool
-is exactly where it must be.
+At every pose the arm keeps to the known pan and branch of the elbow, and the other joints follow in closed form, so the
+tool is exactly on its path.
 """
 
 from collections.abc import Callable
@@ -15,24 +15,25 @@ from planner.robot.joint_chain import filled, solutions
 from planner.robot.sided_arm import SidedArm
 
 IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
-"""Asked with the numbers of poses, shape (m,), and joints there, shape (m, 7): which of them do not collide; and with
-whether only those count that certainly do not, which is quicker to answer."""
+"""A collision check: from the poses' indices (m,), their joints (m, 7) and a flag, tell which are free (m,).
+
+With the flag set only joints that are certainly free count, which is faster.
+"""
 
 _LEAP_RAD = 0.4
-"""Joints that go further than this between neighbouring poses have jumped (rad)."""
+"""Movement of a joint between neighbouring poses from which it counts as a jump (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToolPath:
-    """Where an arm's tool must be, pose after pose, a centimetre or a few degrees apart.
+    """The path of an arm's tool: poses a centimetre or a few degrees apart.
 
     Attributes:
         positions: base frame, shape (n, 3), m.
         rotations: the tool's axes as columns, base frame, shape (n, 3, 3).
-        spans_s: how long each step from pose to pose should take at most (s), shape (n - 1,); infinite where time does
-            not press.
-        core: the first of the poses that matter, and the one after their last; those before and after only lead there
-            and away.
+        spans_s: the longest duration wanted for each step from pose to pose (s), shape (n - 1,); infinite where time
+            does not matter.
+        core: the first of the poses that matter, and the one after their last; the others only lead there and away.
     """
 
     positions: FloatArray
@@ -43,11 +44,11 @@ class ToolPath:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NoPath:
-    """There is no path for an arm.
+    """The result of a search that found no path for an arm.
 
     Attributes:
-        blocked: poses of the path's core, counted from its first, at which the arm collides whatever it does; none
-            where it is only cut off, shape (k,).
+        blocked: poses of the path's core, counted from its first, at which the arm collides in every posture; empty
+            where the path is only disconnected, shape (k,).
         is_core: whether the core alone has no path either, whatever leads there and away.
     """
 
@@ -56,7 +57,7 @@ class NoPath:
 
     @property
     def is_hopeless(self) -> bool:
-        """Whether there is none whatever leads there and away."""
+        """Whether there is no path whatever leads there and away."""
         return self.is_core or len(self.blocked) > 0
 
 
@@ -67,14 +68,14 @@ def free_postures(
     torso_m: float,
     is_free: Callable[[FloatArray], BoolArray],
 ) -> FloatArray:
-    """Samples of an arm's joints that bring its tool to a pose and do not collide (rad), shape (k, 7).
+    """Return samples of an arm's joints that bring its tool to a pose and do not collide (rad), shape (k, 7).
 
     Args:
         arm: the arm.
-        position: the tool's place, base frame, shape (3,), m.
+        position: the tool's position, base frame, shape (3,), m.
         rotation: its axes, base frame, shape (3, 3).
         torso_m: how far the torso is raised (m).
-        is_free: asked with joints, shape (m, 7): which of them do not collide.
+        is_free: the check of which joints, shape (m, 7), do not collide.
     """
     place = arm.mirrored_places(position)[None] - arm.shoulder(torso_m)
     joints, costs = solutions(arm.shape, place, arm.mirrored_rotations(rotation)[None], -np.inf)
@@ -83,18 +84,18 @@ def free_postures(
 
 
 def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray) -> FloatArray | None:
-    """Joints that keep a tool on a path, near to others that are known: much quicker than `ArmSearch`.
+    """Return joints that keep a tool on a path, near to known joints: much faster than `ArmSearch`.
 
     Args:
         arm: the arm.
-        path: where its tool must be.
+        path: the tool's path.
         torso_m: how far the torso is raised (m).
-        is_free: which joints do not collide.
+        is_free: the check of which joints are collision-free.
         known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
 
     Returns:
-        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where none so near will do, which says nothing
-        about others.
+        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where no joints so near are valid, which says
+            nothing about others.
     """
     positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
     joints, bad = joints_along(
@@ -106,7 +107,7 @@ def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, kn
 def joints_along(
     arm: SidedArm, positions: FloatArray, rotations: FloatArray, guides: FloatArray, is_free: IsFree
 ) -> tuple[FloatArray, NDArray[np.int64]]:
-    """The joints near guides at every pose, poses and guides as the left arm sees them, and where they will not do."""
+    """Return the joints near guides at every pose, as the left arm sees both, and the poses where they are not valid."""
     joints, is_found = filled(arm.shape, positions, rotations, guides)
     leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)

@@ -51,7 +51,7 @@ def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner:
 def _nearest_along(
     corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, x: float, y: float, z: float
 ) -> Vector:
-    """Return the way from part b, a gap (m) added to it, to part a, at the points nearest along a unit direction (m)."""
+    """Return the way from part b, with a gap (m), to part a, at their nearest points along a unit direction (m)."""
     ax = -(r[a, 0, 0] * x + r[a, 1, 0] * y + r[a, 2, 0] * z)
     ay = -(r[a, 0, 1] * x + r[a, 1, 1] * y + r[a, 2, 1] * z)
     az = -(r[a, 0, 2] * x + r[a, 1, 2] * y + r[a, 2, 2] * z)
