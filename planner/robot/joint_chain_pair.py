@@ -68,7 +68,7 @@ def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, span: floa
 
 @njit(cache=True, nogil=True)
 def _linked(totals: FloatArray, links: FloatArray, parents: NDArray[np.int16]) -> FloatArray:
-    """Return the least totals, shape (m, m), after a link of the rows' arm; record in `parents` the row each came from."""
+    """Return the least totals, shape (m, m), after a link of the rows' arm; set `parents` to the row each came from."""
     size = len(links)
     found = np.full((size, size), np.inf)
     for before in range(size):

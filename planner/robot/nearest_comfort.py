@@ -82,7 +82,7 @@ def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) 
 def _is_wanted(
     shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
-    """Return whether a tool point meets the requirements in an approach, with a comfort radius; and the queries made."""
+    """Return whether a tool point meets the requirements in an approach, with a comfort radius; queries made."""
     aim = _aim(shape, wanted, point, approach)
     found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
     return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries

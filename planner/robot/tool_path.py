@@ -107,7 +107,7 @@ def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, kn
 def joints_along(
     arm: SidedArm, positions: FloatArray, rotations: FloatArray, guides: FloatArray, is_free: IsFree
 ) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return the joints near guides at every pose, as the left arm sees both, and the poses where they are not valid."""
+    """Return the joints near guides at every pose, as the left arm sees both, and the poses where they are invalid."""
     joints, is_found = filled(arm.shape, positions, rotations, guides)
     leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)
