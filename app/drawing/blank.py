@@ -1,4 +1,4 @@
-"""A board on which nothing is drawn yet."""
+"""An empty drawing, for a new document."""
 
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import COMFORT_RADIUS_M, START_STATION

@@ -34,12 +34,6 @@ class Draft:
         history: the undo and redo steps.
         gesture: the gesture in progress, if any.
         run: the series of commits that the next commit may join.
-
-    Attributes:
-        solution: the drawing, and what it comes to.
-        history: what can be undone and redone.
-        gesture: the gesture that is going on.
-        run: the run of commits that the last step may go on.
     """
 
     solution: Solution

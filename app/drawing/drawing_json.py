@@ -1,7 +1,7 @@
 """Reads and writes a drawing as JSON: reads strictly, writes every field.
 
-Reading accepts anything that a person can draw, however wrong: finding its problems is the job of solving. It refuses
-what is not a drawing: unknown fields, numbers out of bounds, duplicate ids.
+Reading accepts anything that a person can draw, however wrong: solving finds its problems. It refuses unknown fields,
+numbers out of bounds and duplicate ids.
 """
 
 from collections.abc import Mapping, Sequence

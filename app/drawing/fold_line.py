@@ -34,11 +34,6 @@ class FoundLine:
         crease: the fold with its current ends and ties.
         line: its line, article frame.
         folded: the result of folding.
-
-    Attributes:
-        crease: the fold with its ends where they are now, and what they are tied to.
-        line: its line, article frame.
-        folded: the fold done.
     """
 
     crease: Crease

@@ -31,10 +31,6 @@ class History:
     Attributes:
         past: the steps to undo, each with the drawing before it, the latest last.
         future: the steps to redo, each with the drawing after it, the next last.
-
-    Attributes:
-        past: each with the drawing before it, the latest last.
-        future: each with the drawing after it, the next to be redone last.
     """
 
     past: tuple[Step, ...] = ()

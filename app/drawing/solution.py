@@ -65,7 +65,7 @@ class Solution:
 
 
 def steps_of(replay: Replay, folded: Sequence[Folded]) -> list[dict[str, Any]]:
-    """Return as JSON what each fold sees, what it moves and where that lands; then the final silhouette."""
+    """Return as JSON, for each fold, the silhouette, the moving cloth and where it lands; then the last silhouette."""
     steps: list[dict[str, Any]] = []
     flap: list[Ring] = []
     for cloth, fold, line in zip(replay.cloths, folded, replay.lines, strict=False):

@@ -63,7 +63,7 @@ class DocumentShelf:
 
         Raises:
             UnknownDocumentError: there is none.
-            StorageError: it could not be removed.
+            StorageError: it could not be removed, and is still there.
         """
         files = DocumentFiles(document_id, self._folder)
         with storing(f"document {document_id!r} could not be removed"):
