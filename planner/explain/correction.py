@@ -35,6 +35,7 @@ _THIRD_HAND_CORNERS_MAX = 12
 """Corners of the cloth above which the ways for three hands to hold it are too many."""
 
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
+"""Codes of reasons that the hands cannot hold what a fold needs."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +48,7 @@ class Way:
         applied: applies the change by an amount to a problem.
         told: makes the reason to tell once the amount was tried.
         needed: the amount that the path found really needs, where that can be told.
-        exact: how exactly the least amount is found: with so much less the fold cannot be done.
+        exact: the resolution of the least amount: with an amount smaller by this the fold cannot be done.
         is_dream: whether no robot can be changed like this; the way still shows what stands in the way.
     """
 
@@ -138,7 +139,7 @@ def _slips_on_the_way(context: Context, fold: int | None, needed: float | None =
 
 
 def _hands(context: Context, reason: Reason, fold: int) -> Iterator[Way]:
-    """Yield wider grips in the fold alone or in drags too, hands closer together, stiffer cloth, and one more hand."""
+    """Yield ways: wider grips in the fold alone or in drags too, hands closer together, stiffer cloth, a third hand."""
     if reason.needed_grip_radius_m is None:
         yield _blue(fold)
         return
@@ -224,7 +225,7 @@ def _blue(fold: int) -> Way:
 
 
 def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
-    """Yield the cloth moved so that it lies as it must, or more cloth behind a line that can be carried."""
+    """Yield ways that move the cloth so that it lies as it must, or that let more cloth behind a line be carried."""
     if reason.fold is None:
         yield from _onto_table(context)
     elif reason.shift_m is not None and reason.shift_towards is not None:
@@ -236,7 +237,7 @@ def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
 
 
 def _onto_table(context: Context) -> Iterator[Way]:
-    """Yield the cloth moved until all of it lies on the table, or as far on the way there as is enough."""
+    """Yield the way that moves the cloth until all of it lies on the table, or as far towards that as is enough."""
     room = Room.of(context.sequence.garment, context.placement, context.scene.table)
     x, y = room.nearest
     length = math.hypot(x, y)
@@ -256,7 +257,7 @@ def _moved(kind: str, towards: Point3, by_m: float, further_m: tuple[float, ...]
 
 
 def _reach(context: Context, reason: Reason) -> Iterator[Way]:
-    """Yield the hands' path shifted by moving cloth or robot, a smaller comfort radius, and arms of any length."""
+    """Yield ways: the hands' path shifted, a smaller comfort radius, a wider approach cone, arms of any length."""
     comfort = list(_comfort(context, reason))
     if reason.cause == "comfort_only":
         yield from comfort
@@ -288,7 +289,7 @@ def _cone(context: Context) -> Way:
 
 
 def _comfort(context: Context, reason: Reason) -> Iterator[Way]:
-    """Yield a smaller comfort radius, tried with other ways where a point lacks more than all of it."""
+    """Yield the way of a smaller comfort radius, combined with others where a point lacks more than all of it."""
     now = context.reach.comfort_m
     if now <= 0.0:
         return
@@ -315,7 +316,7 @@ def _shifts(context: Context, station: str, by_m: float, towards: Point3) -> Ite
 
 
 def _lifted(by_m: float, towards: Point3) -> Iterator[Way]:
-    """Yield the table raised or lowered, or the torso moved the other way."""
+    """Yield ways that raise or lower the table, or that move the torso the other way."""
 
     def table_lifted(relaxed: Relaxed, amount: float) -> Relaxed:
         scene = relaxed.context.scene

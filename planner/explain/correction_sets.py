@@ -218,7 +218,7 @@ class _Corrections:
         return None
 
     def _alike(self, candidate: Candidate, way: Way, amount: float, base: Relaxed) -> tuple[str, ...]:
-        """Return the alike ways that are also enough with the same amount."""
+        """Return the ways with the same effect that are also enough with the same amount."""
         alike = next((kinds for kinds in _SHIFTS if way.kind in kinds), ())
         others = (other for other in candidate.ways if other.kind in alike and other.kind != way.kind)
         return tuple(other.kind for other in others if self._is_enough(other, base, amount))

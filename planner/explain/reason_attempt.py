@@ -93,6 +93,8 @@ def explained(context: Context, miss: Miss) -> Miss:
 
 
 class _Attempt:
+    """Looks for what one attempt lacks."""
+
     def __init__(self, context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> None:
         self._context = context
         self._state = state

@@ -30,7 +30,10 @@ from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 
 _GEOMETRY = (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE, Code.SLIPS)
+"""Codes of obstacles to how the cloth lies."""
+
 _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
+"""Codes of obstacles to how the hands hold the cloth."""
 
 _LOOKED_AT_MAX, _EXAMINED_MAX = 60, 3
 """Mildest obstacles of a kind for which it is checked whether the cloth can be brought there, and how many of those
@@ -63,7 +66,7 @@ class Causes:
         return tuple(sorted(found, key=lambda reason: lacking(reason, self.context)))
 
     def _alone(self, met: list[Obstacle]) -> Iterator[Reason]:
-        """Yield what alone stands against some way."""
+        """Yield each obstacle that is all that stands against some way."""
         miss = nearest_miss(self.context, self.fold, self.dones, self.places)
         if miss is not None:
             yield out_of_reach(self.context, self.fold, miss)

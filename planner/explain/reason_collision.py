@@ -23,6 +23,7 @@ from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 
 _START = (0.0, 0.0)
+"""The offset of cloth that has not been dragged (m)."""
 
 
 def collisions(context: Context, step: Step, contact: BlockingContact | None) -> Iterator[Obstacle]:

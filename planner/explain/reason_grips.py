@@ -70,7 +70,7 @@ def _in_two_runs(distances: FloatArray) -> float:
     """Return the least radius for two grips, from the distances of candidates to the ring of vertices, shape (m, n)."""
     count = distances.shape[1]
     least = np.empty((count, count))
-    """The least radius for a run that begins at the first index and has one more vertex than the second."""
+    """The least radius for a sequence that begins at the first index and has one more vertex than the second."""
     for start in range(count):
         run = np.maximum.accumulate(np.roll(distances, -start, axis=1), axis=1)
         least[start] = run.min(axis=0)

@@ -20,8 +20,10 @@ from planner.primitives.obstacle import Attempt, Situation, situation
 from planner.primitives.state import State
 
 _START = (0.0, 0.0)
+"""The offset of cloth that has not been dragged (m)."""
 
 _Place = tuple[int, int]
+"""A place of the cloth in steps of the grid."""
 
 _AS_ONE = np.array([1 << 32, 1])
 """The weights that turn a place on the grid into one number."""
@@ -74,7 +76,7 @@ class Places:
         return self._everywhere if any(self._left_by_drags(station, state) for station in stations) else 0
 
     def _reached_in(self, state: State) -> dict[_Place, int]:
-        """Return where the search came with the folds done and the grips of a state."""
+        """Return the places that the search reached with the folds done and the grips of a state."""
         done, _, _, held, is_dragged, _ = situation(state)
         return self._reached.get((done, held, is_dragged), {})
 

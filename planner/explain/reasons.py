@@ -48,6 +48,8 @@ def note_collision(context: Context, step: Step, contact: BlockingContact | None
 
 
 class _Reasons:
+    """Collects the reasons why one problem has no plan."""
+
     def __init__(self, context: Context, reached: Collection[Situation], impossible: Collection[int]) -> None:
         self._context = context
         self._places = Places(context, reached)

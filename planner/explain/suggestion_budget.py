@@ -11,6 +11,8 @@ SHORTEST_TRIAL_S = 1.0
 """Least work of a trial (s, see `Budget`); less would cut off most plans just before they are found."""
 
 _TRIALS_LEFT = 6
+"""Trials among which the work left is shared out by default."""
+
 _SETTING_UP_S = 0.01
 """Work counted for preparing a request, which replays the folds (s); the planner counts none of it."""
 

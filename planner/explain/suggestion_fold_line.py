@@ -18,9 +18,16 @@ from planner.message import Message
 from planner.task.task import Task
 
 STEPS_M = (0.1, 0.2)
+"""Shifts of a line that are tried first (m)."""
+
 NARROWED_TO_M = 0.0125
+"""How exactly the least shift is found (m)."""
+
 _FAR_M = 20.0
+"""Length by which a line is extended to cross any cloth (m)."""
+
 _DECIMALS = 5
+"""Decimals to which the ends of a line are rounded (m)."""
 
 
 def fold_lines(task: Task, folds: Sequence[int]) -> Search:

@@ -20,8 +20,10 @@ SWAPS_MAX = 3
 """Swaps of neighbours between the user's order and an order that is tried, at most."""
 
 ORDERS_MAX = 60
+"""Orders that are looked at."""
 
 Chain = tuple[int, ...]
+"""A blue fold and the red folds that follow it, by their indices."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,10 +15,13 @@ STEP_M = 0.1
 """Step of the grid of placements (m); every other place is tried first."""
 
 NARROWED_TO_M = 0.05
+"""How exactly the nearest place is found (m)."""
+
 TURN_AS_M = 0.3
 """Length of a move that counts as much as turning the garment (m)."""
 
 _TURNS = {0: "", 1: "by 90 degrees to the left", 2: "by 180 degrees", 3: "by 90 degrees to the right"}
+"""Turns by numbers of quarters, in words."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,10 @@ STAND_OFF_M = 0.15
 """Distance of the base's centre outside the table's edge (m)."""
 
 _SAME_M = 0.05
+"""Distance below which two stations can be the same (m)."""
+
 _SAME_RAD = 0.1
+"""Difference of headings below which two stations can be the same (rad)."""
 
 
 def stations(task: Task) -> Search:

@@ -60,7 +60,10 @@ class Proof(NamedTuple):
 
 
 Search: TypeAlias = Generator[Trial | Suggestion, Plan | None, None]
+"""The search of one kind of suggestion: yields trials and suggestions, is sent the plans of trials."""
+
 Narrowing: TypeAlias = Generator[Trial | Suggestion, Plan | None, Proof]
+"""A part of a search that returns the best proof it found."""
 
 
 def narrowed(

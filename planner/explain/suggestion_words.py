@@ -1,6 +1,7 @@
 """Put lengths and directions into words, as the robot sees them from the near edge of the table."""
 
 _NOTICEABLE_M = 0.0005
+"""Length below which a component of a move is left out of the words (m)."""
 
 
 def in_cm(length_m: float) -> str:

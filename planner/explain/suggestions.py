@@ -30,8 +30,13 @@ Suggestions: TypeAlias = Generator[Suggestion, None, bool]
 """Suggestions as they are found; returns whether all changes were tried before the budget was spent."""
 
 _FIRST_PLAN_SHARE = 0.5
+"""Share of the work for planning the task itself."""
+
 _CHANGES_SHARE = 0.6
+"""Share of the work after which assumptions get their turns."""
+
 _FOLDS_MAX = 3
+"""Folds to blame that changes are tried for."""
 
 
 def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, plan: Plan | None = None) -> Suggestions:

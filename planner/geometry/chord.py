@@ -15,6 +15,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
 _FAR_M = 100.0
+"""Length by which a segment is extended to cross any region (m)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ BEND_M = 0.008
 _BENT_AT_M = (0.0, 0.003, 0.006, 0.009, 0.012, 0.016, 0.024, 0.036, 0.054)
 """Distances beyond an edge at which cloth is cut, so that its flat pieces follow the bend (m)."""
 _FAR_M = 100.0
+"""Length by which a line is extended to cross any cloth (m)."""
 
 
 def bends(top: TableTop, points: FloatArray, gap_m: float) -> tuple[Segment, ...]:

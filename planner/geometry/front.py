@@ -15,6 +15,7 @@ _AHEAD_M = 1e-3
 """Distance ahead of a point at which there must be cloth for the point to lie behind some (m)."""
 
 _SLACK_M = 2 * GRID_M
+"""Margin for coordinates that are rounded to the grid (m)."""
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ _EVENED_M = 5e-4
 """How far an evened boundary may deviate, so that its curves have few corners (m)."""
 
 _AT_ONCE = 256
+"""Points for which distances to all edges are computed together, which limits the memory."""
 
 
 class Region:

@@ -10,6 +10,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import GRID_M, LENGTH_M
 
 _FAR_M = 100.0
+"""Distance beyond which nothing lies (m)."""
 
 _TOUCH_M = 10 * LENGTH_M
 """Length of the contact below which two parts near to each other only touch (m)."""

@@ -16,6 +16,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
 Interval = tuple[float, float]
+"""A part of a line, from one position to another (m)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,6 +56,8 @@ def greedy(
 
 
 class _Greedy:
+    """A greedy search in one planning problem."""
+
     def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None) -> None:
         self._problem = problem
         self._effort = effort

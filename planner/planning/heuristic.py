@@ -7,6 +7,7 @@ from planner.primitives.context import Context
 from planner.primitives.state import State
 
 Heuristic = Callable[[State], float]
+"""A lower bound on the time from a state to the goal (s)."""
 
 
 def arm_time(context: Context, wanted: int = -1) -> Heuristic:

@@ -43,8 +43,7 @@ LESS_ROOM_AFTER_S = 1.0
 # A comfort radius below its default is rare, and a larger one then usually pays; a cone that could be narrower is in
 # every request.
 MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
-"""Work on each task with a larger comfort radius, and on all with narrower cones, as a share of the work done before.
-"""
+"""Work on each task with a larger comfort radius, and on all with narrower cones, as a share of earlier work."""
 
 TRIAL_EXPANDED_MAX, GLANCE_WORK_S, TRIAL_WORK_S, REASONS_WORK_S = 200, 0.4, 1.0, 4.0
 """Budget of the searches that try whether a fold can be done once a cause is removed: states expanded in each, work of

@@ -35,6 +35,7 @@ _OFFSETS_MAX = 2000
 """Placements that drags can lead to; where there are more, the search decides."""
 
 _BITS = 32
+"""Standoffs in one reach query."""
 
 _GUESSES, _GUESSED_DRAGS = 2, 6
 """Cases, and drags in each, that are tried first, before all cases are checked."""
