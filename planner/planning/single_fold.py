@@ -107,7 +107,7 @@ class SingleFold:
     def _is_possible_nearby(self, case: Case, fold: int) -> bool:
         """Return whether a fold can be done from the station of the start where a few drags may bring the article.
 
-        A quick check that mostly finds the fold possible.
+        A quick check before all cases are checked.
         """
         steps = min(longest_drag(self._context), _GUESSED_DRAGS)
         places = [dragged(self._context, (0.0, 0.0), self._station, count) for count in range(steps + 1)]

@@ -24,7 +24,7 @@ _NAPKIN = {
     "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0.15], "end": [0.0, 0.15]}],
     "placement": {"x_m": -0.75, "y_m": 0.15, "yaw_rad": -1.5707963267948966},
 }
-"""A small garment whose plan uses most kernels."""
+"""A small garment that is planned to use the kernels."""
 
 _FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
 """Tool points that are out of reach, and at its edge, base frame (m)."""
