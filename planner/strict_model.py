@@ -11,7 +11,10 @@ LARGEST_M = 10.0
 """The largest coordinate or other length in a file or request (m)."""
 
 Bounded = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
+"""The type of a coordinate (m)."""
+
 Positive = Annotated[float, Field(gt=0.0, le=LARGEST_M)]
+"""The type of a length above zero (m)."""
 
 
 class StrictModel(BaseModel):

@@ -53,6 +53,7 @@ class OnCrease:
 
 
 Attachment: TypeAlias = OnVertex | OnEdge | OnCrease
+"""The part of the garment that a fold's end is attached to."""
 
 
 @dataclass(frozen=True, slots=True)

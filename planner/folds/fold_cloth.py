@@ -15,6 +15,7 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
 
 _FOLDED_KEPT = 256
+"""The number of folds whose results are cached."""
 
 
 @dataclass(frozen=True)

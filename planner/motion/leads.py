@@ -28,14 +28,16 @@ _STEP_M = 0.01
 """The distance between neighbouring steps on these lines (m)."""
 
 Shares = tuple[tuple[float, float], ...]
+"""Fractions of the straight line and of the rise, in the order in which they are tried."""
 
 NEAR: Shares = ((0.2, 0.0), (0.0, 0.0))
-UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
-FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
-"""The fractions of the line and of the rise that are tried.
+"""The least that must do: hardly any straight line, and no rise."""
 
-`NEAR` must do at least; `UP` takes hands clear of the cloth; `FAR` is preferred.
-"""
+UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
+"""A short line and some rise, which take hands clear of the cloth."""
+
+FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
+"""The preferred ones: up to the whole line and the whole rise."""
 
 OVER, BESIDE = 0.5 * np.pi, 0.0
 """The roll of a hand with one finger above the other, and with both side by side (rad)."""

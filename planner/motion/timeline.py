@@ -15,6 +15,7 @@ from planner.task.plan import Plan
 from planner.task.trajectory import Trajectory
 
 RATE_HZ = (1.0, 200.0)
+"""The lowest and the highest rate at which a plan is sampled (Hz)."""
 
 _SINK_S = 0.4
 """The time over which cloth released beyond an edge is shown sinking (s); the model lets it hang at once."""

@@ -25,12 +25,13 @@ _CHECK_S = 0.04
 """The time between moments at which empty hands beside a moving base are tested (s)."""
 
 _CHECKS_MAX = 1000
-"""Moments that are checked at most: who takes minutes for a way goes less far from one to the next."""
+"""The most moments tested: hands that take minutes for a path move less from one moment to the next."""
 
 _KEYFRAMES = 12
 """The keyframes of an eased line of empty hands."""
 
 _EASING = 0.3
+"""The fraction of a line's time that is spent speeding up, and again slowing down, if there is time."""
 
 
 class Keyframes(NamedTuple):
@@ -127,7 +128,7 @@ class TransitPlanner:
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
         away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
-        if away is None and np.array_equal(tail.joints[-1], home):  # at home already, at a table as high as the hands
+        if away is None and np.array_equal(tail.joints[-1], home):  # Already at home, at a table as high as the hands.
             away = np.array([home, home])
         back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
         assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"

@@ -37,6 +37,7 @@ DRAGS_PER_M = 10
 """The resolution of the grid of drag distances: one every 10 cm (1/m)."""
 
 _START = State(0, (0.0, 0.0), 0, 0)
+"""The usual start: no fold done, nothing dragged, the base at the first station."""
 
 
 def _never() -> bool:
@@ -45,10 +46,10 @@ def _never() -> bool:
 
 @dataclass(slots=True)
 class Patience:
-    """How long somebody waits for an answer.
+    """The limit of the time that somebody waits for an answer.
 
     Attributes:
-        is_over: asked in loops that take long; true: return what is known by then.
+        is_over: called in long loops; when it returns true, they return what is known by then.
     """
 
     is_over: Callable[[], bool] = _never
@@ -68,7 +69,7 @@ class Context:
         grips_apart_m: the smallest distance between two grips that two hands can take (m).
         start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
-        patience: how long somebody waits for the answer.
+        patience: the limit of the time that somebody waits for the answer.
     """
 
     sequence: FoldSequence

@@ -16,6 +16,7 @@ from planner.primitives.state import State
 from planner.task.phase import ClothMotion, Hand, Phase
 
 _DENSE_SWEEP = 0.02
+"""The sweep between neighbouring points of a path; a whole fold is a sweep from 0 to 2."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,6 +56,7 @@ class GFold:
         if self._follows_at_once[fold]:
             ends, more = question.every_end(begun), IMPOSSIBLE
         else:
+            # The limit grows geometrically, so that a fold far away is queried only a few times.
             ends, more = question.ends(begun, driven, 3 * driven)
         for end in ends:
             yield fold_step(self._context, end.way, state, end.first, end.back_off, end.steps)

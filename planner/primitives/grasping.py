@@ -14,6 +14,7 @@ from planner.primitives.context import Context
 from planner.task.grip import Holding
 
 _PREFERRED_PITCH_RAD = math.radians(30.0)
+"""The downward pitch of the most natural approach (rad)."""
 
 _DISCOMFORT_DIGITS = 3
 """Decimals to which discomforts are compared (rad): the bisector at a corner is known no better."""

@@ -91,6 +91,7 @@ class HoldingDrags:
         for after in drag.afters:
             stand = after.back_off - drag.driven
             begun[after.back_off] = abs(drag.before.back_off - stand) + drag.driven
+        # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
         ends, more = self._questions.of(drag.afters[0], fold).ends(begun, least, most)
         after_at = {after.back_off: after for after in drag.afters}

@@ -9,3 +9,4 @@ from planner.primitives.g_fold import GFold
 from planner.primitives.primitive import Primitive
 
 PRIMITIVES: tuple[Callable[[Context], Primitive], ...] = (GFold, GDrag, BaseMove)
+"""The constructors of all primitives."""

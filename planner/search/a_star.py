@@ -63,6 +63,7 @@ class Promise(Generic[S, A]):
 
 
 Successors: TypeAlias = Iterable[Edge[S, A] | Promise[S, A]]
+"""The edges that leave a state, some of them deferred."""
 
 
 @dataclass(frozen=True, slots=True)
