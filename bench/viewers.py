@@ -12,7 +12,7 @@ import viser
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-from app.ui.private_viser import LOOPBACK, SECRET_HEADER
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 
 READY = "watching"
 QUIET_S = 0.5

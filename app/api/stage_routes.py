@@ -1,23 +1,12 @@
 """The way to a stage: its page and websocket under `/viser/{document}`, passed on to its own viser server.
 
-The page is one file, the same for all stages. It works out where its websocket is from its own address less
-the trailing slash, so page and websocket differ by that slash alone. Its notices, and on a phone its panel of
-controls, have no place in our frame: the style that we add hides all but the canvas and the panels that float, and lays
-the board's ground behind them. A
-frame is narrower than a window, so what viser takes for a phone is made narrower too.
-
-viser's labels are black on white whatever the ground: their shaders are given the page's own colours, light on dark,
-which can be read on either.
-
-Until the visitor's panel is there, viser shows one with the address of the websocket. So the frame tells the page when
-its own panel has come, and the page covers it until then.
-
-A page that has its stage drawn by the processor asks for it under `/viser/{document}/by-software`.
+The page is one file, the same for all stages. It works out where its websocket is from its own address less the
+trailing slash, so page and websocket differ by that slash alone. A page that has its stage drawn by the processor asks
+for it under `/viser/{document}/by-software`.
 """
 
 import asyncio
 import contextlib
-import functools
 
 from fastapi import APIRouter, Request, WebSocket
 from fastapi.concurrency import run_in_threadpool
@@ -28,61 +17,15 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
 from app.api.asked import workspace_of
-from app.ui.editor.seat import PANEL_LABEL
-from app.ui.private_viser import LOOPBACK, SECRET_HEADER, VISER_PAGE
 from app.ui.stage import Stage
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER, stage_page
 from app.workspace import Workspace
 from planner.errors import FoldingError
 
 router = APIRouter(prefix="/viser", include_in_schema=False)
 
-SEATED = "pleat-seated"
-"""What the frame tells the page once the visitor's own panel is there."""
-
 _GOING_AWAY = 1001
 _NOT_FOUND = 4404
-_HIDE = (
-    b"<style>#root * { visibility: hidden }"
-    b"#root canvas, #root canvas ~ div, #root canvas ~ div *, "
-    b"#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
-)
-_GROUND = (
-    b"<style>body { background: #fafaf8 !important }"
-    b' [data-mantine-color-scheme="dark"] body { background: #16181c !important }</style>'
-)
-_NARROW = (
-    b"<script>{ const asked = window.matchMedia.bind(window);"
-    b' window.matchMedia = (query) => asked(query.replace("(max-width: 36em)", "(max-width: 25em)")); }</script>'
-)
-_LABELS = b"""<script>{
-  const colours = {
-    "vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)": "vec4(0.114, 0.125, 0.145, 0.85 * vAlpha)",
-    "vec4(0.0, 0.0, 0.0, a)": "vec4(0.925, 0.922, 0.902, a)",
-  };
-  const recoloured = new Set();
-  for (const kind of [WebGLRenderingContext, WebGL2RenderingContext]) {
-    const give = kind.prototype.shaderSource;
-    kind.prototype.shaderSource = function (shader, text) {
-      for (const [theirs, ours] of Object.entries(colours)) {
-        if (!text.includes(theirs)) continue;
-        text = text.replace(theirs, ours);
-        recoloured.add(theirs);
-      }
-      document.documentElement.dataset.recoloured = recoloured.size;
-      return give.call(this, shader, text);
-    };
-  }
-}</script>"""
-_SEATED = f"""<script>{{
-  const isSeated = () => [...document.querySelectorAll("#root *")].some(
-    (part) => !part.childElementCount && part.textContent === "{PANEL_LABEL}");
-  const watch = new MutationObserver(() => {{
-    if (!isSeated()) return;
-    watch.disconnect();
-    parent.postMessage("{SEATED}", location.origin);
-  }});
-  watch.observe(document.documentElement, {{ childList: true, subtree: true, characterData: true }});
-}}</script>""".encode()
 
 
 @router.get("/{name}/")
@@ -90,7 +33,7 @@ _SEATED = f"""<script>{{
 async def read_stage_page(request: Request, name: str) -> Response:
     """The page that shows a stage."""
     await run_in_threadpool(workspace_of(request).opened, name)
-    return HTMLResponse(_bare_page(), headers={"cache-control": "no-cache"})
+    return HTMLResponse(stage_page(), headers={"cache-control": "no-cache"})
 
 
 @router.get("/{name}")
@@ -128,12 +71,6 @@ async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> 
             await websocket.accept(subprotocol=inner.subprotocol)
             with stage.drawn_by_software() if is_by_software else contextlib.nullcontext():
                 await _pass_on(websocket, inner)
-
-
-@functools.lru_cache(maxsize=1)
-def _bare_page() -> bytes:
-    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
-    return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + _SEATED, 1)
 
 
 def _dial(stage: Stage, subprotocols: list[str]) -> connect:

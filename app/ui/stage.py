@@ -18,10 +18,10 @@ from app.ui.fold_view import FoldView
 from app.ui.grip_view import GripView
 from app.ui.lighting import add_lights
 from app.ui.opening import opening
-from app.ui.private_viser import start_private_viser
 from app.ui.robot_view import RobotView
 from app.ui.table_view import TableView
 from app.ui.viewpoint import Viewpoint
+from app.ui.viser_patches import start_private_viser
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
@@ -42,7 +42,7 @@ class Stage:
         scene: the scene that is shown.
         opening: where the camera of whoever comes is at first.
         port: the loopback port of its viser server.
-        secret: what that port wants to hear (see `app.ui.private_viser`).
+        secret: what that port wants to hear (see `app.ui.viser_patches`).
     """
 
     def __init__(self, card: RobotCard, scene: Scene) -> None:

@@ -16,9 +16,9 @@ from websockets.sync.client import connect
 from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink, paint
 from app.ui.lying_cloth import lying_cloth
-from app.ui.private_viser import LOOPBACK, SECRET_HEADER
 from app.ui.robot_model import load_robot_model
 from app.ui.stage import Stage
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table

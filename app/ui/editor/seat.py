@@ -19,10 +19,9 @@ from app.ui.editor.presets import Preset, robots_eye, side, top
 from app.ui.grip_view import ROOT as MARKS
 from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
+from app.ui.viser_patches import PANEL_LABEL
 from planner.geometry.pose import Pose2
 from planner.robot.card import RobotCard
-
-PANEL_LABEL = "Table"
 
 _PANEL_PX = 250
 _PANEL_GAP_PX = 15

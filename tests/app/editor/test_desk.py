@@ -14,8 +14,8 @@ from app.player import Player
 from app.ui.editor.desk import Desk
 from app.ui.editor.glass import NODE
 from app.ui.opening import opening
-from app.ui.private_viser import start_private_viser
 from app.ui.stage import Stage
+from app.ui.viser_patches import start_private_viser
 from planner import Scene
 from planner.robot.pr2 import load_robot
 from tests.app.drawing.drawings import towel_drawing

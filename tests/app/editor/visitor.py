@@ -10,8 +10,8 @@ from websockets.sync.client import connect
 
 from app.ui.editor.aim import CLOTH_HEIGHT_M
 from app.ui.editor.glass import NODE
-from app.ui.private_viser import LOOPBACK, SECRET_HEADER
 from app.ui.stage import Stage
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner.geometry.pose import Point2, Point3
 
 SUBPROTOCOL = "viser-v1.1.1"

@@ -1,0 +1,133 @@
+"""All that is changed of viser, and why; `tests/app/test_viser_patches.py` fails where viser changes under it.
+
+**A server that nobody but this process can talk to.** viser listens on a port of its own and asks nobody who they are,
+so any web page open in a browser on this machine could connect to it and read the scene. A stage is reached through the
+one public address only: the viser port wants a secret header, which our proxy knows and which no page can send along
+with a websocket. viser has no option for that, and makes its websocket server inside of a function, so no subclass can.
+It hands a `process_request` hook to `websockets.asyncio.server.serve` when it starts, though, and while it starts we
+put our check in front of that hook.
+
+**A page that fits into ours.** viser's page is one built file without options for its looks. Its notices, and on a
+phone its panel of controls, have no place in our frame: the style that we add hides all but the canvas and the panels
+that float, and lays the board's ground behind them. A frame is narrower than a window, so what viser takes for a phone
+is made narrower too. Its labels are black on white whatever the ground: their shaders are given the page's own colours,
+light on dark, which can be read on either. Until the visitor's panel is there, viser shows one with the address of the
+websocket; so the frame tells our page when its own panel has come, and our page covers it until then.
+"""
+
+import contextlib
+import functools
+import hmac
+import http
+import secrets
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import rich
+import viser
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+LOOPBACK = "127.0.0.1"
+SECRET_HEADER = "X-Pleat-Stage"
+
+VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
+"""The page that stages are seen in: one file, everything in it."""
+
+PANEL_LABEL = "Table"
+"""The label of the visitor's panel, by which it is found."""
+
+SEATED = "pleat-seated"
+"""What the frame tells the page once the visitor's own panel is there."""
+
+PHONE_WIDTH = "(max-width: 36em)"
+"""The media query by which viser's page tells a phone."""
+
+_HIDE = (
+    b"<style>#root * { visibility: hidden }"
+    b"#root canvas, #root canvas ~ div, #root canvas ~ div *, "
+    b"#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
+)
+_GROUND = (
+    b"<style>body { background: #fafaf8 !important }"
+    b' [data-mantine-color-scheme="dark"] body { background: #16181c !important }</style>'
+)
+_NARROW = f"""<script>{{ const asked = window.matchMedia.bind(window);
+ window.matchMedia = (query) => asked(query.replace("{PHONE_WIDTH}", "(max-width: 25em)")); }}</script>""".encode()
+_LABELS = b"""<script>{
+  const colours = {
+    "vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)": "vec4(0.114, 0.125, 0.145, 0.85 * vAlpha)",
+    "vec4(0.0, 0.0, 0.0, a)": "vec4(0.925, 0.922, 0.902, a)",
+  };
+  const recoloured = new Set();
+  for (const kind of [WebGLRenderingContext, WebGL2RenderingContext]) {
+    const give = kind.prototype.shaderSource;
+    kind.prototype.shaderSource = function (shader, text) {
+      for (const [theirs, ours] of Object.entries(colours)) {
+        if (!text.includes(theirs)) continue;
+        text = text.replace(theirs, ours);
+        recoloured.add(theirs);
+      }
+      document.documentElement.dataset.recoloured = recoloured.size;
+      return give.call(this, shader, text);
+    };
+  }
+}</script>"""
+_SEATED = f"""<script>{{
+  const isSeated = () => [...document.querySelectorAll("#root *")].some(
+    (part) => !part.childElementCount && part.textContent === "{PANEL_LABEL}");
+  const watch = new MutationObserver(() => {{
+    if (!isSeated()) return;
+    watch.disconnect();
+    parent.postMessage("{SEATED}", location.origin);
+  }});
+  watch.observe(document.documentElement, {{ childList: true, subtree: true, characterData: true }});
+}}</script>""".encode()
+
+
+_Hook = Callable[[ServerConnection, Request], Response | None]
+_starting = threading.Lock()
+
+
+def start_private_viser() -> tuple[viser.ViserServer, str]:
+    """A running viser server on a free loopback port, and the secret it wants in `SECRET_HEADER`."""
+    secret = secrets.token_urlsafe(32)
+    rich.get_console().quiet = True  # viser announces itself there; its address is of no use to anyone
+    with _starting, _asking_for(secret):
+        return viser.ViserServer(host=LOOPBACK, port=0, verbose=False), secret
+
+
+@contextlib.contextmanager
+def _asking_for(secret: str) -> Iterator[None]:
+    serve: Any = websockets.asyncio.server.serve
+
+    def guarded_serve(*args: Any, process_request: _Hook, **options: Any) -> Any:  # noqa: ANN401
+        return serve(*args, process_request=_guarded(process_request, secret), **options)
+
+    module: Any = websockets.asyncio.server
+    module.serve = guarded_serve
+    try:
+        yield
+    finally:
+        module.serve = serve
+
+
+def _guarded(hook: _Hook, secret: str) -> _Hook:
+    def answer(connection: ServerConnection, request: Request) -> Response | None:
+        given = "".join(request.headers.get_all(SECRET_HEADER))
+        if hmac.compare_digest(given.encode(), secret.encode()):
+            return hook(connection, request)
+        return Response(http.HTTPStatus.FORBIDDEN, "Forbidden", Headers({"Content-Length": "0"}))
+
+    return answer
+
+
+@functools.lru_cache(maxsize=1)
+def stage_page() -> bytes:
+    """Return the page that stages are seen in: viser's, with what we add to it."""
+    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
+    return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + _SEATED, 1)
