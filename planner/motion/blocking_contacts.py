@@ -1,9 +1,9 @@
-"""Find the contact that blocks a motion, and the least depth to which the arms cannot avoid it.
+"""Find the contact that blocks a motion, and how deep it is even in the best postures.
 
 At some moments of the motion, every posture that brings an arm's tool to its pose is tested alone, then both arms'
 postures together. At each moment the posture of least penetration counts; the moment at which that is deepest tells
-what blocks the motion. If some posture is free at every moment, no path connects them, and there is no contact to
-report.
+what blocks the motion. If some posture is free at every moment, the postures are merely not connected by a path, and
+there is no contact to report.
 """
 
 from collections.abc import Iterator

@@ -56,7 +56,7 @@ class HoldingDrags:
     def successors(
         self, state: State, way: DragWay, count: int, offset: Point2
     ) -> Iterator[DragStep | Deferred[DragStep]]:
-        """Yield the same drags, those first that are cheapest together with a fold; defer the rest as spare."""
+        """Yield the drags of `every`, those first that are cheapest together with a fold; defer the rest as spare."""
         drag = self._drag(state, way, count, offset)
         folds = self._served(drag)
         if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):

@@ -127,9 +127,9 @@ class Reach(Protocol):
         step_m: float,
         enough: int | None = None,
     ) -> BoolArray:
-        """Return, for each approach, which points the arm's tool reaches comfortably from at least one standoff.
+        """Return, for each approach, which points the arm's tool can reach from at least one standoff.
 
-        Comfortably means within the comfort radius. Each point stands on its own: no path leads to it.
+        A point is reached if it is within the comfort radius. Each point stands on its own: no path leads to it.
 
         Args:
             arm: index into `arm_names`.
@@ -192,8 +192,8 @@ class Reach(Protocol):
             at_most_m: the longest displacement to look for (m).
 
         Returns:
-            The index of the place, and its shortfall in that approach; None where some approach reaches all places
-                comfortably. Where `at_most_m` or more is lacking, only that fact is valid, not the other details of the
-                answer.
+            The index of the place, and its shortfall in that approach; None where some approach has all places within
+                the comfort radius. Where `at_most_m` or more is lacking, only that fact is valid, not the other details
+                of the answer.
         """
         ...
