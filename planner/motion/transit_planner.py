@@ -131,7 +131,9 @@ class TransitPlanner:
         if away is None and np.array_equal(tail.joints[-1], home):  # Already at home, at a table as high as the hands.
             away = np.array([home, home])
         back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
-        assert away is not None and back is not None, "a run that was made real can be left and reached by way of home"
+        assert away is not None and back is not None, (
+            "a transfer that was validated can be left and reached by way of home"
+        )
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
         wait_s = tail.shortest_s + float(leave_s.sum())
         waited = free.after_waiting(wait_s)
