@@ -19,7 +19,6 @@ from planner.primitives.state import Held, State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
 
-
 _LIKE = 8
 """The number of approaches of each arm that count as like its former one; trying all takes several times as long."""
 
