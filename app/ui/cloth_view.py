@@ -1,7 +1,7 @@
 """The cloth on the stage: its two faces in two colours, and the outline of every layer.
 
-A face of cloth has no thickness, so it is drawn twice from the same triangles: once where it is seen from
-the front, once where it is seen from behind. It casts no shadow: it would fall on its own other drawing.
+A face of cloth has no thickness, so it is drawn twice from the same triangles: one mesh is seen from the front, the
+other from behind. Neither casts a shadow, because it would fall on the other.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ class ClothView:
     """Shows one cloth surface at a time."""
 
     def __init__(self, scene: viser.SceneApi, root: str = ROOT) -> None:
-        """Build the nodes ``front``, ``back`` and ``edges`` below a root, still without cloth."""
+        """Build the nodes ``front``, ``back`` and ``edges`` below a root, without cloth at first."""
         add_mesh = scene.add_mesh_simple
         self._front = add_mesh(f"{root}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
         self._back = add_mesh(f"{root}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
@@ -44,12 +44,12 @@ class ClothView:
         self._edges.colors = ink(palette.cloth_edge)
 
     def set_visible(self, *, is_visible: bool) -> None:
-        """Have it seen or not."""
+        """Show or hide the cloth."""
         for node in (self._front, self._back, self._edges):
             node.visible = is_visible
 
     def show(self, cloth: ClothSurface) -> None:
-        """Put this surface in place of the one before."""
+        """Replace the surface shown."""
         before, self._shown = self._shown, cloth
         if cloth is before:
             return
@@ -63,7 +63,7 @@ class ClothView:
 
 
 def outlines(cloth: ClothSurface) -> FloatArray:
-    """The edges that no two triangles of a layer share, as segments, shape (n, 2, 3), m.
+    """Return the edges that no two triangles of a layer share, as segments, shape (n, 2, 3), m.
 
     Triangles need not share vertices: corners at the same place are the same corner.
     """

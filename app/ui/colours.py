@@ -1,6 +1,6 @@
-"""The colours of the stage as they should look, before a light ground or a dark one.
+"""The colours that the stage should show, on a light or a dark background.
 
-Blue, red and the cloth's two faces keep apart for every kind of colour vision.
+Blue, red and the cloth's two faces stay distinguishable for every kind of colour vision.
 """
 
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ Rgb: TypeAlias = tuple[int, int, int]
 
 
 def rgb(code: str) -> Rgb:
-    """A colour written as six hexadecimal digits."""
+    """Return a colour written as six hexadecimal digits."""
     red, green, blue = bytes.fromhex(code)
     return red, green, blue
 
 
 @dataclass(frozen=True, slots=True)
 class Palette:
-    """What each thing on the stage looks like."""
+    """The colour of each thing on the stage."""
 
     cloth_front: Rgb = rgb("F0E6D2")
     cloth_back: Rgb = rgb("B4C3D6")

@@ -1,4 +1,4 @@
-"""Lines cut into dashes and steps: red folds are told from blue ones without their colour, too."""
+"""Lines cut into dashes and steps, so that red folds differ from blue ones without colour, too."""
 
 import numpy as np
 
@@ -9,14 +9,14 @@ _DASH_M, _GAP_M, _DOT_M = 0.045, 0.012, 0.006
 
 
 def solid(start: FloatArray, end: FloatArray) -> FloatArray:
-    """A plane line in short steps, shape (n, 2, 2): short enough to go up and down with the cloth."""
+    """Return a plane line in steps, shape (n, 2, 2), short enough to follow the cloth up and down."""
     steps = max(1, int(np.ceil(np.hypot(*(end - start)) / _STEP_M)))
     points = start + (end - start) * np.linspace(0.0, 1.0, steps + 1)[:, None]
     return np.stack([points[:-1], points[1:]], axis=1)
 
 
 def dash_dot(start: FloatArray, end: FloatArray) -> FloatArray:
-    """A plane line as dash, dot, dash, dot, in the same short steps, shape (n, 2, 2)."""
+    """Return a plane line as alternating dashes and dots, in the same short steps as `solid`, shape (n, 2, 2)."""
     length = float(np.hypot(*(end - start)))
     along = (end - start) / length
     marks, at, is_dash = [], 0.0, True
@@ -28,7 +28,7 @@ def dash_dot(start: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def split_at(segments: FloatArray, axis: int, place: float) -> FloatArray:
-    """The same segments, shape (n, 2, 2), with those that cross a coordinate's value cut in two there."""
+    """Return segments, shape (n, 2, 2), with those that cross a coordinate's value cut in two there."""
     from_m, to_m = segments[:, 0, axis], segments[:, 1, axis]
     is_crossing = (from_m - place) * (to_m - place) < 0.0
     crossing = segments[is_crossing]

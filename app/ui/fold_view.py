@@ -1,4 +1,4 @@
-"""The fold lines that are still to be folded, drawn on the cloth where it lies."""
+"""The remaining fold lines, drawn on the cloth where it lies."""
 
 from collections.abc import Sequence
 
@@ -24,14 +24,14 @@ _CURRENT_PX = 5.0
 _NOTHING = np.zeros((0, 2, 3))
 
 _Seen = tuple[Pose2, ClothSurface, TableTop, frozenset[int], int | None]
-"""All that the lines depend on: where the garment is, its cloth, over which top; folds done and the one under way."""
+"""The inputs of the lines: the garment's placement, its cloth, the top; the folds done and the fold under way."""
 
 
 class FoldView:
     """Blue lines solid, red ones dash-dot; nodes ``/folds/0``, ``/folds/1``, ... as in the garment."""
 
     def __init__(self, server: viser.ViserServer) -> None:
-        """Nothing is drawn before `show_garment`."""
+        """Take the server; nothing is drawn before `show_garment`."""
         self._server = server
         self._palette = LIGHT
         self._folds: tuple[DrawnFold, ...] = ()
@@ -46,7 +46,7 @@ class FoldView:
             line.colors = self._colour(fold)
 
     def show_garment(self, garment: Garment) -> None:
-        """Take the folds of another garment; `place` then says where they are."""
+        """Take the folds of another garment; `place` then draws them."""
         before, self._folds, self._seen = self._folds, garment.folds, None
         if [fold.is_red for fold in before] == [fold.is_red for fold in garment.folds]:
             return  # a fold that is being moved does not flicker
@@ -55,7 +55,7 @@ class FoldView:
         self._lines = [self._add_line(index, fold) for index, fold in enumerate(garment.folds)]
 
     def clear(self) -> None:
-        """No folds: there is no garment."""
+        """Remove all folds, where there is no garment."""
         for line in self._lines:
             line.remove()
         self._folds, self._lines, self._seen = (), [], None
@@ -94,7 +94,7 @@ class FoldView:
 
 
 def _steps(fold: DrawnFold, placement: Pose2, top: TableTop) -> FloatArray:
-    """The line in steps in the unrolled plane, table frame, shape (n, 2, 2), m; none goes over an edge."""
+    """Return the line in steps in the unrolled plane, table frame, shape (n, 2, 2), m; no step crosses an edge."""
     cut = dash_dot if fold.is_red else solid
     drawn = cut(np.array(fold.start), np.array(fold.end)).reshape(-1, 2)
     steps = placement.to_outer(drawn).reshape(-1, 2, 2)
@@ -106,7 +106,10 @@ def _steps(fold: DrawnFold, placement: Pose2, top: TableTop) -> FloatArray:
 
 
 def _in_space(lines: Sequence[FloatArray], cloth: ClothSurface, top: TableTop) -> list[FloatArray]:
-    """Lines in steps, each as high as the highest cloth under it, shapes (n, 2, 3), m; where none lies, no step."""
+    """Return lines in steps, shapes (n, 2, 3), m, each step at the height of the highest cloth under it.
+
+    Steps without cloth under them are left out.
+    """
     steps = np.concatenate([_NOTHING[..., :2], *lines])
     owners = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
     asked = np.stack([steps[:, 0], steps.mean(axis=1), steps[:, 1]], axis=1)

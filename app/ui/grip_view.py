@@ -1,4 +1,4 @@
-"""What the primitive under way does: where each hand grips and carries the cloth, where the base drives."""
+"""The primitive under way: where each hand grips and carries the cloth, and where the base drives."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -18,18 +18,18 @@ _PATH_PX = 2.5
 _ROUTE_PX = 3.0
 _ABOVE_FLOOR_M = 0.006
 _NAME_AT: Point3 = (-0.16, 0.0, 0.075)
-"""Where a hand's letter is, in the tool frame (m): beside the palm."""
+"""Position of a hand's letter, in the tool frame (m): beside the palm."""
 
 
 class GripView:
-    """Grip points, paths from pick by the apex to the place, hands named L and R, and routes on the floor."""
+    """Grip points, paths from pick over the apex to place, hands named L and R, and routes on the floor."""
 
     def __init__(self, server: viser.ViserServer, hands: Mapping[str, str], floor_z_m: float) -> None:
-        """Nothing is seen before `show`.
+        """Build the nodes, which stay hidden before `show`.
 
         Args:
             server: where to build the nodes ``/primitive/<arm>`` and ``/primitive/route``.
-            hands: the node of each arm's hand, by the arm's name; its letter goes along with it.
+            hands: the node of each arm's hand, by the arm's name; its letter moves along with it.
             floor_z_m: the floor's height in the table frame (m), negative.
         """
         self._route_z_m = floor_z_m + _ABOVE_FLOOR_M
@@ -37,7 +37,7 @@ class GripView:
         self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX)
 
     def stand_on(self, floor_z_m: float) -> None:
-        """Have the floor at another height (m); routes are there from the next one on."""
+        """Set the floor's height (m), for routes drawn from now on."""
         self._route_z_m = floor_z_m + _ABOVE_FLOOR_M
 
     def recolour(self, palette: Palette) -> None:
@@ -47,7 +47,7 @@ class GripView:
             marks.recolour(palette)
 
     def show(self, primitive: Mapping[str, Any] | None) -> None:
-        """Draw a primitive, given as in the plan's JSON, in place of the one before; None draws nothing."""
+        """Draw a primitive, given as in the plan's JSON, in place of the previous one; None draws nothing."""
         grips = {grip["arm"]: grip for grip in primitive["grips"]} if primitive else {}
         for arm, marks in self._hands.items():
             marks.show(grips.get(arm))
@@ -99,6 +99,6 @@ def _polyline(server: viser.ViserServer, node: str, width_px: float) -> viser.Li
 
 
 def _legs(points: Sequence[Point3]) -> NDArray[np.float32]:
-    """The legs of a polyline, shape (n, 2, 3)."""
+    """Return the legs of a polyline, shape (n, 2, 3)."""
     corners = np.array(points, dtype=np.float32)
     return np.stack([corners[:-1], corners[1:]], axis=1)

@@ -1,10 +1,10 @@
-"""The lights of the stage, and paint that looks under them as it should.
+"""The lights of the stage, and surface colours that look as intended under them.
 
-The browser maps light to screen colours by a film curve (the ACES fit that three.js has): it greys and
-darkens, so cream comes out as cold white. The lights here are white and their sum on whatever lies level is known.
-So the curve can be run backwards: `paint` is the surface colour that, lying level in this light, looks like the
-colour asked for, and `ink` that of a line, on which no light falls. What is brighter than the film can show comes as
-near to it as can be. What stands upright gets less light and looks darker, which is what shows its form.
+The browser maps light to screen colours by a tone curve (the ACES fit of three.js), which greys and darkens: cream
+looks cold white. The lights here are white, and their sum on level surfaces is known, so the curve can be inverted:
+`paint` is the surface colour that looks like the colour wanted on a level surface in this light, and `ink` that of a
+line, on which no light falls. Colours brighter than the curve can show are approximated as closely as possible. Upright
+surfaces get less light and look darker, which shows their form.
 """
 
 import functools
@@ -22,9 +22,9 @@ SKY = "/sky"
 
 _SKY_INTENSITY = 4.4
 _GROUND_COLOUR = (120, 120, 122)
-_SUN_INTENSITY = 3.0  # of viser's default light, which stands nearly overhead and casts the shadows
+_SUN_INTENSITY = 3.0  # of viser's default light, which is nearly overhead and casts the shadows
 _SUN_COSINE = 1.0 / math.hypot(1.0, 0.2, 0.2)
-_SHEEN = 0.011  # of the lights in a surface, whatever its colour, seen from where cameras mostly are: as measured
+_SHEEN = 0.011  # reflection of the lights in a surface of any colour, measured from where cameras mostly are
 _LEVEL_LIGHT = (_SKY_INTENSITY + _SUN_INTENSITY * _SUN_COSINE) / math.pi
 
 _EXPOSURE = 1.0 / 0.6
@@ -35,7 +35,7 @@ _SHOULDER = (0.0245786, 0.000090537, 0.983729, 0.4329510, 0.238081)
 
 
 def add_lights(server: viser.ViserServer) -> None:
-    """White light from all round, more of it from above, and viser's own overhead light."""
+    """Add white light from all round, more of it from above, and viser's own overhead light."""
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(enabled=True, cast_shadow=True)
     server.scene.add_light_hemisphere(
@@ -44,28 +44,28 @@ def add_lights(server: viser.ViserServer) -> None:
 
 
 def paint(wanted: Rgb) -> Rgb:
-    """The colour of a surface that looks as wanted when it lies level; as near as paint can come."""
+    """Return the colour of a level surface that looks as wanted, or as near to it as possible."""
     return _before_film(wanted, _LEVEL_LIGHT, _SHEEN)
 
 
 def ink(wanted: Rgb) -> NDArray[np.uint8]:
-    """The colour of a line, on which no light falls, that looks as wanted; as near as ink can come. Shape (3,)."""
+    """Return the colour of a line, on which no light falls, that looks as wanted, or nearly; shape (3,)."""
     return np.array(_before_film(wanted, 1.0, 0.0), dtype=np.uint8)
 
 
 def instance_paint(wanted: Rgb) -> Rgb:
-    """The same as `paint` for batched meshes, whose colours viser takes for shares of light, not for screen colours."""
+    """Return the paint of batched meshes, whose colours viser takes as shares of light, not as screen colours."""
     red, green, blue = (round(255.0 * float(share)) for share in _linear(paint(wanted)))
     return red, green, blue
 
 
 def seen(painted: Rgb) -> Rgb:
-    """What a surface of a colour looks like when it lies level."""
+    """Return how a level surface of a colour looks."""
     return _on_film(painted, _LEVEL_LIGHT, _SHEEN)
 
 
 def seen_line(inked: Rgb) -> Rgb:
-    """What a line of a colour looks like."""
+    """Return how a line of a colour looks."""
     return _on_film(inked, 1.0, 0.0)
 
 
@@ -78,10 +78,10 @@ def _on_film(colour: Rgb, light: float, sheen: float) -> Rgb:
 
 @functools.cache
 def _before_film(wanted: Rgb, light: float, sheen: float) -> Rgb:
-    """The colour before the film that is nearest to a wanted one after it.
+    """Return the colour before the tone curve whose image is nearest to a wanted colour.
 
-    Bright saturated colours are beyond what the film shows. Cut off in each channel they would take on another hue, so
-    the way to the nearest goes from there in ever smaller steps.
+    Bright saturated colours are beyond what the curve shows. Clipping each channel would change their hue, so a search
+    in ever smaller steps goes from the clipped colour to the nearest.
     """
     film = np.linalg.solve(_OUT_OF_FILM, _linear(wanted))
     nearest = _codes((np.linalg.solve(_INTO_FILM, _unshouldered(film)) / _EXPOSURE - sheen) / light)

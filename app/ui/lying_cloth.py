@@ -1,4 +1,4 @@
-"""A garment that lies spread out before anything has been done to it: what is seen while there is no plan."""
+"""A garment spread out before the first step, shown while there is no plan."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ _HEIGHT_M = 0.0015
 
 
 def lying_cloth(garment: Garment, table: Table) -> ClothSurface:
-    """The garment at its placement, hanging where it goes beyond the table."""
+    """Return the garment at its placement, hanging where it extends beyond the table."""
     placed = Region.polygon(garment.placement.to_outer(np.array(garment.outline)).tolist())
     top = TableTop.of(table)
     flat = creased(placed.triangles, bends(top, placed.triangles, _HEIGHT_M))[0].reshape(-1, 2)

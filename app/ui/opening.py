@@ -1,7 +1,7 @@
-"""Where a camera is at first: as near as it can be with all of the table and the robot in the picture.
+"""The opening viewpoint: as near as possible with all of the table and the robot in the picture.
 
-In a wide picture the table is seen across. A tall one would see it small that way, so the narrower it is, the more the
-camera comes round to look along the table at the robot. Table frame, z up.
+A wide picture shows the table from its side. A tall picture would show it small that way, so the narrower the picture,
+the more the camera turns to look along the table at the robot. Table frame, z up.
 """
 
 import itertools
@@ -22,19 +22,19 @@ _NARROWEST = 0.2
 _NEAREST_M = 3.687
 _MARGIN = 1.02
 _TRUNK_M = (((-0.34, 0.34), (-0.34, 0.34), (0.0,)), ((-0.1, 0.1), (0.0,), (1.65,)))
-"""Base and head: each from x to x, y to y and at heights over the floor, base frame."""
+"""Boxes of base and head: ranges of x, y and height over the floor, base frame (m)."""
 _ARMS_M = (((-0.1, 0.39), (-0.64, 0.64), (0.8, 1.4)),)
-"""The arms while it waits; backed off it has them before it, over the table."""
+"""Box of the arms at home; after driving back the robot has them in front, over the table."""
 
 
 def opening(scene: Scene, aspect: float, base: Pose2 | None = None, *, is_from_right: bool = False) -> Viewpoint:
-    """Sees the table and the robot whole, also while the robot is backed off.
+    """Return a viewpoint that shows the table and the robot whole, also while the robot stands back from the table.
 
     Args:
         scene: table and stations.
-        aspect: the picture's width divided by its height; a picture narrower than a fifth of it is not filled.
-        base: where the robot stands, table frame; without it, at the first station.
-        is_from_right: the same from the other side, as a robot that stands between table and camera hides the cloth.
+        aspect: the picture's width divided by its height; a picture narrower than a fifth of its height is not filled.
+        base: where the robot stands, table frame; None: at the first station.
+        is_from_right: look from the other side, as a robot between table and camera hides the cloth.
     """
     look_at, aspect = np.array(_LOOK_AT), max(aspect, _NARROWEST)
     share = min(max((aspect - _TALL) / (_WIDE - _TALL), 0.0), 1.0)
@@ -50,7 +50,7 @@ def opening(scene: Scene, aspect: float, base: Pose2 | None = None, *, is_from_r
 
 
 def whole(scene: Scene, base: Pose2) -> FloatArray:
-    """The corners of the table and of the robot, where it stands and where it may back off to, shape (n, 3), m."""
+    """Return the corners of the table and of the robot, at its base and at its furthest standoff, shape (n, 3), m."""
     floor_z_m = -scene.table.height_m
     table = [(x, y, z) for x, y in scene.table.corners for z in (0.0, floor_z_m)]
     trunk, arms = _corners(_TRUNK_M, floor_z_m), _corners(_ARMS_M, floor_z_m)
@@ -64,7 +64,7 @@ def _corners(boxes: Sequence[Sequence[Sequence[float]]], floor_z_m: float) -> Fl
 
 
 def _distance(points: FloatArray, back: FloatArray, aspect: float) -> float:
-    """From how far off in a direction all points are in the picture whose middle is the origin (m)."""
+    """Return the distance (m) in a direction from which all points are in the picture centred on the origin."""
     right = np.cross((0.0, 0.0, 1.0), back)
     right /= np.linalg.norm(right)
     up, high = np.cross(back, right), math.tan(FOV_RAD / 2.0)

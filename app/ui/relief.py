@@ -1,7 +1,7 @@
-"""How high the cloth lies under a point: what is drawn on the cloth follows its steps from layer to layer.
+"""The height of the cloth under a point: drawings on the cloth follow its steps from layer to layer.
 
-Asked of one moment's surface and of nothing else, so that it does not matter how that moment was reached. Cloth
-that hangs lies where it is in the unrolled plane; cloth that stands or is in the air does not lie.
+It depends on one moment's surface alone, so it does not matter how the moment was reached. Hanging cloth has its place
+in the unrolled plane; cloth that stands or is in the air is not part of the relief.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.sample import ClothSurface
 
-_ROUND_M = 1e-3  # so far beyond its edge cloth still counts: a fold line runs along the edge of what is folded
+_ROUND_M = 1e-3  # cloth counts up to this far beyond its edge, as fold lines run along edges of folded cloth
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class Relief:
 
     Attributes:
         triangles: in the unrolled plane, table frame, counter-clockwise, shape (n, 3, 2), m.
-        heights: how far each is off the table (m), shape (n,).
+        heights: each triangle's height over the table (m), shape (n,).
     """
 
     triangles: FloatArray
@@ -29,7 +29,7 @@ class Relief:
 
     @staticmethod
     def of(cloth: ClothSurface) -> "Relief":
-        """The relief of a surface."""
+        """Return the relief of a surface."""
         unrolled = cloth.unrolled[cloth.triangles]
         lying = unrolled[~np.isnan(unrolled).any(axis=(1, 2))]
         flat = lying[..., :2].copy()
@@ -39,7 +39,7 @@ class Relief:
         return Relief(flat, lying[..., 2].max(axis=1, initial=0.0))
 
     def heights_at(self, points: FloatArray) -> FloatArray:
-        """The height (m) of the topmost cloth under points of the unrolled plane, shape (n, 2) -> (n,).
+        """Return the height (m) of the topmost cloth under points of the unrolled plane, shape (n, 2) -> (n,).
 
         -inf where no cloth lies.
         """

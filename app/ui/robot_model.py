@@ -1,7 +1,7 @@
 """A robot's links and meshes, read once from its URDF and shared by all stages.
 
-Links form a tree, and viser's scene is one too: a link's node hangs below its parent's, so a joint that
-moves changes one node and the browser works out where everything beyond it goes. No kinematics here.
+Links form a tree, as does viser's scene: a link's node hangs below its parent's, so a moving joint changes one node and
+the browser works out the poses beyond it. There is no kinematics here.
 """
 
 import functools
@@ -24,7 +24,7 @@ _CREASE_RAD = math.radians(40.0)
 
 @dataclass(frozen=True, slots=True)
 class Pose3:
-    """A place and a rotation in the parent's frame."""
+    """A position and a rotation in the parent's frame."""
 
     position: Point3 = (0.0, 0.0, 0.0)
     wxyz: Quaternion = IDENTITY
@@ -36,7 +36,7 @@ class Visual:
 
     Attributes:
         pose: in the link's frame.
-        vertices: shape (n, 3), m; doubled along sharp edges so that they are shaded as edges.
+        vertices: shape (n, 3), m; duplicated along sharp edges so that they are shaded as edges.
         triangles: shape (m, 3), indices into `vertices`.
     """
 
@@ -47,14 +47,14 @@ class Visual:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A link, and the joint by which it hangs from its parent.
+    """A link, and the joint that connects it to its parent.
 
     Attributes:
         name: the link's name in the URDF.
         node: its scene node's path below the robot's own: the names of all links down to it.
-        origin: its pose in the parent's frame while the joint stands at zero.
+        origin: its pose in the parent's frame while the joint is at zero.
         joint: the actuated joint that moves it, or None when it is fixed.
-        factor: joint positions are multiplied by this (a finger that mimics another).
+        factor: the factor on joint positions (a finger that mimics another has one).
         axis: the joint's axis in the link's own frame, shape (3,).
         is_prismatic: whether the joint slides rather than turns.
         visuals: its meshes.
@@ -72,7 +72,7 @@ class Link:
 
 @functools.lru_cache(maxsize=4)
 def load_robot_model(urdf_path: Path, package_dir: Path) -> tuple[Link, ...]:
-    """All links of a robot, parents before children, the root first.
+    """Return all links of a robot, parents before children, the root first.
 
     Args:
         urdf_path: the URDF.
@@ -129,7 +129,7 @@ def _pose(matrix: FloatArray | None) -> Pose3:
 
 
 def _visual(visual: yourdfpy.Visual, mesh_path: Callable[[str], str]) -> Visual | None:
-    """A visual with its mesh; None for the crumbs that only mark a frame."""
+    """Return a visual with its mesh; None for the tiny ones that only mark a frame."""
     mesh = _mesh(visual.geometry, mesh_path)
     if mesh is None or max(mesh.extents) < _SMALLEST_SHOWN_M:
         return None

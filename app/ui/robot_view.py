@@ -19,7 +19,7 @@ class RobotView:
     """Shows a robot with its meshes; its base drives on the floor.
 
     Attributes:
-        hands: the node between the fingertips of each arm, by the arm's name; what hangs below it goes along.
+        hands: the node between the fingertips of each arm, by the arm's name; nodes below it move along.
     """
 
     def __init__(self, server: viser.ViserServer, card: RobotCard, floor_z_m: float) -> None:
@@ -46,7 +46,7 @@ class RobotView:
         self.hands = {arm.name: nodes[arm.tool_frame] for arm in card.arms}
 
     def stand_on(self, floor_z_m: float) -> None:
-        """Have the floor at another height (m); it is there from the next pose on."""
+        """Set the floor's height (m), from the next pose on."""
         self._floor_z_m = floor_z_m
 
     def recolour(self, palette: Palette) -> None:
@@ -55,7 +55,7 @@ class RobotView:
             mesh.color = paint(_colour(link_name, palette))
 
     def pose(self, base: Pose2, joints: dict[str, float]) -> None:
-        """Put the base somewhere (table frame) and the joints (rad, m) too; unknown names are passed over."""
+        """Set the base's pose (table frame) and the joints (rad, m); ignore unknown names."""
         if self._base != (base, self._floor_z_m):
             self._base = (base, self._floor_z_m)
             self._root.position = (base.x_m, base.y_m, self._floor_z_m)

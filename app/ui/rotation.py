@@ -1,4 +1,4 @@
-"""Rotations as viser wants them: unit quaternions (w, x, y, z)."""
+"""Rotations in viser's form: unit quaternions (w, x, y, z)."""
 
 import math
 from typing import TypeAlias
@@ -13,18 +13,18 @@ IDENTITY: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
 def turn(axis: FloatArray, angle_rad: float) -> Quaternion:
-    """The rotation by an angle (rad) about a unit axis, shape (3,)."""
+    """Return the rotation by an angle (rad) about a unit axis, shape (3,)."""
     x, y, z = (float(part) for part in axis * math.sin(angle_rad / 2))
     return math.cos(angle_rad / 2), x, y, z
 
 
 def yaw(angle_rad: float) -> Quaternion:
-    """The rotation by an angle (rad) about z."""
+    """Return the rotation by an angle (rad) about z."""
     return math.cos(angle_rad / 2), 0.0, 0.0, math.sin(angle_rad / 2)
 
 
 def product(first: Quaternion, second: Quaternion) -> Quaternion:
-    """The rotation that does `second` and then `first`."""
+    """Return the rotation that does `second` and then `first`."""
     a, b, c, d = first
     e, f, g, h = second
     return (
@@ -36,7 +36,7 @@ def product(first: Quaternion, second: Quaternion) -> Quaternion:
 
 
 def from_matrix(matrix: FloatArray) -> Quaternion:
-    """The rotation in the upper left of a matrix, shape (3, 3) or (4, 4)."""
+    """Return the rotation in the upper left of a matrix, shape (3, 3) or (4, 4)."""
     r = matrix[:3, :3]
     outer = np.array(
         [

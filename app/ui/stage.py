@@ -1,7 +1,7 @@
-"""The stage: shows the frames of a timeline on a viser server of its own.
+"""The stage: shows the samples of a timeline on a viser server of its own.
 
-There may be several, one for each open document. A stage is written to by one thread at a time; the browser
-follows. It knows nothing of clocks: whoever owns it says which frame to show.
+There may be several stages, one for each open document. One thread at a time writes to a stage; the browser follows. A
+stage knows no clock: its owner tells it which sample to show.
 """
 
 import threading
@@ -32,7 +32,7 @@ from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
 
 _SQUARE = 1.0
-"""Of no picture the aspect is known before somebody looks; what is whole in a square is whole in all that are wider."""
+"""Aspect assumed before a browser looks; what is whole in a square is whole in every wider picture."""
 
 
 class Stage:
@@ -40,9 +40,9 @@ class Stage:
 
     Attributes:
         scene: the scene that is shown.
-        opening: where the camera of whoever comes is at first.
+        opening: the opening viewpoint of each new visitor.
         port: the loopback port of its viser server.
-        secret: what that port wants to hear (see `app.ui.viser_patches`).
+        secret: the secret that the port requires (see `app.ui.viser_patches`).
     """
 
     def __init__(self, card: RobotCard, scene: Scene) -> None:
@@ -79,12 +79,12 @@ class Stage:
 
     @property
     def is_drawn_by_software(self) -> bool:
-        """Whether some browser's processor draws it, which takes that processor most of its time."""
+        """Whether some browser draws the stage on its processor, which takes most of that processor's time."""
         return self._by_software > 0
 
     @contextmanager
     def drawn_by_software(self) -> Iterator[None]:
-        """Meanwhile a browser without a graphics card shows it."""
+        """Mark the stage, within the context, as shown by a browser without a graphics card."""
         with self._lock:
             self._by_software += 1
         try:
@@ -94,7 +94,7 @@ class Stage:
                 self._by_software -= 1
 
     def set_theme(self, *, is_dark: bool) -> None:
-        """Show everything in the colours for a dark ground or for a light one."""
+        """Use the colours for a dark or a light background."""
         self._palette = palette = DARK if is_dark else LIGHT
         with self._server.atomic():
             self._server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
@@ -103,7 +103,7 @@ class Stage:
         self._server.flush()
 
     def show_scene(self, scene: Scene) -> None:
-        """Put up another table and other stations; robot and cloth go there with what is shown next."""
+        """Replace table and stations; robot and cloth follow with what is shown next."""
         if scene == self.scene:
             return
         self.scene = scene
@@ -124,7 +124,7 @@ class Stage:
         self._server.flush()
 
     def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
-        """Show a garment that lies there and has no plan, and the robot waiting at a station."""
+        """Show a garment that has no plan, and the robot waiting at a station."""
         with self._server.atomic():
             self._begin(garment, ())
             self._robot.pose(base, self._waiting_joints())
@@ -133,12 +133,12 @@ class Stage:
         self._server.flush()
 
     def show_plan(self, plan: Plan) -> None:
-        """Take up another plan; `show` then shows its frames."""
+        """Take another plan; `show` then shows its samples."""
         with self._server.atomic():
             self._begin(plan.garment, plan.steps)
 
     def show(self, frame: Sample) -> None:
-        """Show one moment of the plan."""
+        """Show one sample of the plan."""
         with self._server.atomic():
             self._robot.pose(frame.base, frame.joints)
             self._cloth.show(frame.cloth)
@@ -147,11 +147,11 @@ class Stage:
         self._server.flush()
 
     def record(self) -> StateSerializer:
-        """What is shown now, and from now on whatever changes: to be kept, with sleeps in between."""
+        """Return a recording of what is shown now and of all later changes; the caller inserts pauses."""
         return self._server.get_scene_serializer()
 
     def close(self) -> None:
-        """Stop the server; whoever watches is cut off."""
+        """Stop the server and disconnect its visitors."""
         self._server.stop()
 
     def _look(self) -> None:

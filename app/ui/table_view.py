@@ -1,4 +1,4 @@
-"""What stands still: the floor, the table, the stations."""
+"""The static scene: the floor, the table, the stations."""
 
 import numpy as np
 import viser
@@ -26,7 +26,7 @@ class TableView:
         self._stations = [self._add_station(name, pose) for name, pose in scene.stations]
 
     def remove(self) -> None:
-        """Take all of it away."""
+        """Remove all nodes."""
         for part in (self._floor, self._top, *self._legs, *self._stations):
             part.remove()
 
@@ -54,7 +54,7 @@ class TableView:
         )
 
     def _add_table(self, scene: Scene) -> list[viser.BoxHandle]:
-        """Its top and its legs, the boxes that the robot keeps clear of."""
+        """Add the top and the legs, as the boxes that the robot keeps clear of."""
         return [
             self._server.scene.add_box(
                 f"/table/{part.name.removeprefix('table ').replace(' ', '_')}",
@@ -65,7 +65,7 @@ class TableView:
         ]
 
     def _add_station(self, name: str, pose: Pose2) -> viser.MeshHandle:
-        """A flat arrow on the floor where the base stands and looks, with the station's name behind it."""
+        """Add a flat arrow on the floor at the base's pose, with the station's name behind it."""
         node = f"/stations/{name}"
         arrow = self._server.scene.add_mesh_simple(
             node,

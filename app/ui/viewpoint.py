@@ -1,21 +1,21 @@
-"""Where a camera is."""
+"""A camera's position, direction and field of view."""
 
 from dataclasses import dataclass
 
 from planner.geometry.pose import Point3
 
 FOV_RAD = 0.72
-"""How much most cameras take in, from the bottom of the picture to its top."""
+"""The usual vertical field of view (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Viewpoint:
-    """A place to look from; up in the picture is up in the world. Table frame.
+    """A viewpoint; up in the picture is up in the world. Table frame.
 
     Attributes:
         position: the camera (m).
         look_at: the middle of the picture (m).
-        fov_rad: how much it takes in, from the bottom of the picture to its top (rad).
+        fov_rad: the vertical field of view (rad).
     """
 
     position: Point3

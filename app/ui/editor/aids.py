@@ -1,4 +1,4 @@
-"""What is drawn over the cloth while somebody edits: values, which `app.ui.editor.aids_view` shows. Table frame, m."""
+"""Editing aids drawn over the cloth: values that `app.ui.editor.aids_view` shows. Table frame, m."""
 
 from dataclasses import dataclass
 
@@ -12,9 +12,9 @@ class Ghost:
     """A fold that is being dragged.
 
     Attributes:
-        line: where it would be, or, while that is nowhere, where the pointer has gone.
-        is_red: its kind.
-        landed: the corners of what it moves, where that comes to lie; empty while it would not be legal.
+        line: the fold line, or the pointer's way so far where there is no fold line yet.
+        is_red: whether the fold is red.
+        landed: the corners of the moving part where it lands; empty while the fold is not legal.
     """
 
     line: Segment
@@ -24,7 +24,7 @@ class Ghost:
 
 @dataclass(frozen=True, slots=True)
 class Pile:
-    """The cloth as it lies when it is time for the next fold.
+    """The cloth as it lies before the next fold.
 
     Attributes:
         cloth: the layers.
@@ -37,13 +37,13 @@ class Pile:
 
 @dataclass(frozen=True, slots=True)
 class Aids:
-    """Everything at one moment.
+    """All aids at one moment.
 
     Attributes:
-        handles: what can be grabbed, or has been placed.
-        chosen: the handle that stands out: the one that is grabbed, or the one that closes an outline.
-        lines: polylines; one that comes back to its beginning is closed.
-        pile: the folded cloth on which a fold is drawn; None while it is the one that lies there.
+        handles: the points that can be grabbed, or have been placed.
+        chosen: the highlighted handle: the handle that is grabbed, or that closes an outline.
+        lines: polylines; a polyline that ends at its beginning is closed.
+        pile: the folded cloth on which a fold is drawn; None while it is the cloth that lies there.
         ghost: the fold that is being dragged.
     """
 
@@ -58,5 +58,5 @@ NO_AIDS = Aids()
 
 
 def closed(points: tuple[Point2, ...]) -> tuple[Point2, ...]:
-    """A polyline that comes back to its beginning."""
+    """Return a polyline closed by its first point."""
     return (*points, *points[:1])

@@ -1,4 +1,4 @@
-"""Shows the aids of one visitor: handles, lines, the pile, the ghost of a fold. Nobody else sees them."""
+"""Shows one visitor's aids: handles, lines, the pile, the ghost of a fold. Other visitors do not see them."""
 
 import numpy as np
 import trimesh
@@ -26,10 +26,10 @@ _BALL = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
 
 
 class AidsView:
-    """Nodes below ``/editor``; rebuilt in part, where something has changed."""
+    """Nodes below ``/editor``; only the changed ones are rebuilt."""
 
     def __init__(self, client: viser.ClientHandle, palette: Palette) -> None:
-        """Nothing is seen yet."""
+        """Build the nodes, without aids at first."""
         self._scene = client.scene
         self._palette = palette
         self._shown = NO_AIDS
@@ -61,11 +61,11 @@ class AidsView:
             self._handles.batched_colors = np.array(instance_paint(palette.grip), dtype=np.uint8)
 
     def show(self, aids: Aids, pixel_m: float) -> None:
-        """Draw these in place of those before.
+        """Replace the aids shown.
 
         Args:
-            aids: what is to be seen.
-            pixel_m: how much of the table one pixel covers (m); handles are as large at every distance.
+            aids: the aids.
+            pixel_m: the length on the table that one pixel covers (m); it keeps handles the same size on the screen.
         """
         before, self._shown = self._shown, aids
         is_zoomed, self._pixel_m = pixel_m != self._pixel_m, pixel_m
@@ -147,5 +147,5 @@ def _raised(points: tuple[Point2, ...], height_m: float) -> FloatArray:
 
 
 def _legs(corners: FloatArray) -> FloatArray:
-    """The legs of a polyline, shape (n, 2, 3)."""
+    """Return the legs of a polyline, shape (n, 2, 3)."""
     return np.stack([corners[:-1], corners[1:]], axis=1)

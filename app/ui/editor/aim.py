@@ -1,4 +1,4 @@
-"""Where a pointer points: its ray, met with the plane in which the cloth lies."""
+"""The point on the cloth that a pointer points at: its ray intersected with the cloth's plane."""
 
 import math
 from dataclasses import dataclass
@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from planner.geometry.pose import Point2, Point3
 
 CLOTH_HEIGHT_M = 0.0015
-"""The plane in which the cloth lies (m above the table)."""
+"""Height of the plane in which the cloth lies (m above the table)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Aim:
-    """A place that is pointed at.
+    """A point that the pointer points at.
 
     Attributes:
-        point: where the ray meets the plane of the cloth, table frame (m).
-        pixel_m: how far apart two neighbouring pixels are there, across the line of sight (m).
+        point: where the ray meets the cloth's plane, table frame (m).
+        pixel_m: the distance between neighbouring pixels there, across the line of sight (m).
     """
 
     point: Point2
@@ -23,15 +23,15 @@ class Aim:
 
 
 def aim(eye: Point3, through: Point3, pixel_rad: float) -> Aim | None:
-    """Where a ray meets the plane of the cloth.
+    """Return where a ray meets the cloth's plane.
 
     Args:
         eye: where the ray begins, table frame (m).
         through: a point further along it (m).
-        pixel_rad: the angle under which the eye sees one pixel (rad).
+        pixel_rad: the angle that one pixel covers (rad).
 
     Returns:
-        None for a ray that goes up, level, or begins below the plane, and for one that is none.
+        The aim; None for a ray that goes up, is level, begins below the plane, or has no direction.
     """
     if not all(math.isfinite(place) for place in (*eye, *through)):
         return None
@@ -44,5 +44,5 @@ def aim(eye: Point3, through: Point3, pixel_rad: float) -> Aim | None:
 
 
 def pixel_angle(fov_rad: float, height_px: int) -> float:
-    """The angle under which a camera sees one pixel (rad), from its vertical field of view (rad) and its height."""
+    """Return the angle that one pixel covers (rad), from the vertical field of view (rad) and the picture's height."""
     return 2.0 * math.tan(fov_rad / 2.0) / max(height_px, 1)

@@ -1,7 +1,7 @@
-"""The panel with places to look from; it moves nobody's camera but that of the visitor who pressed.
+"""The panel with viewpoints; it moves only the camera of the visitor who pressed a button.
 
-The robot's eye goes along with the robot until the visitor takes the camera elsewhere. What a browser tells of its
-camera is a little old: it is taken elsewhere when it is at none of the places where it has been put lately.
+The robot's-eye camera follows the robot until the visitor moves it. A browser reports its camera with a delay: it
+counts as moved when it is at none of the viewpoints it was recently sent to.
 """
 
 from collections import deque
@@ -15,24 +15,24 @@ from app.ui.viewpoint import Viewpoint
 LABEL = "Camera"
 
 _REMEMBERED = 8
-"""How many openings: what a browser tells of its camera may be some of them old."""
+"""Number of opening viewpoints remembered, because a browser reports its camera with a delay."""
 
 _RIDDEN = 90
-"""The same of a camera that goes along with the robot: three seconds of them."""
+"""Number of viewpoints remembered while the camera follows the robot: three seconds of them."""
 
 OnPreset = Callable[[Preset], None]
 
 
 class CameraPanel:
-    """A row of buttons, and the memory of where the camera was before the first of them."""
+    """A row of buttons, and the viewpoint before the first of them was pressed."""
 
     def __init__(self, client: viser.ClientHandle, opening: Viewpoint, on_preset: OnPreset) -> None:
         """Build the folder.
 
         Args:
             client: whose camera it is.
-            opening: where a camera is at first.
-            on_preset: is told what has been pressed, and must not block.
+            opening: the opening viewpoint.
+            on_preset: called with the preset pressed; must not block.
         """
         self._camera = client.camera
         self._client = client
@@ -49,14 +49,14 @@ class CameraPanel:
 
     @property
     def lens(self) -> Lens:
-        """What the camera takes in."""
+        """The camera's aspect and field of view."""
         return Lens(self._camera.image_width / max(self._camera.image_height, 1))
 
     @property
     def is_opening(self) -> bool:
-        """Whether the camera is where it was put at first: nobody has moved it since or pressed a button.
+        """Whether the camera is still at its opening: nobody has moved it or pressed a button.
 
-        A browser may tell of a camera before it has put it anywhere.
+        A browser may report a camera before it has been sent anywhere.
         """
         is_there = not all(self._has_moved(opening) for opening in self._openings)
         self._is_left = self._is_left or (self._has_begun and not is_there)
@@ -64,14 +64,14 @@ class CameraPanel:
         return is_there and not self._is_left
 
     def open_on(self, viewpoint: Viewpoint) -> None:
-        """Begin at another place, if the camera is still where it was put at first."""
+        """Change the opening viewpoint, if the camera is still at its opening."""
         if self.is_opening and self._has_moved(viewpoint):
             self._openings.append(viewpoint)
             self._free = viewpoint
             self._move(viewpoint)
 
     def go_to(self, viewpoint: Viewpoint) -> None:
-        """Go to a place, and remember the one where somebody has gone by hand."""
+        """Go to a viewpoint, and remember a viewpoint that the visitor had chosen by hand."""
         self._is_left = True
         if self._preset is None or (self._has_moved(self._preset) and not self.is_riding):
             self._free = self._here
@@ -80,7 +80,7 @@ class CameraPanel:
         self._move(viewpoint)
 
     def ride(self, viewpoint: Viewpoint) -> None:
-        """Go to a place that moves, and along with it from now on."""
+        """Go to a moving viewpoint and follow it from now on."""
         if not self.is_riding:
             before = self._here
             self.go_to(viewpoint)
@@ -92,11 +92,11 @@ class CameraPanel:
 
     @property
     def is_riding(self) -> bool:
-        """Whether the camera goes along with something: nobody has moved it since."""
+        """Whether the camera follows a moving viewpoint and nobody has moved it since."""
         return any(not self._has_moved(place) for place in self._ridden)
 
     def go_back(self) -> None:
-        """Go to where the camera was before the places that were chosen here."""
+        """Go back to the viewpoint before those chosen here."""
         self._ridden.clear()
         self._preset = None
         self._move(self._free)

@@ -1,8 +1,8 @@
-"""All who look at one stage, and what they ask for.
+"""All visitors of one stage, and their pending actions.
 
-viser calls back in a thread of its own, which must never wait: all it does here is to put what is asked for into a
-tray. The thread that writes on the stage empties the tray, changes the document, and draws. So there is one
-thread that edits and draws, in the order in which things were done, and neither a lock nor half a change.
+viser calls back in a thread of its own, which must never wait: the callbacks only put actions into a tray. The thread
+that writes on the stage empties the tray, changes the document, and draws. So a single thread edits and draws, in the
+order of the visitors' actions, without a lock and without half-made changes.
 """
 
 import logging
@@ -23,12 +23,12 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """Something to be done.
+    """A pending action.
 
     Attributes:
         visitor: whose it is.
-        act: what.
-        is_passing: whether it may be left out when the same visitor has moved on already.
+        act: the action.
+        is_passing: whether a later passing action of the same visitor may replace it.
     """
 
     visitor: int
@@ -36,28 +36,28 @@ class _Asked:
     is_passing: bool
 
     def done(self) -> None:
-        """Do it; what goes wrong there is nobody else's business."""
+        """Perform the action; log what goes wrong, so that other visitors are not affected."""
         try:
             self.act()
         except Exception:
             _log.exception("what a visitor of a stage asked for could not be done")
 
     def replaces(self, other: "_Asked") -> bool:
-        """Whether the other need not be done any more."""
+        """Return whether the other action need not be performed any more."""
         return self.is_passing and self.visitor == other.visitor
 
 
 class Desk:
-    """Everybody gets a seat of their own: mode, panels, drawing aids and camera are nobody else's business."""
+    """The seats of all visitors: each has a mode, panels, drawing aids and a camera of their own."""
 
     def __init__(self, document: Document, server: viser.ViserServer, card: RobotCard, opening: Viewpoint) -> None:
         """Wait for visitors.
 
         Args:
-            document: what is edited.
+            document: the document that is edited.
             server: the stage's server.
             card: the robot.
-            opening: where cameras are at first.
+            opening: the opening viewpoint.
         """
         self._document = document
         self._server = server
@@ -70,12 +70,12 @@ class Desk:
         server.on_client_disconnect(self._went)
 
     def on_asked(self, ring: Callable[[], object]) -> None:
-        """Have a function called when there is something to do; any thread may call it."""
+        """Set the function to call when actions are pending; any thread may call it."""
         self._ring = ring
         ring()
 
     def work(self) -> None:
-        """Do what has been asked for so far, but of a drag only the latest."""
+        """Perform the pending actions, but only the latest of a drag."""
         while self._tray:
             asked = self._tray.popleft()
             following = self._tray[0] if self._tray else None
@@ -83,7 +83,7 @@ class Desk:
                 asked.done()
 
     def show(self, state: DocumentState) -> None:
-        """Bring everybody's panels and aids up to date, but of those who have just gone."""
+        """Update the panels and aids of all visitors who are still there."""
         here = self._server.get_clients()
         for visitor, seat in tuple(self._seats.items()):
             if visitor in here:

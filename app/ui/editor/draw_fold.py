@@ -1,7 +1,7 @@
 """The tool `Draw fold`: a line dragged across the cloth, as it lies after all folds so far.
 
-What is left of the line, seen along the drag, moves. An end that is let go near the boundary is put onto it; one that
-is not slides along the line to where that leaves the cloth.
+The cloth to the left of the line, seen along the drag, moves. An end released near the boundary snaps to it; any other
+end slides along the line to where the line leaves the cloth.
 """
 
 import math
@@ -41,7 +41,7 @@ class _Stroke:
     Attributes:
         start: where it began, table frame (m).
         end: where the pointer is.
-        ground: where it may be put down.
+        ground: where it may end.
     """
 
     start: Point2
@@ -53,18 +53,18 @@ class DrawFold(Tool):
     """A drag, or a click at each end.
 
     Attributes:
-        kind: which folds are drawn.
+        kind: the kind of fold drawn.
     """
 
     def __init__(self, pencil: Pencil) -> None:
-        """A tool that writes with a pencil."""
+        """Take the pencil that writes into the document."""
         self.kind = FoldKind.BLUE
         self._pencil = pencil
         self._stroke: _Stroke | None = None
         self._found: PlacedCrease | None = None
 
     def hint(self) -> str:
-        """What to do now."""
+        """Return what to do now."""
         if self._stroke is not None:
             return "To another edge; what is left of the line moves. Off the table it is dropped."
         if len(self._pencil.state.solution.cloths) > 1:
@@ -78,7 +78,7 @@ class DrawFold(Tool):
         self._stroke = _Stroke(start, start, Ground.of(state.drawing))
 
     def drag(self, aim: Aim | None) -> None:
-        """Draw it as far as here."""
+        """Draw the line up to the pointer."""
         if self._stroke is None or aim is None:
             return
         state = self._pencil.state
@@ -105,7 +105,7 @@ class DrawFold(Tool):
             self.release(aim)
 
     def last(self) -> str | None:
-        """The line that has been begun."""
+        """Return the label of the line that has been begun."""
         return "line" if self._stroke is not None else None
 
     def put_down(self) -> None:
@@ -113,7 +113,7 @@ class DrawFold(Tool):
         self._stroke = self._found = None
 
     def aids(self, state: DocumentState) -> Aids:
-        """Where lines may begin, the folded cloth, and the line."""
+        """Return where lines may begin, the folded cloth, and the line."""
         if not state.solution.cloths:
             return Aids()
         cloth, drawing = state.solution.cloths[-1], state.drawing
@@ -127,7 +127,7 @@ class DrawFold(Tool):
         return self.kind is FoldKind.RED
 
     def _seen(self, state: DocumentState) -> Region:
-        """What a fold of this kind sees, article frame."""
+        """Return the region that folds of this kind see, article frame."""
         solution = state.solution
         if not solution.cloths:
             raise RefusedError("There is no cloth yet: draw an outline first.")
@@ -169,7 +169,7 @@ class DrawFold(Tool):
 
 
 def _snapped(state: DocumentState, aim: Aim, seen: Region) -> Point2:
-    """The corner or the place on the boundary that is near enough, or where the pointer is; table frame (m)."""
+    """Return the near corner or boundary point, or the pointer's point if none is near; table frame (m)."""
     point = in_article(state.drawing, aim.point)
     corners = [(float(x), float(y)) for ring in seen.rings for x, y in ring]
     corner = min(corners, key=lambda place: math.dist(place, point))
@@ -181,7 +181,7 @@ def _snapped(state: DocumentState, aim: Aim, seen: Region) -> Point2:
 
 
 def _name_of(line: Segment, folds: Sequence[Crease]) -> str:
-    """What a fold is called at first: from where the cloth comes, and a number if another is called so.
+    """Return a fold's first name: the side from which the cloth comes, with a number if the name is taken.
 
     Article frame, its y up.
     """

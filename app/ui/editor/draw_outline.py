@@ -1,4 +1,4 @@
-"""The tool `Draw outline`: corner after corner on the table, closed at the first; it takes the old outline's place."""
+"""The tool `Draw outline`: corner after corner on the table, closed at the first; it replaces the old outline."""
 
 import math
 from dataclasses import replace
@@ -22,16 +22,16 @@ LABEL = "Draw outline"
 
 
 class DrawOutline(Tool):
-    """The corners stay in the table frame until the outline is closed."""
+    """Draws an outline, whose corners stay in the table frame until it is closed."""
 
     def __init__(self, pencil: Pencil) -> None:
-        """A tool that writes with a pencil."""
+        """Take the pencil that writes into the document."""
         self._pencil = pencil
         self._points: tuple[Point2, ...] = ()
         self._is_closed = False
 
     def hint(self) -> str:
-        """What to do now."""
+        """Return what to do now."""
         count = len(self._points)
         if count == 0 and self._is_closed:
             return "The outline is closed: go on with folds, or click the first corner of another."
@@ -42,13 +42,13 @@ class DrawOutline(Tool):
         return "Click the first corner to close the outline; Undo takes one back."
 
     def press(self, aim: Aim) -> None:
-        """Nothing: a corner is put where the pointer is let go."""
+        """Do nothing: a corner is put where the pointer is released."""
 
     def drag(self, aim: Aim | None) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def release(self, aim: Aim | None) -> None:
-        """A click that trembled is a click."""
+        """Treat a drag that hardly moved as a click."""
         if aim is None:
             raise RefusedError("That is off the table.")
         self.tap(aim)
@@ -68,11 +68,11 @@ class DrawOutline(Tool):
             self._points = (*self._points, aim.point)
 
     def last(self) -> str | None:
-        """The corner that was put last."""
+        """Return the label of the last corner."""
         return f"corner {len(self._points)}" if self._points else None
 
     def take_back(self) -> None:
-        """Take that corner away."""
+        """Remove the last corner."""
         self._points = self._points[:-1]
 
     def put_down(self) -> None:
@@ -81,7 +81,7 @@ class DrawOutline(Tool):
         self._is_closed = False
 
     def aids(self, state: DocumentState) -> Aids:
-        """The corners so far, and the edges between them."""
+        """Return the corners so far, and the edges between them."""
         return Aids(self._points, 0 if len(self._points) >= LEAST_CORNERS else None, (self._points,))
 
     def _close(self) -> None:

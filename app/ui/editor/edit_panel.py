@@ -1,4 +1,4 @@
-"""The panel that says what the pointer does: viser's own controls, one folder, for one visitor."""
+"""The panel that sets what the pointer does: viser's own controls, one folder, for one visitor."""
 
 from collections.abc import Callable
 
@@ -20,7 +20,7 @@ class EditPanel:
 
         Args:
             client: who sees it.
-            on_editor: has something done with the visitor's editor, and must not block.
+            on_editor: called with an action for the visitor's editor; must not block.
         """
         self._on_editor = on_editor
         self._shown: tuple[str, ...] = ()
@@ -38,7 +38,7 @@ class EditPanel:
         self._redo.on_click(self._redo_pressed)
 
     def show(self, editor: Editor) -> None:
-        """Say what an editor says."""
+        """Show an editor's state."""
         wanted = (editor.mode, editor.says, editor.undo_label, editor.redo_label)
         if wanted == self._shown:
             return
@@ -64,5 +64,5 @@ class EditPanel:
 
 
 def _escaped(text: str) -> str:
-    """A text that stays what it is when it is read as Markdown; names come from people."""
+    """Return a text escaped so that Markdown shows it unchanged; names come from people."""
     return "".join(f"\\{letter}" if letter in r"\`*_{}[]<>()#+-.!|~&$" else letter for letter in text)

@@ -1,6 +1,6 @@
-"""One visitor's editing: the mode, the tool in hand, what was refused. It knows the document and no viser.
+"""One visitor's editing: the mode, the tool in hand, the last refusal. It knows the document and no viser.
 
-Everything here is done by one thread (see `app.ui.editor.desk`).
+A single thread calls everything here (see `app.ui.editor.desk`).
 """
 
 from collections.abc import Callable, Mapping
@@ -22,17 +22,17 @@ _LOOKING = "Drag to look round, the wheel goes nearer. To edit, choose a mode."
 
 
 class Editor:
-    """What a pointer does to a document.
+    """Turns a pointer's gestures into changes of a document.
 
     Attributes:
         mode: what the pointer does now.
     """
 
     def __init__(self, document: Document, owner: str) -> None:
-        """Begin by looking.
+        """Begin in the viewing mode.
 
         Args:
-            document: what is edited.
+            document: the document that is edited.
             owner: a name that no other editor of this document has.
         """
         self.mode = Mode.LOOK
@@ -49,17 +49,17 @@ class Editor:
 
     @property
     def kind(self) -> FoldKind:
-        """Which folds are drawn."""
+        """The kind of fold drawn."""
         return self._fold.kind
 
     @property
     def is_drawing(self) -> bool:
-        """Whether the pointer draws, and does not move the camera."""
+        """Whether the pointer draws instead of moving the camera."""
         return self.mode is not Mode.LOOK
 
     @property
     def says(self) -> str:
-        """What to do now; or why the last thing was not done, or what is wrong with the drawing."""
+        """What to do now; or why the last action was refused, or what is wrong with the drawing."""
         if self._refusal:
             return self._refusal
         tool = self._tool
@@ -71,18 +71,18 @@ class Editor:
 
     @property
     def undo_label(self) -> str:
-        """What the button says that takes the last thing back; just "Undo" when there is nothing."""
+        """The label of the undo button; just "Undo" when there is nothing."""
         label = (self._tool.last() if self._tool else None) or self._document.state.draft.closed().history.can_undo
         return f"Undo: {label}" if label else "Undo"
 
     @property
     def redo_label(self) -> str:
-        """What the button says that does it again; just "Redo" when there is nothing."""
+        """The label of the redo button; just "Redo" when there is nothing."""
         label = self._document.state.draft.closed().history.can_redo
         return f"Redo: {label}" if label else "Redo"
 
     def choose(self, mode: Mode) -> None:
-        """Take another tool in hand; to draw, time goes to its beginning, where the cloth lies spread."""
+        """Take another tool; to draw, move playback to the beginning, where the cloth lies spread."""
         if mode is self.mode:
             return
         self._try(self._put_down)
@@ -96,26 +96,26 @@ class Editor:
         self._fold.kind = kind
 
     def press(self, aim: Aim | None) -> None:
-        """The pointer went down and began to move; when that is refused, the rest of the drag does nothing."""
+        """Begin a drag; when that is refused, the rest of the drag does nothing."""
         self._is_down = self._aimed(aim, lambda tool, at: tool.press(at))
 
     def drag(self, aim: Aim | None) -> None:
-        """It moves on, while it is down."""
+        """Go on with a drag."""
         if self._is_down and (tool := self._tool) is not None:
             self._try(lambda: tool.drag(aim))
 
     def release(self, aim: Aim | None) -> None:
-        """It is let go."""
+        """End a drag."""
         is_down, self._is_down = self._is_down, False
         if is_down and (tool := self._tool) is not None:
             self._try(lambda: tool.release(aim))
 
     def tap(self, aim: Aim | None) -> None:
-        """It went down and up in one place."""
+        """Handle a click."""
         self._aimed(aim, lambda tool, at: tool.tap(at))
 
     def undo(self) -> None:
-        """Take the last thing back: what is being drawn, or the last step."""
+        """Undo what is being drawn, or the last step."""
         tool = self._tool
         if tool is not None and tool.last() is not None:
             self._try(tool.take_back)
@@ -123,16 +123,16 @@ class Editor:
             self._try(self._undone)
 
     def redo(self) -> None:
-        """Take the step again that was undone last."""
+        """Redo the step that was undone last."""
         self._try(self._redone)
 
     def leave(self) -> None:
-        """The visitor is gone: what has not been finished is dropped."""
+        """Drop what is unfinished, since the visitor has left."""
         self._try(self._put_down)
 
     @property
     def aids(self) -> Aids:
-        """What is drawn over the cloth; nothing while it does not lie spread."""
+        """The aids drawn over the cloth; none while it does not lie spread."""
         tool = self._tool
         return tool.aids(self._document.state) if tool is not None and self._is_spread else NO_AIDS
 
@@ -145,7 +145,7 @@ class Editor:
         return not self._document.state.playback.is_playing and self._document.t_s == 0.0
 
     def _aimed(self, aim: Aim | None, act: Callable[[Tool, Aim], None]) -> bool:
-        """Let the tool act at a place of the cloth as it lies spread; False when it was refused."""
+        """Let the tool act at a point of the cloth as it lies spread; return False when it was refused."""
         tool = self._tool
         if tool is None:
             return False
@@ -172,7 +172,7 @@ class Editor:
             self._tool.put_down()
 
     def _try(self, act: Callable[[], None]) -> bool:
-        """Do something, and remember why it was refused, if it was."""
+        """Perform an action and remember why it was refused, if it was."""
         try:
             act()
         except FoldingError as error:

@@ -1,13 +1,13 @@
-"""What catches the pointer while somebody draws: a box round everything, too far away to be seen.
+"""The glass that catches the pointer while a visitor draws: a box round everything, too far away to be seen.
 
-viser's camera stays where it is while a node is dragged. With the box every place of the picture belongs to a node, so
-nothing that is done with the left button can turn the camera. The box lies beyond what the camera sees, and so does the
-arrow that viser draws while a node is dragged. Only its inside faces the camera, so it is not outlined either when the
+viser's camera stays where it is while a node is dragged. With the box every point of the picture belongs to a node, so
+no gesture with the left button can turn the camera. The box lies beyond what the camera sees, and so does the arrow
+that viser draws while a node is dragged. Only its inside faces the camera, so it is not outlined either when the
 pointer is over it.
 
-viser parts a drag where a modifier key goes down or up: it tells of an end, and if the button is still held a tenth of
-a second later, or the pointer moves on, of a start with the same place under the hand. Here such a drag is one: an end
-counts only once no such start has followed.
+viser splits a drag where a modifier key goes down or up: it reports an end, and if the button is still held a tenth of
+a second later, or the pointer moves on, a start at the same point of the node. Here such a drag counts as a single
+drag: an end counts only once no such start has followed.
 """
 
 import asyncio
@@ -25,7 +25,7 @@ from planner.geometry.tolerance import GRID_M
 
 NODE = "/editor/glass"
 
-_HALF_M = 2048.0  # the camera sees as far as 1000 m
+_HALF_M = 2048.0  # beyond the camera's far plane at 1000 m
 _CORNERS = _HALF_M * np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
 _INWARDS = np.array(
     [
@@ -42,10 +42,10 @@ _Modifier: TypeAlias = Literal[
     "cmd/ctrl", "alt", "shift", "cmd/ctrl+alt", "cmd/ctrl+shift", "alt+shift", "cmd/ctrl+alt+shift"
 ]
 _MODIFIERS: tuple[_Modifier | None, ...] = (None, *get_args(_Modifier))
-"""viser asks for each of them; keys that are held make no difference here."""
+"""Modifier keys whose drags viser reports; keys that are held make no difference here."""
 
 GOES_ON_S = 0.25
-"""So long after its end a drag may go on with other keys held (s): more than viser's tenth, and what the wire takes."""
+"""Time after its end in which a drag may go on with other keys (s): more than viser's tenth and the network's delay."""
 
 Touch: TypeAlias = Literal["press", "drag", "release", "tap"]
 OnTouch: TypeAlias = Callable[[Touch, Aim | None], None]
@@ -62,7 +62,7 @@ class _Ended:
         start: where it began, on the glass.
         modifier: the keys that were held.
         aim: where the pointer was.
-        timer: what will let go.
+        timer: the timer that will end the drag.
     """
 
     start: Point3
@@ -71,20 +71,20 @@ class _Ended:
     timer: asyncio.TimerHandle
 
     def goes_on_as(self, event: _DragEvent) -> bool:
-        """Whether what begins is the same drag with other keys held: the hand still has the same place of the glass."""
+        """Return whether a start continues this drag with other keys: it is at the same point of the glass."""
         is_same_place = math.dist(self.start, event.start_position) <= GRID_M * _HALF_M
         return is_same_place and event.modifier != self.modifier
 
 
 class Glass:
-    """The box of one visitor; it is there only while the visitor draws."""
+    """The box of one visitor; it exists only while the visitor draws."""
 
     def __init__(self, client: viser.ClientHandle, on_touch: OnTouch) -> None:
-        """Nothing is caught yet.
+        """Build nothing yet; `catch` adds the box.
 
         Args:
             client: the visitor.
-            on_touch: is told what the pointer does, in viser's own thread; must not block.
+            on_touch: called with what the pointer does, in viser's own thread; must not block.
         """
         self._client = client
         self._on_touch = on_touch
@@ -118,7 +118,7 @@ class Glass:
         self._on_touch("drag", aim)
 
     def _let_go(self) -> None:
-        """What has ended does not go on."""
+        """End a drag that has not been continued."""
         ended, self._ended = self._ended, None
         if ended is not None:
             ended.timer.cancel()

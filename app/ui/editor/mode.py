@@ -1,10 +1,10 @@
-"""What a visitor of the stage does with the pointer, and which folds the pointer draws."""
+"""The modes of a visitor's pointer, and the kinds of fold that it draws."""
 
 from enum import StrEnum
 
 
 class Mode(StrEnum):
-    """What the left button does; the words are those in the panel."""
+    """The left button's mode, by its label in the panel."""
 
     LOOK = "Look"
     MOVE_POINTS = "Move points"
@@ -13,7 +13,7 @@ class Mode(StrEnum):
 
 
 class FoldKind(StrEnum):
-    """Which layers a fold takes; the words are those in the panel."""
+    """The layers that a fold takes, by their label in the panel."""
 
     BLUE = "Blue: all layers"
     RED = "Red: last flap"

@@ -32,20 +32,20 @@ class _Grip:
     ground: Ground
 
     def place(self, aim: Aim) -> Point2:
-        """Where the corner is now (m)."""
+        """Return where the corner is now (m)."""
         return (aim.point[0] + self.offset[0], aim.point[1] + self.offset[1])
 
 
 class MovePoints(Tool):
-    """Of handles that are close together, the nearest to the pointer is taken."""
+    """Moves the handle nearest to the pointer."""
 
     def __init__(self, pencil: Pencil) -> None:
-        """A tool that writes with a pencil."""
+        """Take the pencil that writes into the document."""
         self._pencil = pencil
         self._grip: _Grip | None = None
 
     def hint(self) -> str:
-        """What to do now."""
+        """Return what to do now."""
         if self._grip is not None:
             return "Let go where the corner shall be; off the table it goes back."
         if not self._pencil.state.drawing.outline:
@@ -53,7 +53,7 @@ class MovePoints(Tool):
         return "Drag a corner."
 
     def press(self, aim: Aim) -> None:
-        """Take the nearest corner that is near enough."""
+        """Grab the nearest corner that is near enough."""
         drawing = self._pencil.state.drawing
         places = on_table(drawing, drawing.points)
         apart, index = min(((math.dist(place, aim.point), i) for i, place in enumerate(places)), default=(math.inf, 0))
@@ -69,7 +69,7 @@ class MovePoints(Tool):
             self._pencil.preview(LABEL, _moved(self._grip.corner, self._grip.place(aim)))
 
     def release(self, aim: Aim | None) -> None:
-        """Put the corner here, as one step; off the table it goes back."""
+        """Put the corner here, as one step; off the table, put it back."""
         grip, self._grip = self._grip, None
         if grip is None:
             return
@@ -79,16 +79,16 @@ class MovePoints(Tool):
         self._pencil.commit(LABEL, _moved(grip.corner, grip.place(aim)))
 
     def tap(self, aim: Aim) -> None:
-        """A click moves nothing."""
+        """Do nothing: a click moves no corner."""
         raise RefusedError("Hold the button down and drag.")
 
     def put_down(self) -> None:
-        """Let the corner go where it was."""
+        """Put the corner back where it was."""
         self._grip = None
         self._pencil.cancel()
 
     def aids(self, state: DocumentState) -> Aids:
-        """A handle at each corner."""
+        """Return a handle at each corner."""
         drawing = state.drawing
         handles = on_table(drawing, drawing.points)
         ids = [corner.id for corner in drawing.outline]
@@ -97,7 +97,7 @@ class MovePoints(Tool):
 
 
 def _moved(corner: str, place: Point2) -> Change:
-    """The change that puts a corner to a place of the table (m)."""
+    """Return the change that moves a corner to a point of the table (m)."""
 
     def change(state: DocumentState) -> Drawing:
         drawing = state.drawing

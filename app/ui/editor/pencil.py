@@ -1,7 +1,7 @@
 """Writes into the document on behalf of one visitor of a stage.
 
-A change is a function of the document's state, not a drawing: when somebody else was quicker, it is made once more, to
-what is there now.
+A change is a function of the document's state, not a drawing: when another visitor was faster, it is applied again, to
+the new state.
 """
 
 import itertools
@@ -14,17 +14,17 @@ from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase, StaleVersionError
 
 Change: TypeAlias = Callable[[DocumentState], Drawing]
-"""The drawing as it is to be, from the document as it is; raises `FoldingError` for what cannot be done."""
+"""A function from the document's state to the new drawing; it raises `FoldingError` for what cannot be done."""
 
 
 class Pencil:
-    """Commits, and gestures of which each is one step."""
+    """Commits, and gestures, each of which becomes one step."""
 
     def __init__(self, document: Document, owner: str) -> None:
-        """Nothing is being drawn.
+        """Begin without a gesture.
 
         Args:
-            document: what is changed.
+            document: the document that is changed.
             owner: a name that no other pencil has.
         """
         self._document = document
@@ -34,7 +34,7 @@ class Pencil:
 
     @property
     def state(self) -> DocumentState:
-        """The document now."""
+        """The document's state now."""
         return self._document.state
 
     def preview(self, label: str, change: Change) -> DocumentState:
@@ -44,13 +44,13 @@ class Pencil:
         return self._write(label, change, Phase.PREVIEW)
 
     def commit(self, label: str, change: Change) -> DocumentState:
-        """Make a change one step, together with the previews before it."""
+        """Commit a change as one step, together with the previews before it."""
         state = self._write(label, change, Phase.COMMIT)
         self._gesture = None
         return state
 
     def cancel(self) -> None:
-        """Take the previews back, unless somebody else has made a step of them meanwhile."""
+        """Take the previews back, unless another visitor's step has included them meanwhile."""
         key, self._gesture = self._gesture, None
         going_on = self._document.state.draft.gesture
         if key is not None and going_on is not None and going_on.key == key:

@@ -9,7 +9,7 @@ _GAP_M = 0.0004
 
 
 def pile_surface(pile: Pile, bottom_m: float) -> ClothSurface:
-    """The layers one above the other, the lowest at a height (m), faces the right way up."""
+    """Return the layers stacked on each other, the lowest at a height (m), with their faces the right way up."""
     corners, layers = [], []
     for number, layer in enumerate(pile.cloth.layers):
         flat = layer.region.triangles if layer.face == "front" else layer.region.triangles[:, ::-1]
@@ -22,5 +22,5 @@ def pile_surface(pile: Pile, bottom_m: float) -> ClothSurface:
 
 
 def height(pile: Pile | None) -> float:
-    """How high the layers stand (m)."""
+    """Return the height of the stacked layers (m)."""
     return 0.0 if pile is None else len(pile.cloth.layers) * _GAP_M

@@ -1,4 +1,4 @@
-"""Places to look from: cameras that see the table and what lies on it. Table frame, z up."""
+"""Preset viewpoints that show the table and what lies on it. Table frame, z up."""
 
 import math
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from planner.geometry.table import Table
 from planner.robot.card import RobotCard
 
 _MARGIN = 1.12
-_TILT = 0.002  # straight down, a camera does not know which way is up
+_TILT = 0.002  # a camera that looks straight down has no defined up direction
 _EYE_LINK = "head_plate_frame"
 _AHEAD_OF_EYES_M = 0.15
 _WIDEST_RAD = 1.9
@@ -25,7 +25,7 @@ _SIDE_RISE = 0.12
 
 
 class Preset(StrEnum):
-    """The words on the buttons."""
+    """The presets, by the labels of their buttons."""
 
     TOP = "Top"
     ROBOT = "Robot's eye"
@@ -35,23 +35,23 @@ class Preset(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Lens:
-    """What a camera takes in.
+    """A camera's aspect and field of view.
 
     Attributes:
         aspect: the picture's width divided by its height.
-        fov_rad: from the bottom of the picture to its top (rad).
+        fov_rad: the vertical field of view (rad).
     """
 
     aspect: float
     fov_rad: float = FOV_RAD
 
     def distance(self, half_width_m: float, half_height_m: float) -> float:
-        """From how far off so much can be seen to each side of the middle (m)."""
+        """Return the distance from which given lengths to each side of the middle are in the picture (m)."""
         return max(half_height_m, half_width_m / self.aspect) / math.tan(self.fov_rad / 2.0)
 
 
 def top(ground: Ground, lens: Lens) -> Viewpoint:
-    """From straight above, as near as the table allows: its far edge is on top of the picture or to the right."""
+    """Return the view from straight above, as near as the table allows, its far edge at the top or on the right."""
     (x0, y0), (x1, y1) = ground.low, ground.high
     x, y, half_x, half_y = (x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) / 2, (y1 - y0) / 2
     lying, standing = lens.distance(half_x, half_y), lens.distance(half_y, half_x)
@@ -61,7 +61,7 @@ def top(ground: Ground, lens: Lens) -> Viewpoint:
 
 
 def side(lens: Lens, table: Table) -> Viewpoint:
-    """From the robot's right hand side, a little above the table; all of its near edge is seen."""
+    """Return the view from the robot's right, a little above the table, with all of its near edge."""
     x, y, z = _SIDE_CENTRE
     distance = lens.distance(*_SIDE_HALF_M) + table.width_m / 2
     return Viewpoint((x, y - distance, z + _SIDE_RISE * distance), _SIDE_CENTRE)
@@ -70,14 +70,14 @@ def side(lens: Lens, table: Table) -> Viewpoint:
 def robots_eye(
     card: RobotCard, base: Pose2, points: Sequence[Point2], aspect: float, torso_m: float, floor_z_m: float
 ) -> Viewpoint:
-    """From just before the robot's head, wide enough to see all that it looks at.
+    """Return the view from just before the robot's head, wide enough for all that it looks at.
 
     Args:
         card: the robot.
         base: where it stands, table frame.
-        points: what it looks at, on the table (m).
+        points: the points it looks at, on the table (m).
         aspect: the picture's width divided by its height.
-        torso_m: how far its torso is lifted (m).
+        torso_m: how far its torso is raised (m).
         floor_z_m: the floor's height in the table frame (m), negative.
     """
     eye = base.to_outer(_eye_in_base(card, torso_m) + np.array([_AHEAD_OF_EYES_M, 0.0, floor_z_m]))
@@ -88,7 +88,7 @@ def robots_eye(
 
 
 def _fov_to_see(points: FloatArray, eye: FloatArray, middle: FloatArray, aspect: float) -> float:
-    """How much a camera must take in to see points of shape (n, 3) (rad); no less than others do."""
+    """Return the field of view needed to see points of shape (n, 3) (rad), at least the usual one."""
     ahead = (middle - eye) / np.linalg.norm(middle - eye)
     right = np.cross(ahead, (0.0, 0.0, 1.0))
     right /= np.linalg.norm(right)
@@ -99,7 +99,7 @@ def _fov_to_see(points: FloatArray, eye: FloatArray, middle: FloatArray, aspect:
 
 
 def _eye_in_base(card: RobotCard, torso_m: float) -> FloatArray:
-    """Where the robot's head is while it looks ahead, base frame (m); all links down to it are unturned."""
+    """Return where the robot's head is while it looks ahead, base frame (m); all links down to it are unturned."""
     links = load_robot_model(card.urdf_path, card.package_dir)
     eye = next(link for link in links if link.name == _EYE_LINK)
     return np.asarray(np.sum([_offset(link, card, torso_m) for link in links if _carries(link, eye)], axis=0))

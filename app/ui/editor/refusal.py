@@ -1,4 +1,4 @@
-"""What cannot be done, said in one sentence."""
+"""Refusals: reasons why an action cannot be done, in one sentence."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ _SUBJECTS = {"line": "The line", "end": "The fold", "start": "The fold"}
 
 @dataclass
 class RefusedError(FoldingError):
-    """Something that the pointer asked for cannot be done.
+    """Raised where an action of the pointer cannot be done.
 
     Attributes:
         sentence: why, for people.
@@ -23,7 +23,7 @@ class RefusedError(FoldingError):
 
 
 def sentence(error: FoldingError) -> str:
-    """An error as a sentence that begins with a capital letter and ends with a full stop."""
+    """Return an error as a sentence that begins with a capital letter and ends with a full stop."""
     text = str(error)
     if isinstance(error, FieldError):
         subject = _SUBJECTS.get(error.field.rpartition(".")[2])
@@ -33,5 +33,5 @@ def sentence(error: FoldingError) -> str:
 
 
 def as_sentence(text: str) -> str:
-    """A text with a capital letter in front and a full stop behind."""
+    """Return a text with an initial capital letter and a final full stop."""
     return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith((".", "!", "?")) else ".")

@@ -28,11 +28,11 @@ _PANEL_GAP_PX = 15
 _ZOOM_STEP = 1.2
 
 Ask = Callable[[Callable[[], None], bool], None]
-"""Has something done by the stage's own thread; what is passing may be left out when the same comes again."""
+"""Hands an action to the stage's own thread; a passing action may be replaced by a later one."""
 
 
 class Seat:
-    """What belongs to one visitor; made and used by the stage's own thread, only asked by viser's."""
+    """The parts of one visitor; the stage's own thread makes and uses them, viser's thread only adds actions."""
 
     def __init__(
         self, client: viser.ClientHandle, document: Document, card: RobotCard, opening: Viewpoint, ask: Ask
@@ -41,10 +41,10 @@ class Seat:
 
         Args:
             client: the visitor.
-            document: what is edited.
+            document: the document that is edited.
             card: the robot.
-            opening: where cameras are at first.
-            ask: how something is handed to the stage's own thread.
+            opening: the opening viewpoint.
+            ask: the function that hands an action to the stage's own thread.
         """
         self._client = client
         self._document = document
@@ -67,7 +67,7 @@ class Seat:
         client.camera.on_update(self._camera_changed)
 
     def show(self, state: DocumentState) -> None:
-        """Bring everything up to date."""
+        """Update panels, aids and camera."""
         self._zoom = self._zoom_now
         with self._client.atomic():
             if state.is_dark != self._is_dark:
@@ -82,7 +82,7 @@ class Seat:
         self._client.flush()
 
     def leave(self) -> None:
-        """The visitor is gone."""
+        """End the visitor's editing."""
         self._editor.leave()
 
     def _touched(self, touch: Touch, aim: Aim | None) -> None:
@@ -91,14 +91,14 @@ class Seat:
         self._ask(lambda: act(aim), touch == "drag")
 
     def _open(self) -> None:
-        """Have table and robot whole in the picture, whatever its shape, until somebody moves the camera."""
+        """Show table and robot whole, whatever the picture's shape, until the visitor moves the camera."""
         state = self._document.state
         scene, panel = state.drawing.scene, self._camera_panel
         base = self._starting_base(state)
         panel.open_on(opening_of(scene, panel.lens.aspect, base, is_from_right=self._is_from_right))
 
     def _follow(self, state: DocumentState) -> None:
-        """Have the camera go along with the robot's head, or look from the side on which the robot does not stand."""
+        """Move the camera with the robot's head, or to the side of the table where the robot does not stand."""
         if self._camera_panel.is_riding:
             self._camera_panel.ride(self._robots_eye(state))
             return
@@ -121,20 +121,20 @@ class Seat:
                 panel.ride(self._robots_eye(state))
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
-        """What the robot sees from where it stands now."""
+        """Return the view from the robot's head where it stands now."""
         scene, aspect = state.drawing.scene, self._camera_panel.lens.aspect
         points = on_table(state.drawing, state.drawing.points) or scene.table.corners
         return robots_eye(self._card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
 
     def _base(self, state: DocumentState) -> Pose2:
-        """Where the robot stands now."""
+        """Return where the robot stands now."""
         if state.film is not None:
             return state.film.timeline.base_at(self._document.t_s)
         return self._starting_base(state)
 
     @staticmethod
     def _starting_base(state: DocumentState) -> Pose2:
-        """Where it waits before a plan begins."""
+        """Return where the robot waits before a plan begins."""
         stations = dict(state.drawing.scene.stations)
         return stations.get(state.drawing.start_station) or next(iter(stations.values()))
 
@@ -146,7 +146,7 @@ class Seat:
 
     @property
     def _zoom_now(self) -> int:
-        """How large a pixel is in the middle of the table, in coarse steps: handles need not change at every turn."""
+        """The size of a pixel in the middle of the table, in coarse steps, so that handles change only now and then."""
         camera = self._client.camera
         x, y, z = camera.position
         pixel_m = math.hypot(x, y, z) * pixel_angle(camera.fov, camera.image_height)

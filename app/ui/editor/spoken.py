@@ -1,4 +1,4 @@
-"""Messages about a drawing as the stage says them: in centimetres, corners and edges counted from 1.
+"""Messages about a drawing in the stage's words: in centimetres, corners and edges counted from 1.
 
 The page has words of its own, in the unit that its reader has chosen (`static/js/messages`).
 """
@@ -13,7 +13,7 @@ _Values = Mapping[str, Any]
 
 
 def spoken(says: Message | None, sentence: str) -> str:
-    """A message in words; one that the stage has none for is its sentence."""
+    """Return a message in the stage's words; its sentence where the stage has no words for it."""
     words = None if says is None else _WORDS.get(says.code)
     return sentence if words is None or says is None else words(says.values)
 
