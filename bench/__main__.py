@@ -1,4 +1,4 @@
-"""The command line of the benchmark: print each table, write each as JSON under ``bench/out/``, draw what is drawn."""
+"""The command line of the benchmark: print each table, write each as JSON under ``bench/out/``, draw the figures."""
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
@@ -38,7 +38,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "crowd": crowd,
 }
 APART: Final = frozenset({"reach", "growth", "hand", "crowd"})
-"""Left out if garments are named and these are not: they are of no garment, or want a browser or a server."""
+"""Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
 OUT: Final = Path(__file__).parent / "out"
@@ -48,12 +48,12 @@ WIDTH: Final = 120
 
 
 def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = DOCS) -> None:
-    """Run what was asked for; a table without rows is left out.
+    """Run the tables asked for; leave out tables without rows.
 
     Args:
         arguments: the command line; None for the process's own.
         out: the folder for the JSON.
-        docs: the folder for figures; what is measured once only is not drawn.
+        docs: the folder for figures; results of a single repetition are not drawn.
     """
     asked = _parser().parse_args(arguments)
     named = [name for name in ARTICLES if name in asked.only]

@@ -8,25 +8,25 @@ from docs.figures.drawing import FAINT, PAPER, Drawing, Style, View
 from planner.geometry.pose import Point2
 
 _WIDTH_PX, _HEIGHT_PX = 300.0, 236.0
-"""Of a panel with its labels."""
+"""Size of a panel with its labels."""
 
 _LEFT_PX, _RIGHT_PX, _ABOVE_PX, _BELOW_PX = 52.0, 16.0, 14.0, 40.0
-"""Of a panel, what is left for labels."""
+"""Margins of a panel for its labels."""
 
 _HEAD_PX, _ENTRY_PX, _FOOT_PX = 14.0, 17.0, 26.0
 _ROOM = 1.25
-"""Axes go on by this factor beyond what is shown."""
+"""Factor by which axes extend beyond the data."""
 
 _COLOURS = ("#2f6fb3", "#c4572e", "#4d8b4a", "#7a5aa6")
 _GRID = Style("#dcd9d2", width=1.0)
 _SIZE = 11.0
 _APART_PX = 13.0
-"""What is written below an axis is at least so far from its neighbour."""
+"""Least distance between neighbouring labels below an axis."""
 
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """A point of a line; drawn full or, if the figure is not what it would be with more time, hollow."""
+    """A point of a line; drawn hollow where its value is not final because the time ran out."""
 
     x: float
     y: float
@@ -35,7 +35,7 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """A line through points with a name."""
+    """A named line through points."""
 
     name: str
     points: tuple[Point, ...]
@@ -43,7 +43,7 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """A chart: what its axes show, units included, and its lines."""
+    """A chart: its axis labels, units included, and its lines."""
 
     x_label: str
     y_label: str
@@ -52,7 +52,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """A logarithmic axis from a least to a most value, so many pixels long."""
+    """A logarithmic axis from a least to a largest value, with its length in pixels."""
 
     least: float
     most: float
@@ -63,7 +63,7 @@ class _Axis:
 
 
 def draw(rows: Sequence[Sequence[Panel]]) -> str:
-    """The panels as SVG; those below each other have the same lines, which are named once above them."""
+    """Return the panels as SVG; panels in a column have the same lines, which one legend above them names."""
     entries = max(len(panel.series) for panel in rows[0])
     head = _HEAD_PX + _ENTRY_PX * entries
     width, height = _WIDTH_PX * len(rows[0]), head + _HEIGHT_PX * len(rows) + _FOOT_PX
@@ -121,7 +121,7 @@ def _axis(values: Sequence[float], length_px: float) -> _Axis:
 
 
 def _decades(axis: _Axis) -> list[float]:
-    """The powers of ten on an axis, and between them 2 and 5 if there are too few."""
+    """Return the powers of ten on an axis, and between them 2 and 5 if there are too few."""
     first, last = math.floor(math.log10(axis.least)), math.ceil(math.log10(axis.most))
     tens = [10.0**power for power in range(first, last + 1)]
     found = [ten for ten in tens if axis.least <= ten <= axis.most]

@@ -1,10 +1,10 @@
-"""How long an edit takes while many documents are open, some are dragged, and others ask for plans.
+"""The time that an edit takes while many documents are open, some are dragged, and others ask for plans.
 
-Twenty documents are open, each followed by a page's websocket. In three of them a hand drags a corner in a circle:
-every tenth of a second its page sends the drawing, and after two seconds it lets go and takes the next corner. As a
-page does, a hand sends its next drawing only once the last was answered. Then the same again while five plans a second
-are asked for, each of which may take five seconds. What is timed is each edit, from the moment when the hand was there,
-which may be earlier than when it was sent.
+Twenty documents are open, each followed by a page's websocket. In three of them a simulated hand drags a corner in a
+circle: every tenth of a second it sends the drawing, and after two seconds it releases the corner and takes the next.
+Like a page, a hand sends its next drawing only after the answer to the last. Then this is repeated while five plans a
+second are requested, each of which may take five seconds. Each edit is timed from the moment when the hand was there,
+which may be earlier than when the edit was sent.
 """
 
 import http.client
@@ -47,7 +47,7 @@ EDITS_PER_S = 10.0
 PLANS_PER_S = 5.0
 PLAN_LIMIT_S = 5.0
 STROKE = 20
-"""Edits after which a hand lets go."""
+"""Edits after which a hand releases a corner."""
 
 RADIUS_M = 0.01
 DURATION_S = 15.0
@@ -57,12 +57,12 @@ PATIENCE_S = 120.0
 
 @dataclass(slots=True)
 class Heard:
-    """What a crowd has measured.
+    """The measurements of a crowd.
 
     Attributes:
         edits_ms: for each edit, how long it took (ms).
         plans_s: for each plan that was answered, how long that took (s).
-        statuses: how often each status came for a plan.
+        statuses: the number of plan requests by HTTP status.
     """
 
     edits_ms: list[float] = field(default_factory=list)
@@ -71,7 +71,7 @@ class Heard:
 
 
 def crowd(articles: Sequence[str], repetitions: int) -> Report:
-    """Documents of the articles, with plans and without."""
+    """Measure documents of the articles, with plans and without."""
     asked = [article for article in TABLE_2 if article in articles]
     title = f"Edits in {DRAGGED} of {OPEN} open documents, {EDITS_PER_S:g} a second each"
     duration_s = DURATION_S if repetitions > 1 else QUICK_S
@@ -82,7 +82,7 @@ def crowd(articles: Sequence[str], repetitions: int) -> Report:
 
 
 def crowded(articles: Sequence[str], duration_s: float, plans_per_s: float) -> Heard:
-    """Have a crowd at work on a server of its own for so long (s)."""
+    """Run a crowd on a server of its own for a duration (s), and return its measurements."""
     heard = Heard()
     with served() as (url, _), ExitStack() as pages:
         kinds = itertools.cycle(articles)
@@ -117,7 +117,7 @@ def _followed(url: str, document: str) -> Iterator[None]:
 
 
 def _drag(url: str, document: dict[str, Any], until_s: float, heard: Heard) -> None:
-    """Lead corner after corner round in a circle."""
+    """Drag corner after corner in a circle."""
     drawing, version = document["drawing"], document["version"]
     next_s = time.monotonic()
     with closing(http.client.HTTPConnection(urlsplit(url).netloc, timeout=PATIENCE_S)) as wire:
@@ -149,7 +149,7 @@ def _moved(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, Any
 
 
 def _ask_for_plans(url: str, articles: Sequence[str], plans_per_s: float, until_s: float, heard: Heard) -> None:
-    """Ask for a plan again and again, whether or not the last one was answered."""
+    """Request plans at a steady rate, without waiting for answers."""
     kinds, asking = itertools.cycle(articles), []
     while time.monotonic() < until_s:
         asking.append(threading.Thread(target=_plan, args=(url, next(kinds), heard), daemon=True))
@@ -168,7 +168,7 @@ def _plan(url: str, article: str, heard: Heard) -> None:
 
 
 def _sent(wire: http.client.HTTPConnection, method: str, path: str, body: object) -> tuple[int, dict[str, Any]]:
-    """Send JSON; return the status and the JSON that is answered."""
+    """Send JSON; return the status and the JSON answer."""
     wire.request(method, path, json.dumps(body), {"content-type": "application/json"})
     answer = wire.getresponse()
     return answer.status, json.loads(answer.read())

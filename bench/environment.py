@@ -1,4 +1,4 @@
-"""What a benchmark was run on, as far as its figures depend on it."""
+"""The environment of a benchmark, as far as its results depend on it."""
 
 import os
 import platform
@@ -8,7 +8,7 @@ LIBRARIES = ("networkx", "numba", "numpy", "pin", "shapely", "viser")
 
 
 def environment() -> dict[str, object]:
-    """Cores, processes that wanted them in the last minute, and versions of what planning and showing rest on."""
+    """Return the cores, the load of the last minute, and the versions of the libraries that plan and show."""
     return {
         "cores": os.cpu_count(),
         "load": os.getloadavg()[0],

@@ -1,4 +1,4 @@
-"""What the first plan of a process takes, against the second: each time in a new process."""
+"""The time of a process's first plan against its second: each time in a new process."""
 
 import json
 import subprocess
@@ -17,7 +17,7 @@ ROOT = Path(__file__).parent.parent
 
 
 def first_plan(articles: Sequence[str], repetitions: int) -> Report:
-    """The first plan and the second of the nine articles, in so many new processes each."""
+    """Measure the first and the second plan of the nine articles, in a new process for each repetition."""
     chosen = [article for article in TABLE_2 if article in articles]
     for article in chosen[:1]:
         _times_in_fresh_process(article)  # thrown away: it may have to compile kernels

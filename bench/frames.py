@@ -1,9 +1,9 @@
-"""What one frame of the animation costs the server: with nobody watching, with one viewer, with ten.
+"""The server's cost of one animation frame: without viewers, with one viewer, with ten.
 
-A plan's whole timeline is shown at 30 frames a second, as the player does, one run for each number of viewers, who are
+A plan's whole timeline is shown at 30 frames a second, as the player does, once for each number of viewers, which are
 real clients of the stage in a process of their own. A frame's server time is all CPU time that the server's process
-spends from one frame to the next: working out where everything is, writing it on the stage, and viser's own thread,
-which packs it and sends it to each viewer.
+spends from one frame to the next: computing the sample, writing it on the stage, and viser's own thread, which packs it
+and sends it to each viewer.
 """
 
 import json
@@ -44,18 +44,18 @@ FRAMES_PER_S = 30.0
 PATIENCE_S = 60.0
 
 QUICK_EVERY = 20
-"""When it is to be quick, of so many frames one is shown."""
+"""Stride over the frames in a quick run."""
 
 
 @dataclass(frozen=True, slots=True)
 class Times:
-    """What one frame took (ms).
+    """The times of one frame (ms).
 
     Attributes:
-        make_ms: CPU time of working out the frame.
+        make_ms: CPU time of computing the frame.
         show_ms: CPU time of `Stage.show`.
         server_ms: CPU time of the whole process until the next frame.
-        wall_ms: time that went by from the start of making it to the end of showing it.
+        wall_ms: elapsed time from the start of making it to the end of showing it.
     """
 
     make_ms: float
@@ -65,12 +65,12 @@ class Times:
 
 
 def frames(articles: Sequence[str], repetitions: int) -> Report:
-    """The T-shirt, every frame; every twentieth if it is to be quick."""
+    """Measure the T-shirt: every frame, or every twentieth in a quick run."""
     return frames_of([article for article in SAMPLE if article in articles], 1 if repetitions > 1 else QUICK_EVERY)
 
 
 def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEWERS) -> Report:
-    """Some articles, of so many frames one, for each number of viewers; the first is what others are compared with."""
+    """Measure every `every`-th frame of articles for each number of viewers; the first number is the baseline."""
     rows = []
     for article in articles:
         plan = make_plan(load_garment(article))
@@ -87,7 +87,7 @@ def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEW
 
 
 def _run(stage: Stage, plan: Plan, viewers: int, every: int) -> tuple[list[Times], list[dict[str, int]]]:
-    """A time for each frame of a plan, and what each viewer has read."""
+    """Return the times of each frame of a plan, and what each viewer has read."""
     timeline = Timeline.of(plan)
     moments = [number * every / FRAMES_PER_S for number in range(int(timeline.duration_s * FRAMES_PER_S / every) + 1)]
     stage.show(timeline.at(0.0))
@@ -113,7 +113,7 @@ def _shown(stage: Stage, plan: Plan, moments: Sequence[float]) -> Iterator[Times
 
 @contextmanager
 def _watched(stage: Stage, viewers: int, read: list[dict[str, int]]) -> Iterator[None]:
-    """Have viewers while this goes on; what each of them has read is added to `read` at the end."""
+    """Connect viewers within the context; at its end add what each of them has read to `read`."""
     if viewers == 0:
         yield
         return

@@ -1,7 +1,7 @@
 """A process that has planned nothing yet: ``python -m bench.fresh_process GARMENT`` prints its times as JSON.
 
 It imports the planner, then makes the same plan twice. The first plan reads the robot's description and loads the
-compiled kernels from the disk; the second finds them.
+compiled kernels from the disk; the second finds them in memory.
 """
 
 import json
@@ -10,7 +10,7 @@ from time import perf_counter, process_time
 
 
 def times_of(garment_name: str) -> dict[str, float]:
-    """Import, first plan, its CPU time and second plan (s); the planner must not have been imported before."""
+    """Return the times of import, first plan, its CPU and second plan (s); the planner must not be imported before."""
     started = perf_counter()
     from planner import load_garment, make_plan
 

@@ -1,6 +1,6 @@
-"""How search time and expansions grow: with the number of folds, with the number of stations, with the comfort radius.
+"""The growth of search time and expansions with the number of folds, the number of stations, and the comfort radius.
 
-The cases are solvable (see `bench.growth_cases`). Where the time runs out, where the search stood then is given.
+The cases are solvable (see `bench.growth_cases`). Where the time runs out, the counts at that moment are given.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -19,7 +19,7 @@ COMFORT_M = 0.03
 BUDGET_S = 10.0
 OUT_OF_TIME = "out of time"
 SLOW_S = 2.0
-"""A search that takes longer is made once only."""
+"""Duration from which a search is not repeated (s)."""
 
 FOLDS = (2, 5, 10, 20, 40)
 STATIONS = (5, 10, 20, 50)
@@ -34,15 +34,15 @@ FOLDS_PANEL, STATIONS_PANEL, COMFORT_PANEL = "folds", "stations", "comfort radiu
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A problem of a size.
+    """A case: a problem of one size.
 
     Attributes:
-        panel: what grows.
-        series: which problem grows with it.
-        size: how much of that there is.
-        articles: what is planned, several plans added up.
-        scene: where.
-        comfort_radius_m: with which comfort radius (m).
+        panel: the quantity that grows.
+        series: the name of the problem.
+        size: the value of the quantity.
+        articles: the garments planned, whose results are added up.
+        scene: the scene.
+        comfort_radius_m: the comfort radius (m).
     """
 
     panel: str
@@ -55,7 +55,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """A case and what came of it; times are medians, and with costs and counts sums over the articles (s)."""
+    """A case and its results: median times (s), costs (s) and counts, summed over the articles."""
 
     case: Case
     status: str
@@ -68,7 +68,7 @@ class Grown:
 
 
 def growth(_: Sequence[str], repetitions: int) -> Report:
-    """All cases, or if it is to be quick the smallest of each series; about no garment in particular."""
+    """Measure all cases, or the smallest of each series in a quick run; no garment is chosen by name."""
     found = [_grown(case, repetitions) for case in cases(is_quick=repetitions == 1)]
     rows = tuple(_row(one) for one in found)
     title = f"Growth with folds, stations and comfort (at most {BUDGET_S:g} s a search)"
@@ -76,7 +76,7 @@ def growth(_: Sequence[str], repetitions: int) -> Report:
 
 
 def cases(*, is_quick: bool) -> Iterator[Case]:
-    """The cases; if it is to be quick, the smallest of each series, and not the nine together."""
+    """Yield the cases; in a quick run the smallest of each series, without the nine together."""
     some: Callable[[Sequence[int]], Sequence[int]] = (lambda sizes: sizes[:1]) if is_quick else (lambda sizes: sizes)
     scene = Scene()
     for name, make in ((CHAINED, ribbon), (FREE, tabs), (SCATTERED, tabs_on_two_sides)):
@@ -137,7 +137,7 @@ def _row(grown: Grown) -> Row:
 
 
 def _panels(found: Sequence[Grown]) -> list[list[Panel]]:
-    """Above search times, below expansions; one column for each thing that grows."""
+    """Return search times above, expansions below; one column for each quantity that grows."""
     measures: tuple[tuple[str, Callable[[Grown], float]], ...] = (
         ("search time [s]", lambda one: one.search_time_s),
         ("states expanded", lambda one: float(one.expanded)),

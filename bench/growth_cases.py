@@ -1,8 +1,8 @@
-"""Problems of any size that a PR2 can be asked: many folds, many stations, more comfort.
+"""Problems of any size that a PR2 can solve: many folds, many stations, a larger comfort radius.
 
 All cloth lies lengthwise before the robot, the article's x to the robot's right. A ribbon that is rolled up is a chain:
-each fold waits for the one before. Tabs wait for nothing, so every set of them may be done first; tabs along two
-sides are out of one stand's reach, so that the order in which they are folded matters.
+each fold waits for the one before. Tabs are independent, so every set of them may be done first; tabs along two sides
+are out of reach from a single station, so that the order in which they are folded matters.
 """
 
 import math
@@ -15,20 +15,20 @@ from planner.task.scene import Scene
 
 LENGTH_M = 0.8
 RIBBON_M = 0.2
-"""How wide the ribbon is: one grip holds both corners of its end."""
+"""Width of the ribbon (m): one grip holds both corners of its end."""
 
 TAB_M, TAB_SHARE = 0.05, 0.6
-"""How far a tab sticks out, and how much of a side is tabs."""
+"""How far a tab sticks out (m), and the fraction of a side that is tabs."""
 
 NARROW_M, BROAD_M = 0.3, 0.5
-"""How broad the cloth between the tabs is where there are some along one side, and along two."""
+"""Width of the cloth between the tabs (m) with tabs along one side, and along two."""
 
 BESIDE_M = 0.15
-"""How far from the table's edge a base stands."""
+"""Distance of a base from the table's edge (m)."""
 
 
 def ribbon(folds: int) -> Garment:
-    """A ribbon rolled up from its left end."""
+    """Return a ribbon rolled up from its left end."""
     step = LENGTH_M / (folds + 1)
     outline = ((0.0, 0.0), (LENGTH_M, 0.0), (LENGTH_M, RIBBON_M), (0.0, RIBBON_M))
     lines = [((step * (i + 1), 0.0), (step * (i + 1), RIBBON_M)) for i in range(folds)]
@@ -36,7 +36,7 @@ def ribbon(folds: int) -> Garment:
 
 
 def tabs(folds: int) -> Garment:
-    """Cloth with tabs along the side that is next to the robot, each to be folded in."""
+    """Return cloth with tabs along the side next to the robot, each to be folded in."""
     side = _tabs(folds, 0.0)
     outline = ((0.0, 0.0), *(point for tab in side for point in tab), (LENGTH_M, 0.0))
     lines = [(tab[-1], tab[0]) for tab in side]
@@ -44,7 +44,7 @@ def tabs(folds: int) -> Garment:
 
 
 def tabs_on_two_sides(folds: int) -> Garment:
-    """Half of the tabs next to the robot, the others opposite."""
+    """Return cloth with half of the tabs next to the robot, the others opposite."""
     near, far = _tabs(folds // 2, 0.0), _tabs(folds - folds // 2, BROAD_M)
     outline = (
         (0.0, 0.0),
@@ -59,7 +59,7 @@ def tabs_on_two_sides(folds: int) -> Garment:
 
 
 def crowded(stations: int) -> Scene:
-    """The default scene with more stations, evenly along the near, the left and the right edge."""
+    """Return the default scene with more stations, evenly along the near, the left and the right edge."""
     scene = Scene()
     table, given = scene.table, scene.stations
     x, y = table.depth_m / 2 + BESIDE_M, table.width_m / 2 + BESIDE_M
@@ -84,7 +84,7 @@ def crowded(stations: int) -> Scene:
 
 
 def _tabs(count: int, y: float) -> list[list[Point2]]:
-    """The corners of tabs along a side, each from left to right; they stick out downwards at y = 0, else upwards."""
+    """Return the corners of tabs along a side, each from left to right; they point down at y = 0, else up."""
     pitch = LENGTH_M / count
     tip = y - TAB_M if y == 0.0 else y + TAB_M
     found = []
@@ -96,7 +96,7 @@ def _tabs(count: int, y: float) -> list[list[Point2]]:
 
 
 def _garment(name: str, outline: Sequence[Point2], lines: Sequence[tuple[Point2, Point2]], ahead_m: float) -> Garment:
-    """Cloth whose lower side lies so far ahead of the table's middle, its middle before the robot."""
+    """Return cloth centred before the robot, its lower side at a distance ahead of the table's middle (m)."""
     radius = DEFAULT_GRIP_RADIUS_M
     folds = tuple(DrawnFold(f"fold {i}", "blue", start, end, radius) for i, (start, end) in enumerate(lines))
     placement = Pose2(ahead_m, LENGTH_M / 2, -math.pi / 2)

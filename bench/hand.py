@@ -1,9 +1,9 @@
-"""What a hand feels: a corner of a garment is dragged by a centimetre in the page, with the robot at rest beside it.
+"""The latency of a drag: a corner of a garment is dragged by a centimetre in the page, with the robot at rest.
 
 The page itself keeps the time (`bench.hand_page`): from each movement of the mouse to the corner drawn there, and from
-the release to the status of the plan of what was dropped. Browser and server share the machine. Where the browser draws
-the stage by software, a frame of the page takes as long as that, so it is measured without a stage too. The corners and
-directions are those of `bench.re_plan`; each drag is undone before the next.
+the release to the status of the plan for the dropped drawing. Browser and server share the machine. Where the browser
+draws the stage by software, a frame of the page takes as long as that, so the drags are also measured without a stage.
+The corners and directions are those of `bench.re_plan`; each drag is undone before the next.
 """
 
 from collections.abc import Iterator, Sequence
@@ -37,14 +37,14 @@ NO_BROWSER = "no browser"
 
 @dataclass(frozen=True, slots=True)
 class Dragged:
-    """One drag.
+    """The measurements of one drag.
 
     Attributes:
         to_ghost_ms: from each movement to its drawing (ms).
-        same_frame: for each, whether the next frame showed it.
+        same_frame: for each movement, whether the next frame showed it.
         to_plan_ms: from the release to the plan's status on the page (ms).
-        server_cpu_ms: CPU time of the server from the press on (ms); None where the system does not tell.
-        status: the plan's.
+        server_cpu_ms: CPU time of the server from the press on (ms); None where the system does not report it.
+        status: the plan's status.
     """
 
     to_ghost_ms: tuple[float, ...]
@@ -55,7 +55,7 @@ class Dragged:
 
 
 def hand(articles: Sequence[str], repetitions: int) -> Report:
-    """The nine articles and, in the last row, all drags together; a row that says so where there is no browser."""
+    """Measure the nine articles and, in the last row, all drags together; one row says so without a browser."""
     drags = MOVES if repetitions > 1 else QUICK_MOVES
     asked = [article for article in TABLE_2 if article in articles]
     title = f"In the page: a corner dragged by {100 * STEP_M:g} cm, from the hand to what is seen"
@@ -81,7 +81,7 @@ def _rows(articles: Sequence[str], drags: int) -> Iterator[Row]:
 
 
 def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
-    """So many drags of an article's corners, in a server and a browser of their own."""
+    """Return the measurements of drags of an article's corners, in a server and a browser of their own."""
     from bench.hand_page import window
 
     with served() as (url, process):

@@ -1,7 +1,7 @@
-"""A browser's window on a document, which keeps its own time of what the hand does and what is then to be seen.
+"""A browser window on a document that measures when a drag's results are visible.
 
-All times are of the page's clock, `performance.now()`: of a pointer event, when the browser was told of it; of what is
-drawn, when the page has put it into its tree, in the callback of the frame that shows it.
+All times are of the page's clock, `performance.now()`: for a pointer event, when the browser received it; for a
+drawing, when the page has put it into its tree, in the callback of the frame that shows it.
 """
 
 import shutil
@@ -13,17 +13,17 @@ from typing import Any
 from playwright.sync_api import Page, sync_playwright
 
 SYSTEM_CHROMIUM = shutil.which("chromium")
-"""None: Playwright's own."""
+"""The system's Chromium; None: Playwright's own."""
 
 FLAGS = ("--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking")
 FLAT = (*FLAGS, "--disable-gpu")
 BY_SOFTWARE = (*FLAGS, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PATIENCE_MS = 60_000
 MOVES = 8
-"""So many times the mouse is moved on its way."""
+"""Number of mouse movements in a drag."""
 
 ROOMY_PX_PER_M = 1500.0
-"""Of the movements over a centimetre each is a pixel or two then."""
+"""Zoom at which each movement of a drag over a centimetre is a pixel or two."""
 
 KEEP_TIME = """() => {
   const board = document.getElementById("drafting-board"), pill = document.getElementById("status");
@@ -53,7 +53,7 @@ FIT = """() => {
   document.querySelector("[aria-label=Fit]").click();
 }"""
 QUICK_MS, QUICK_FRAMES = 40.0, 20
-"""At rest so many frames in a row come within so long of each other: where software draws the stage, others do not."""
+"""The page is at rest when this many frames in a row come within this time; frames that software draws do not."""
 
 STAYS_QUICK = """async ([quickMs, quickFrames]) => {
   const frame = () => new Promise(requestAnimationFrame);
@@ -72,13 +72,13 @@ CORNER = """(index) => {
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """What the page has kept of a drag (ms).
+    """The page's measurements of a drag (ms).
 
     Attributes:
         to_ghost_ms: for each movement that is seen, from the pointer event to the corner drawn there.
         same_frame: for each of them, whether that was in the very next frame.
-        to_plan_ms: from the release to the status of the plan of what was dropped.
-        status: that plan's.
+        to_plan_ms: from the release to the status of the plan for the dropped drawing.
+        status: that plan's status.
     """
 
     to_ghost_ms: tuple[float, ...]
@@ -88,7 +88,7 @@ class Heard:
 
     @classmethod
     def of(cls, kept: dict[str, Any], version: int) -> "Heard":
-        """Of what `KEEP_TIME` has written down; a drag begins only some pixels from where the button was pressed."""
+        """Return the measurements in the record of `KEEP_TIME`; a drag begins only some pixels from the press."""
         told = next(told for told in kept["told"] if told[1] == version)
         drawn = kept["drawn"]
         moves = [move for move in kept["moved"] if drawn[0] < move[1] < drawn[-1]]
@@ -103,7 +103,7 @@ class Heard:
 
 @contextmanager
 def window(url: str, *, has_stage: bool) -> Iterator[Page]:
-    """A page that keeps time, its stage at rest or left out; raises Playwright's error where there is no browser."""
+    """Yield a page that keeps time, its stage at rest or left out; raise Playwright's error if there is no browser."""
     with sync_playwright() as playwright:
         flags = BY_SOFTWARE if has_stage else FLAT
         browser = playwright.chromium.launch(executable_path=SYSTEM_CHROMIUM, args=flags)
@@ -119,18 +119,18 @@ def window(url: str, *, has_stage: bool) -> Iterator[Page]:
 
 
 def wait_for_answer(page: Page, version: int) -> None:
-    """Wait until the page says what planning a version, or a later one, came to, and has nothing more to do."""
+    """Wait until the page shows the status of the plan of a version, or a later one, and is idle."""
     page.wait_for_function(HAS_ANSWER, arg=version)
     page.evaluate(RESTS)
 
 
 def wait_for_rest(page: Page) -> None:
-    """Wait until the page and its stage have drawn all that there is to be drawn."""
+    """Wait until the page and its stage have drawn everything."""
     page.evaluate(STAYS_QUICK, [QUICK_MS, QUICK_FRAMES])
 
 
 def grasp(page: Page, corner: int) -> tuple[float, float, float]:
-    """Come near to a corner, with nothing selected; where it is (px), and pixels for a metre."""
+    """Zoom in on a corner, with nothing selected; return its position (px) and the pixels for a metre."""
     page.evaluate(FIT)
     page.evaluate(RESTS)
     x, y, scale = page.evaluate(CORNER, corner)
@@ -144,7 +144,7 @@ def grasp(page: Page, corner: int) -> tuple[float, float, float]:
 
 
 def drag(page: Page, start: tuple[float, float], by: tuple[float, float]) -> None:
-    """Press there, lead the mouse so far (px) without snapping, let go."""
+    """Press at the start, move the mouse by an offset (px) without snapping, and release."""
     page.evaluate("window.begin()")
     page.keyboard.down("Control")
     page.mouse.down()
@@ -155,5 +155,5 @@ def drag(page: Page, start: tuple[float, float], by: tuple[float, float]) -> Non
 
 
 def heard(page: Page, version: int) -> Heard:
-    """What was kept of the drag that has led to a version."""
+    """Return the measurements of the drag that has led to a version."""
     return Heard.of(page.evaluate("window.heard"), version)

@@ -1,9 +1,9 @@
-"""Planning the same thing several times, and what stays of it.
+"""Repeated planning of the same cases, and its results.
 
-Cases that are to be compared are run in turns (a, b, a, b, ...), so that a slow moment of the machine meets both, and
-their ratio is the median of the ratios of the turns. No search has anything from the one before: each plan has its own
-memory of what the robot reaches, and the garment is replayed each time. Compiled kernels stay, and `warm_up` sees to
-those first; joint paths stay too, and are not in the times of searches.
+Cases that are compared run in turns (a, b, a, b, ...), so that a slow moment of the machine affects both, and their
+ratio is the median of the ratios of the turns. No search benefits from the one before: each plan has its own memory of
+the robot's reach, and the garment is replayed each time. Compiled kernels stay in memory, so `warm_up` loads them
+first; joint paths stay too, and are not in the times of searches.
 """
 
 from collections.abc import Sequence
@@ -20,12 +20,12 @@ TIME_LIMIT_S = 60.0
 
 
 class BenchmarkError(Exception):
-    """A figure that must not depend on machine or moment did."""
+    """Raised where a result that must not depend on machine or moment did."""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """What is planned: a shipped garment's name, the comfort radius (m) and the heuristic."""
+    """A case to plan: a shipped garment's name, the comfort radius (m) and the heuristic."""
 
     garment: str
     comfort_radius_m: float
@@ -34,16 +34,16 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What is the same at every repetition: the plan, and the counts of its search.
+    """The results that every repetition shares: the plan, and the counts of its search.
 
     Attributes:
-        status: "solved", "infeasible" or, where it is not known whether it is the quickest, "budget_exceeded".
+        status: "solved", "infeasible" or, where it is not known whether the plan is the quickest, "budget_exceeded".
         folds: number of folds.
         primitives: primitives in the plan; None unless solved.
         cost_s: the plan's duration (s); None unless solved.
         expanded: states expanded.
         explored: successors pushed.
-        ik_queries: queries put to the exact inverse kinematics, comfort points counted.
+        ik_queries: queries put to the exact inverse kinematics, points on the comfort circle included.
     """
 
     status: str
@@ -57,13 +57,13 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Measurement:
-    """A case, its outcome, and a time for each repetition, in the order they were run.
+    """A case, its outcome, and the times of each repetition, in order.
 
     Attributes:
-        case: what was planned.
-        outcome: what came out.
+        case: the case planned.
+        outcome: its outcome.
         ik_times_s: time in inverse kinematics (s).
-        search_times_s: time of the search, that included (s).
+        search_times_s: time of the search, inverse kinematics included (s).
         plan_times_s: time of the whole call, the Fold-DAG included (s).
     """
 
@@ -74,7 +74,7 @@ class Measurement:
     plan_times_s: tuple[float, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """The outcome, and the median of each time."""
+        """Return the outcome, and the median of each time."""
         return {
             **asdict(self.case),
             **asdict(self.outcome),
@@ -94,7 +94,7 @@ class _Run:
 
 @dataclass(frozen=True, slots=True)
 class Ratio:
-    """How many times as long one thing took as its peer: median, least and most of the turns."""
+    """The ratio of a time to its peer's: median, least and largest over the turns."""
 
     median: float
     least: float
@@ -102,7 +102,7 @@ class Ratio:
 
     @classmethod
     def of(cls, times_s: Sequence[float], peer_times_s: Sequence[float]) -> "Ratio":
-        """The ratio of times measured in turns; both sequences have the same length."""
+        """Return the ratio of times measured in turns; both sequences have the same length."""
         ratios = [time / peer for time, peer in zip(times_s, peer_times_s, strict=True)]
         return cls(median(ratios), min(ratios), max(ratios))
 
@@ -111,16 +111,16 @@ class Ratio:
 
 
 def warm_up() -> None:
-    """Compile the kernels or load them, and make one plan that nobody looks at."""
+    """Compile or load the kernels, and make one plan that is not measured."""
     compile_kernels()
     _run(load_garment("hand-towel"), Case("hand-towel", 0.03))
 
 
 def measure(*cases: Case, repetitions: int) -> list[Measurement]:
-    """Plan the cases in turns, so many times each.
+    """Plan the cases in turns, `repetitions` times each.
 
     Raises:
-        BenchmarkError: a case had another outcome than the time before (that a search ran out of time apart).
+        BenchmarkError: a case had another outcome than the time before (unless a search ran out of time).
     """
     garments = [load_garment(case.garment) for case in cases]
     turns = [[_run(*pair) for pair in zip(garments, cases, strict=True)] for _ in range(repetitions)]

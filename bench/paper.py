@@ -1,7 +1,7 @@
-"""What the paper reports of its simulations, typed from its Tables 1 and 2 (section 8).
+"""The paper's simulation results, typed from its Tables 1 and 2 (section 8).
 
-These are another planner's figures, on another machine, for articles, placements and a reach that the paper does not
-fully state. They stand beside ours for comparison; ours are not meant to come out the same.
+These are another planner's results, on another machine, for articles, placements and a reach that the paper does not
+fully state. They stand beside ours for comparison; ours are not meant to be equal.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ SOURCE: Final = (
 
 @dataclass(frozen=True, slots=True)
 class PaperRow:
-    """A row of the paper's Table 1 or 2; the fields stand in the order of its columns.
+    """A row of the paper's Table 1 or 2; the fields are in the order of its columns.
 
     Attributes:
         folds: number of folds.
@@ -55,7 +55,7 @@ TABLE_1: Final[Mapping[str, PaperRow]] = MappingProxyType(
         "hand-towel": PaperRow(3, 3, 27.35, 18, 161, 5.04, 1.90, 400, 0.007),
     }
 )
-"""Table 1, by the names of our garments: a point is reachable when it alone is."""
+"""Table 1, by the names of our garments: a point counts as reachable without a comfort radius."""
 
 TABLE_2: Final[Mapping[str, PaperRow]] = MappingProxyType(
     {

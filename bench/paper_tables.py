@@ -1,4 +1,4 @@
-"""The paper's Tables 1 and 2 again: the nine articles, ours above the paper's."""
+"""The paper's Tables 1 and 2 reproduced: the nine articles, our results above the paper's."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -13,12 +13,12 @@ COLUMNS = ("article", "by", "folds", "L", "C [s]", "expanded", "explored", "IK q
 
 
 def table_1(articles: Sequence[str], repetitions: int) -> Report:
-    """Table 1: a point is reachable when it alone is."""
+    """Measure Table 1: a point counts as reachable without a comfort radius."""
     return _report("table-1", 0.0, TABLE_1, articles, repetitions)
 
 
 def table_2(articles: Sequence[str], repetitions: int) -> Report:
-    """Table 2: a comfort radius of 3 cm."""
+    """Measure Table 2: a comfort radius of 3 cm."""
     return _report("table-2", 0.03, TABLE_2, articles, repetitions)
 
 

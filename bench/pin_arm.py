@@ -1,4 +1,4 @@
-"""The PR2's left arm in pinocchio alone: what every answer about reach is held against."""
+"""The PR2's left arm in pinocchio alone: the reference for every answer about reach."""
 
 from functools import cache
 
@@ -11,14 +11,14 @@ from planner.robot.description import read_model
 from planner.robot.pr2_card import pr2_card
 
 TORSO_M = 0.29
-"""How far the torso is raised in all questions about reach (m)."""
+"""How far the torso is raised in all queries about reach (m)."""
 
 ALL_ROUND_RAD = np.pi
-"""Where a joint that turns without end begins a search: anywhere within half a turn."""
+"""Largest start angle in a search of a joint that turns without end: half a turn either way."""
 
 
 class PinArm:
-    """The left arm, everything else locked. Seven joints from the shoulder outwards (rad), tool in the base frame (m).
+    """The left arm, all else locked. Seven joints from the shoulder outwards (rad), tool in the base frame (m).
 
     Attributes:
         low: lower limits, -inf for joints that turn without end (rad), shape (7,).
@@ -49,7 +49,7 @@ class PinArm:
         self.low, self.high = np.array(lows_and_highs).T
 
     def random_joints(self, random: np.random.Generator, count: int) -> FloatArray:
-        """Joints within their limits, evenly, shape (count, 7); those without limits within a turn."""
+        """Return uniform random joints within their limits, shape (count, 7); joints without limits within a turn."""
         low, high = np.maximum(self.low, -ALL_ROUND_RAD), np.minimum(self.high, ALL_ROUND_RAD)
         bounded = np.where(self._is_endless, low, self.low), np.where(self._is_endless, high, self.high)
         return random.uniform(*bounded, (count, 7))
@@ -62,28 +62,28 @@ class PinArm:
         return middle
 
     def clamped(self, joints: FloatArray) -> FloatArray:
-        """Joints put back to their limits."""
+        """Return joints clipped to their limits."""
         clamped: FloatArray = np.minimum(np.maximum(joints, self.low), self.high)
         return clamped
 
     def is_within_limits(self, joints: FloatArray) -> bool:
-        """Whether all joints are within their limits, as far as an angle can be told from another."""
+        """Return whether all joints are within their limits, up to rounding."""
         return bool(np.all(joints >= self.low - ANGLE_RAD) and np.all(joints <= self.high + ANGLE_RAD))
 
     def tool(self, joints: FloatArray) -> pin.SE3:
-        """Where the tool is."""
+        """Return the tool's pose."""
         pin.forwardKinematics(self._model, self._data, self._q(joints))
         return pin.updateFramePlacement(self._model, self._data, self._tool)
 
     def tool_and_jacobian(self, joints: FloatArray) -> tuple[pin.SE3, FloatArray]:
-        """Where the tool is, and how it moves with the joints, in its own frame, shape (6, 7)."""
+        """Return the tool's pose and its Jacobian in its own frame, shape (6, 7)."""
         q = self._q(joints)
         jacobian = pin.computeFrameJacobian(self._model, self._data, q, self._tool, pin.LOCAL)
         pin.forwardKinematics(self._model, self._data, q)
         return pin.updateFramePlacement(self._model, self._data, self._tool), jacobian
 
     def residual(self, joints: FloatArray, point: FloatArray, rotation: FloatArray) -> float:
-        """By how much the tool misses a pose: the worst coordinate (m), or entry of the rotation; inf beyond limits."""
+        """Return the tool's deviation from a pose: the worst coordinate (m), or rotation entry; inf beyond limits."""
         if not self.is_within_limits(joints):
             return np.inf
         tool = self.tool(joints)
@@ -98,5 +98,5 @@ class PinArm:
 
 @cache
 def pin_arm() -> PinArm:
-    """The one that all share; not to be used by two threads."""
+    """Return the shared arm; two threads must not use it."""
     return PinArm()

@@ -1,9 +1,9 @@
-"""How long a user waits for the new plan after moving a corner of the outline by a centimetre.
+"""The wait for the new plan after a corner of the outline has moved by a centimetre.
 
 Each article is opened as a document and planned as it is shipped; then corners are moved, one at a time and each from
-the shipped drawing: the folds follow their ties, and what comes out is planned. It is timed when the first plan for the
-new drawing is published, and when nothing quicker is looked for any more. What a document keeps from plan to plan
-(known plans, joint paths of what has not changed) is kept here too, so no move is made twice.
+the shipped drawing: the folds follow their ties, and the new drawing is planned. Two moments are timed: when the first
+plan for the new drawing is published, and when the search for a quicker one ends. State that a document keeps from plan
+to plan (known plans, joint paths of what has not changed) is kept here too, so no move is made twice.
 """
 
 import random
@@ -44,26 +44,26 @@ COLUMNS = (
 )
 ARMS = 2
 MOVES = 8
-"""So many corners of an article are moved; all of them where it has fewer."""
+"""Number of corners of an article that are moved; all of them where it has fewer."""
 
 QUICK_MOVES = 1
 STEP_M = 0.01
 SEED = 1
 ILLEGAL = "illegal"
-"""Instead of a plan's status where the drawing is none any more after the move."""
+"""Status of a move after which the drawing is not legal, in place of a plan's."""
 
 
 @dataclass(frozen=True, slots=True)
 class Replanned:
-    """A new plan after a move.
+    """The measurements of a new plan after a move.
 
     Attributes:
-        corner: which corner was moved.
-        status: the final plan's, or that the drawing is illegal.
+        corner: the index of the corner moved.
+        status: the final plan's status, or that the drawing is illegal.
         first_cpu_s: CPU time of all threads from the move to the first plan, solving the drawing included (s).
-        first_wall_s: time that went by (s).
-        final_cpu_s: CPU time to where nothing quicker is looked for (s).
-        is_soon: whether the first plan was made of those before, not searched for.
+        first_wall_s: elapsed time from the move to the first plan (s).
+        final_cpu_s: CPU time from the move to the end of the search for a quicker plan (s).
+        is_soon: whether the first plan was adapted from earlier plans, not searched for.
     """
 
     corner: int
@@ -75,7 +75,7 @@ class Replanned:
 
 
 def re_plan(articles: Sequence[str], repetitions: int) -> Report:
-    """The nine articles and, in the last row, all moves together."""
+    """Measure the nine articles and, in the last row, all moves together."""
     moves = MOVES if repetitions > 1 else QUICK_MOVES
     found = {article: replanned(article, moves) for article in TABLE_2 if article in articles}
     rows = [_row(article, runs) for article, runs in found.items()]
@@ -86,20 +86,20 @@ def re_plan(articles: Sequence[str], repetitions: int) -> Report:
 
 
 def replanned(article: str, moves: int) -> list[Replanned]:
-    """So many moves of an article's corners, the same in every run, in directions the same in every run."""
+    """Move corners of an article and return the measurements; corners and directions are the same in every run."""
     drawing = solve(drawing_of(load_garment(article))).drawing
     with _planned(drawing) as document:
         return [_replanned(document, drawing, *move) for move in chosen(article, len(drawing.outline), moves)]
 
 
 def chosen(article: str, corners: int, moves: int) -> list[tuple[int, float]]:
-    """Which of so many corners are moved, and in which direction (rad): the same in every run."""
+    """Return the corners to move and their directions (rad), the same in every run."""
     choice = random.Random(f"{SEED} {article}")
     return [(corner, choice.uniform(0.0, tau)) for corner in choice.sample(range(corners), min(moves, corners))]
 
 
 def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:
-    """The drawing with one corner moved by `STEP_M`."""
+    """Return the drawing with one corner moved by `STEP_M`."""
     corner = drawing.outline[number]
     x, y = corner.point
     there = Corner(corner.id, (x + STEP_M * cos(towards_rad), y + STEP_M * sin(towards_rad)))
@@ -108,7 +108,7 @@ def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:
 
 @contextmanager
 def _planned(drawing: Drawing) -> Iterator[Document]:
-    """A document with its planner, at rest."""
+    """Yield a document with its planner, at rest."""
     document, pool = Document(draft_of(drawing)), JobPool()
     replanner = Replanner(document, pool, PlanStore(), ARMS)
     try:
@@ -139,7 +139,7 @@ def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: f
 
 
 def _is_settled(state: DocumentState) -> bool:
-    """Whether the answer is final, and played."""
+    """Return whether the answer is final, and played."""
     if state.failure is not None:
         return True
     if state.answer is None or not state.is_answered or not state.answer.is_final:
@@ -148,7 +148,7 @@ def _is_settled(state: DocumentState) -> bool:
 
 
 def _until(document: Document, condition: Callable[[DocumentState], bool]) -> DocumentState:
-    """The first state seen that is as wanted."""
+    """Return the first state seen that meets a condition."""
     changed = threading.Event()
     unsubscribe = document.subscribe(changed.set)
     try:
@@ -181,7 +181,7 @@ def _row(name: str, runs: Sequence[Replanned]) -> Row:
 
 
 def _spread(values: Sequence[float]) -> dict[str, float]:
-    """Median, 95th percentile and most; not a number without values."""
+    """Return median, 95th percentile and maximum; nan without values."""
     if not values:
         return dict.fromkeys(("median", "p95", "most"), float("nan"))
     p95 = quantiles(values, n=20, method="inclusive")[-1] if len(values) > 1 else values[0]

@@ -1,8 +1,8 @@
-"""Can the arm take a pose? Pleat's kernel and its peers, asked the same in one run.
+"""Reachability of poses: Pleat's kernel and its peers, given the same queries in one run.
 
 Every turn has poses of its own and all methods answer them one after another, so that a slow moment of the machine
-meets all; the slow ones answer the first few. Ratios are of CPU times. What is true is sampled densely (see
-`bench.reach_truth`).
+affects all; the slow methods answer only the first few. Ratios are of CPU times. The true answers come from dense
+sampling (see `bench.reach_truth`).
 """
 
 from collections.abc import Sequence
@@ -28,18 +28,18 @@ COLUMNS = ("method", "poses", "CPU [us]", "wall [us]", "times ours", "recall", "
 BASELINE = in_batches(100)
 
 FALSE_M = 1e-6
-"""Joints with which the tool misses its pose by more (m, or of a unit vector) are no answer."""
+"""Deviation of the tool from its pose beyond which joints are no answer (m, or of a unit vector)."""
 
 PROVED_M = 1e-9
-"""By so little may the tool miss a pose that is held to be within reach."""
+"""Largest deviation of the tool from a pose that counts as proved within reach (m)."""
 
 PASSES = 5
-"""A turn of a method that is not slow is timed so often; the median counts."""
+"""Number of passes over a turn of a method that is not slow; the median counts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How many turns, how many poses in each, and how many of these the slow methods are asked."""
+    """The number of turns, of poses in each, and of those that the slow methods answer."""
 
     turns: int
     poses: int = 2000
@@ -48,7 +48,7 @@ class Effort:
 
 @dataclass(frozen=True, slots=True)
 class _Turn:
-    """What a method did in one turn: times (s), and what became of its answers."""
+    """A method's times (s) and answers in one turn."""
 
     queries: Queries
     truth: BoolArray
@@ -62,18 +62,18 @@ class _Turn:
 
     @property
     def is_false(self) -> BoolArray:
-        """Which answers of "yes" have joints that do not take the pose, or none."""
+        """Which "yes" answers have joints that miss the pose, or no joints."""
         poses = zip(self.joints, self.queries.points, self.queries.rotations, strict=True)
         return np.array([j is not None and not pin_arm().residual(j, p, r) <= FALSE_M for j, p, r in poses], dtype=bool)
 
 
 def reach(_: Sequence[str], repetitions: int) -> Report:
-    """The left arm of a PR2, without any garment; in one turn there are fewer poses."""
+    """Measure the left arm of a PR2, without any garment; a single turn has fewer poses."""
     return reach_of(Effort(repetitions) if repetitions > 1 else Effort(1, 1000, 20))
 
 
 def reach_of(effort: Effort) -> Report:
-    """The table, with so many poses."""
+    """Return the table with the given effort."""
     dense = DenseReach()
     poses = any_poses(effort.turns * effort.poses)
     asked = {False: poses, True: pinches(poses)}
@@ -93,7 +93,7 @@ def reach_of(effort: Effort) -> Report:
 
 
 def _truth(dense: DenseReach, queries: Queries) -> BoolArray:
-    """Which poses are within reach; raises `BenchmarkError` where that is certainly wrong."""
+    """Return which poses are within reach; raise `BenchmarkError` where the dense sampling is certainly wrong."""
     truth = dense.truth(queries)
     proved = is_proved(truth, queries, PROVED_M)
     if not np.array_equal(proved, truth.answers):
@@ -155,5 +155,5 @@ def _row(name: str, turns: Sequence[_Turn], baseline: Sequence[_Turn], dense: De
 
 
 def _figures(value: float) -> str:
-    """Two decimals, or none where they would say nothing."""
+    """Return a number with two decimals, or with none where they would say nothing."""
     return f"{value:.2f}" if value < 100.0 else f"{value:.0f}"

@@ -1,4 +1,4 @@
-"""A way to answer whether the left arm can take poses, whoever's it is."""
+"""The interface of the methods that decide whether the left arm can take poses."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ Joints: TypeAlias = Sequence[FloatArray | None]
 """For each query seven joints (rad), or None for a "no"."""
 
 Answering: TypeAlias = Callable[[], Callable[[], Joints]]
-"""Answers the queries that it was made for, which is timed; gives what finds the joints behind them, which is not."""
+"""Answers its queries, which is timed, and returns a function that finds their joints, which is not timed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A way to answer.
+    """A method of answering queries.
 
     Attributes:
-        name: what it is called in the table.
-        prepare: from queries to what answers them; what it does itself is not timed.
+        name: its name in the table.
+        prepare: makes an answering function for queries; its own time is not measured.
         is_of_pinches: whether it answers the planner's own approaches only.
-        is_slow: whether it is asked a few of the queries only.
-        is_repeatable: whether the same question takes as long when it is asked again.
+        is_slow: whether it is given only a few of the queries.
+        is_repeatable: whether the same query takes as long when it is repeated.
     """
 
     name: str

@@ -21,7 +21,7 @@ STEP_M = 0.05
 
 
 def our_methods() -> tuple[Method, ...]:
-    """The kernel in batches, and for pinches what the planner has before it."""
+    """Return the kernel in batches, and for pinches the planner's memory in front of it."""
     return (
         *(Method(in_batches(size), _in_batches(size)) for size in BATCHES),
         Method(f"pinches, batches of {BATCHES[-1]}", _in_batches(BATCHES[-1]), is_of_pinches=True),
@@ -31,7 +31,7 @@ def our_methods() -> tuple[Method, ...]:
 
 
 def in_batches(size: int) -> str:
-    """The name of the method that asks about so many poses at a time."""
+    """Return the name of the method that answers batches of a size."""
     return f"Pleat, batches of {size}"
 
 
@@ -53,7 +53,7 @@ def _in_batches(size: int) -> Callable[[Queries], Answering]:
 
 
 def _asked_first(queries: Queries) -> Answering:
-    """The planner's memory, empty, asked one approach after another; comfort radius 0 and no body in the way."""
+    """Query the planner's memory, empty at first, approach by approach; comfort radius 0, no body in the way."""
     reach = Pr2Reach(("left",), (SidedArm(read_arm(read_model()), is_mirrored=False),), TORSO_M, 0.0)
     groups = [np.flatnonzero(queries.approaches == approach) for approach in range(len(APPROACHES))]
     asked = [(queries.points[group], np.array([number])) for number, group in enumerate(groups)]
@@ -68,14 +68,14 @@ def _asked_first(queries: Queries) -> Answering:
 
 
 def _asked_again(queries: Queries) -> Answering:
-    """The same memory after it was asked the same before."""
+    """Query the memory again after the same queries."""
     answer = _asked_first(queries)
     answer()
     return answer
 
 
 def _joints(queries: Queries, answers: BoolArray) -> Joints:
-    """The joints that Pleat names for its answers; not a number where it says yes and then names none."""
+    """Return the joints that Pleat finds for its answers; nan where it says yes and then finds none."""
     robot = load_robot("pr2")
     found = []
     for point, rotation, answer in zip(queries.points, queries.rotations, answers, strict=True):

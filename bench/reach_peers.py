@@ -1,7 +1,8 @@
-"""What else answers where an arm can reach: other people's inverse kinematics, for the same arm and the same limits.
+"""Other libraries' inverse kinematics, for the same arm and the same limits.
 
 pytracik and eaik are extras, pinned in ``requirements-bench.txt``; damped least squares is written here on pinocchio.
-Each is given what makes it do best: precision far below what counts as a miss, and an end at its first good answer.
+Each has the settings with which it does best: a precision far finer than what counts as a miss, and a stop at its first
+good answer.
 """
 
 from collections.abc import Callable, Mapping
@@ -19,27 +20,27 @@ from planner.robot.arm import read_arm
 from planner.robot.description import read_model, urdf_path
 
 Solve: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray | None]
-"""From a tool's place (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""
+"""From a tool's position (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""
 
 PRECISION = 1e-7
-"""How exact a numerical method has to be before it may stop (m, rad)."""
+"""Precision at which a numerical method may stop (m, rad)."""
 
 PANS = 16
-"""Pans at which eaik is asked."""
+"""Number of pans at which eaik is tried."""
 
 STEPS, DAMPING = 100, 1e-3
-"""Damped least squares gives up after so many steps; and how it is damped (m, rad)."""
+"""Number of steps after which damped least squares gives up, and its damping (m, rad)."""
 
 SEED = 7
 
 
 def _trac_ik(timeout_s: float) -> Solve:
-    """TRAC-IK: two numerical methods race, with restarts, until one is there or time is up."""
+    """Return TRAC-IK: two numerical methods race, with restarts, until one succeeds or the time runs out."""
     trac_ik: Any = import_module("trac_ik")
     solver = trac_ik.TracIK("torso_lift_link", "l_gripper_tool_frame", str(urdf_path()), timeout_s, PRECISION)
     low, high = solver.joint_limits
     arm = pin_arm()
-    # Its reader takes the URDF's limits for zeros; those of endless joints it knows.
+    # TRAC-IK reads the URDF's limits as zeros, but knows those of endless joints.
     low, high = np.where(np.isfinite(arm.low), arm.low, low), np.where(np.isfinite(arm.high), arm.high, high)
     solver.joint_limits = (low.tolist(), high.tolist())
     model = read_model()
@@ -54,7 +55,7 @@ def _trac_ik(timeout_s: float) -> Solve:
 
 
 def _eaik() -> Solve:
-    """EAIK: in closed form for six joints, so the pan is locked at one sample after another."""
+    """Return EAIK: in closed form for six joints, so the pan is locked at one sample after another."""
     eaik: Any = import_module("eaik.pybindings.EAIK")
     shape, arm = read_arm(read_model()), pin_arm()
     axes = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]] * 3)
@@ -87,7 +88,7 @@ def _eaik() -> Solve:
 
 
 def _least_squares(starts: int) -> Solve:
-    """Damped least squares from the middle of the joints' ranges, then from so many random starts less one."""
+    """Return damped least squares from the middle of the joints' ranges, then from `starts` - 1 random joints."""
     arm = pin_arm()
     random = np.random.default_rng(SEED)
 
@@ -118,7 +119,7 @@ PEERS: Mapping[str, Callable[[], Solve]] = {
 
 
 def peer_methods() -> dict[str, Method | None]:
-    """The peers by name; None for what is not installed."""
+    """Return the peers by name; None for a peer that is not installed."""
     return {name: _method(name, load) for name, load in PEERS.items()}
 
 

@@ -1,4 +1,4 @@
-"""Tool poses to ask about: on both sides of where the left arm's reach ends, the same in every run."""
+"""Tool poses to test: on both sides of the boundary of the left arm's reach, the same in every run."""
 
 from dataclasses import dataclass
 
@@ -11,10 +11,10 @@ from planner.robot.approaches import APPROACHES
 
 SEED = 2012
 FURTHEST_M = 0.5
-"""How far a tool is moved at most from where it could be (m)."""
+"""Largest displacement of a tool from a reachable pose (m)."""
 
 UNMOVED = 0.25
-"""The share of poses that are left where the arm can surely take them."""
+"""Fraction of poses left where the arm can surely take them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Queries:
         points: shape (n, 3) (m).
         rotations: shape (n, 3, 3).
         is_sure: which are the poses of joints within limits, and so surely within reach, shape (n,).
-        approaches: of pinches the index of the approach, shape (n,); otherwise -1.
+        approaches: for pinches the index of the approach, shape (n,); otherwise -1.
     """
 
     points: FloatArray
@@ -42,13 +42,13 @@ class Queries:
         return np.ascontiguousarray(self.rotations[:, :, 0])
 
     def part(self, start: int, end: int) -> "Queries":
-        """Those from one number on to before another."""
+        """Return the queries from a start index to before an end index."""
         some = slice(start, end)
         return Queries(self.points[some], self.rotations[some], self.is_sure[some], self.approaches[some])
 
 
 def any_poses(count: int) -> Queries:
-    """Poses of joints drawn evenly from within their limits; three quarters of them moved by up to `FURTHEST_M`."""
+    """Return poses of uniform random joints within their limits; three quarters of them moved by up to `FURTHEST_M`."""
     random = np.random.default_rng(SEED)
     tools = [pin_arm().tool(joints).copy() for joints in pin_arm().random_joints(random, count)]
     points = np.array([tool.translation for tool in tools])
@@ -61,7 +61,7 @@ def any_poses(count: int) -> Queries:
 
 
 def pinches(poses: Queries) -> Queries:
-    """The same points on the planner's grid, from the planner's approach that is nearest to each pose's."""
+    """Return the points on the planner's grid, each with the planner's approach nearest to its pose's."""
     fan = np.array([approach.rotation for approach in APPROACHES])
     nearest = np.argmax(poses.axes @ fan[:, :, 0].T, axis=1)
     on_grid = LENGTH_M * np.round(poses.points / LENGTH_M)

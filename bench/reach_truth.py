@@ -1,8 +1,8 @@
-"""Can the left arm really take a pose? Slowly and densely, and not by the planner's kernel.
+"""The true reachability of poses for the left arm: slow and dense, independent of the planner's kernel.
 
-With the shoulder's pan locked the other six joints follow in closed form, for either way the elbow may point. So the
-pan is sampled finely, and round the best samples more finely five times over. A "yes" comes with joints, which
-pinocchio checks; a "no" means that no pan was found among all those.
+With the shoulder's pan locked the other six joints follow in closed form, for each branch of the elbow. So the pan is
+sampled finely, and refined round the best samples five times over. A "yes" comes with joints, which pinocchio checks; a
+"no" means that none of the sampled pans serves.
 """
 
 from dataclasses import dataclass
@@ -16,24 +16,24 @@ from planner.robot.arm import Sector, read_arm
 from planner.robot.description import read_model
 
 SAMPLES = 721
-"""Pans tried at first, evenly over the joint's range."""
+"""Number of pans tried at first, evenly over the joint's range."""
 
 PEAKS, ZOOMED, ZOOMS = 6, 33, 5
-"""Round so many of the best samples so many more are tried between their neighbours, again and again."""
+"""Number of best samples refined, of new samples between the neighbours of each, and of rounds."""
 
 AT_ONCE = 256
-"""Poses in a batch, so that its arrays fit into the cache."""
+"""Poses in a batch, so that its arrays fit into the processor's cache."""
 
 OUTSIDE = -10.0
-"""Slack (rad) where the closed form has no solution at all, and less the further from one."""
+"""Slack (rad) where the closed form has no solution at all; it decreases further away from a solution."""
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """What holds of poses.
+    """The true answers for poses.
 
     Attributes:
-        answers: which are within reach, shape (n,).
+        answers: which poses are within reach, shape (n,).
         joints: for those within reach joints that take the pose (rad), shape (n, 7).
     """
 
@@ -50,7 +50,7 @@ class DenseReach:
         self._shoulder = np.array([self._shape.shoulder_x, self._shape.shoulder_y, self._shape.shoulder_z + TORSO_M])
 
     def truth(self, queries: Queries) -> Truth:
-        """Which poses are within reach, and joints for them."""
+        """Return which poses are within reach, and joints for them."""
         answers, joints = np.zeros(len(queries), dtype=bool), np.full((len(queries), 7), np.nan)
         for start in range(0, len(queries), AT_ONCE):
             part = slice(start, start + AT_ONCE)
@@ -61,7 +61,7 @@ class DenseReach:
         return Truth(answers, joints)
 
     def can_reach(self, points: FloatArray, rotations: FloatArray) -> BoolArray:
-        """Which poses are within reach, shape (n,)."""
+        """Return which poses are within reach, shape (n,)."""
         nothing = np.zeros(len(points))
         return self.truth(Queries(points, rotations, nothing.astype(bool), nothing)).answers
 
@@ -69,7 +69,7 @@ class DenseReach:
         return np.asarray(points - self._shape.tool * rotations[:, :, 0] - self._shoulder)
 
     def _best(self, wrists: FloatArray, axes: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """The most slack of each pose, and at which pan and branch (1 or -1)."""
+        """Return the largest slack of each pose, and its pan and branch (1 or -1)."""
         limits, count = self._shape.pan, len(wrists)
         step = (limits.high - limits.low) / (SAMPLES - 1)
         grid = np.broadcast_to(np.linspace(limits.low, limits.high, SAMPLES), (count, SAMPLES))
@@ -94,7 +94,7 @@ class DenseReach:
         return best, best_pan, best_branch
 
     def _slack(self, wrists: FloatArray, axes: FloatArray, pans: FloatArray, branch: float) -> FloatArray:
-        """The least slack of lift, roll, elbow and wrist flex (rad) at each pose's pans, shape (n, m)."""
+        """Return the least slack of lift, roll, elbow and wrist flex (rad) at each pose's pans, shape (n, m)."""
         shape = self._shape
         (u, v, w), ahead = self._panned(wrists, pans), self._turned(axes, pans)
         cos_elbow = (u * u + v * v + w * w - shape.upper**2 - shape.fore**2) / (2.0 * shape.upper * shape.fore)
@@ -111,12 +111,13 @@ class DenseReach:
         slack = _slack_within(shape.lift, lift)
         for limits, angle in ((shape.roll, roll), (shape.elbow, elbow), (shape.wrist, flex)):
             slack = np.minimum(slack, _slack_within(limits, angle))
-        # No roll has a sine beyond 1, and no elbow a cosine: one smooth condition, so that zooming in leads inside.
+        # No roll has a sine beyond 1, and no elbow a cosine. Both excesses form one smooth condition, so that refining
+        # leads to solutions.
         outside = (v / shape.fore) ** 2 + cos_elbow**2 - 1.0
         return np.where(outside > 0.0, OUTSIDE - outside, slack)
 
     def _panned(self, wrists: FloatArray, pans: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Wrists as seen from the lift axis at each pan, three arrays of shape (n, m)."""
+        """Return wrists as seen from the lift axis at each pan, three arrays of shape (n, m)."""
         x, y, z = self._turned(wrists, pans)
         return x - self._shape.offset, y, z
 
@@ -126,7 +127,7 @@ class DenseReach:
         return cos * x + sin * y, cos * y - sin * x, np.broadcast_to(z, pans.shape)
 
     def _joints(self, wrists: FloatArray, rotations: FloatArray, pans: FloatArray, branches: FloatArray) -> FloatArray:
-        """The seven joints at each pose's pan and branch, shape (n, 7); rubbish where there are none."""
+        """Return the seven joints at each pose's pan and branch, shape (n, 7); undefined where there are none."""
         shape = self._shape
         u, v, w = (part[:, 0] for part in self._panned(wrists, pans[:, None]))
         cos_elbow = (u * u + v * v + w * w - shape.upper**2 - shape.fore**2) / (2.0 * shape.upper * shape.fore)
@@ -148,7 +149,7 @@ class DenseReach:
 
 
 def is_proved(truth: Truth, queries: Queries, within: float) -> BoolArray:
-    """Which of the "yes" pinocchio agrees with: the joints are legal and the tool misses by so little, shape (n,)."""
+    """Return which "yes" answers pinocchio confirms, shape (n,): legal joints, and the tool within a tolerance."""
     proved = np.zeros(len(queries), dtype=bool)
     for i in np.flatnonzero(truth.answers):
         proved[i] = pin_arm().residual(truth.joints[i], queries.points[i], queries.rotations[i]) <= within
@@ -156,7 +157,7 @@ def is_proved(truth: Truth, queries: Queries, within: float) -> BoolArray:
 
 
 def _peaks(slack: FloatArray, pans: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The best samples that are no worse than their neighbours, and their pans, shapes (n, PEAKS)."""
+    """Return the best samples that are no worse than their neighbours, and their pans, shapes (n, PEAKS)."""
     walled = np.pad(slack, ((0, 0), (1, 1)), constant_values=-np.inf)
     is_peak = (slack >= walled[:, :-2]) & (slack >= walled[:, 2:])
     best = np.argpartition(np.where(is_peak, -slack, np.inf), PEAKS, axis=1)[:, :PEAKS]
@@ -164,20 +165,20 @@ def _peaks(slack: FloatArray, pans: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _slack_within(limits: Sector, angle: FloatArray) -> FloatArray:
-    """How far angles are from the nearer of two limits, whole turns aside; negative outside (rad)."""
+    """Return how far angles are from the nearer of two limits, whole turns aside; negative outside (rad)."""
     middle, half = 0.5 * (limits.low + limits.high), 0.5 * (limits.high - limits.low)
     off = np.mod(angle - middle + np.pi, 2.0 * np.pi) - np.pi
     return np.asarray(half - np.abs(off))
 
 
 def _turned_into(limits: Sector, angle: FloatArray) -> FloatArray:
-    """The same directions as angles, whole turns added so that they are nearest to the middle of two limits."""
+    """Return angles with whole turns added so that they are nearest to the middle of two limits."""
     middle = 0.5 * (limits.low + limits.high)
     return np.asarray(middle + np.mod(angle - middle + np.pi, 2.0 * np.pi) - np.pi)
 
 
 def _about(axis: int, angles: FloatArray) -> FloatArray:
-    """Rotations about an axis of the frame, shape (n, 3, 3)."""
+    """Return rotations about an axis of the frame, shape (n, 3, 3)."""
     cos, sin = np.cos(angles), np.sin(angles)
     i, j = (axis + 1) % 3, (axis + 2) % 3
     turned = np.zeros((len(angles), 3, 3))

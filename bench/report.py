@@ -1,4 +1,4 @@
-"""A benchmark's result: a table for people, and the same as JSON for programs."""
+"""A benchmark's result: a table for people, and JSON for programs."""
 
 import json
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class Row:
     """One subject of a report.
 
     Attributes:
-        lines: what is printed: one or more lines of as many cells as the report has columns.
+        lines: the printed lines, each with as many cells as the report has columns.
         data: the same as JSON.
     """
 
@@ -36,8 +36,8 @@ class Report:
         columns: headings, with units; the first is text, the others are numbers.
         rows: one for each subject.
         repetitions: how often each time was measured; the median is given.
-        source: where figures that are not our own come from; "" if there are none.
-        figure: the same drawn, as the text of an SVG file; "" if it is not.
+        source: where results that are not our own come from; "" if there are none.
+        figure: the figure as the text of an SVG file; "" if there is none.
     """
 
     name: str
@@ -49,10 +49,10 @@ class Report:
     figure: str = ""
 
     def to_table(self) -> Table:
-        """The table; a row of several lines is kept together."""
+        """Return the table; the lines of a row are kept together."""
         table = Table(title=Text(self.title), title_justify="left", header_style="bold")
         for index, heading in enumerate(self.columns):
-            # As Text: in a plain string rich takes "[s]" for its mark of text that is struck out.
+            # As Text: in a plain string rich takes "[s]" for its markup of crossed-out text.
             table.add_column(Text(heading), justify="right" if index else "left", no_wrap=True)
         for row in self.rows:
             for index, line in enumerate(row.lines):
@@ -60,7 +60,7 @@ class Report:
         return table
 
     def to_dict(self) -> dict[str, Any]:
-        """The report as JSON, with what it was run on."""
+        """Return the report as JSON, with the environment of the run."""
         return {
             "name": self.name,
             "title": self.title,
@@ -71,7 +71,7 @@ class Report:
         }
 
     def write(self, folder: Path) -> Path:
-        """Write ``<name>.json`` into a folder, which is made if it is missing; gives the file's path."""
+        """Write ``<name>.json`` into a folder, making the folder if it is missing; return the file's path."""
         folder.mkdir(parents=True, exist_ok=True)
         path = folder / f"{self.name}.json"
         path.write_text(json.dumps(self.to_dict(), indent=1) + "\n", encoding="utf-8")
@@ -79,10 +79,10 @@ class Report:
 
 
 def count(number: int | None) -> str:
-    """A count for a cell."""
+    """Return a count for a cell."""
     return ABSENT if number is None else str(number)
 
 
 def seconds(time_s: float | None, digits: int = 2) -> str:
-    """A time (s) for a cell."""
+    """Return a time (s) for a cell."""
     return ABSENT if time_s is None else f"{time_s:.{digits}f}"

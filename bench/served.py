@@ -1,4 +1,4 @@
-"""A server in a process of its own, what it is asked, and what that costs it."""
+"""A server in a process of its own, requests to it, and its CPU time."""
 
 import json
 import subprocess
@@ -14,12 +14,12 @@ from bench.measurement import BenchmarkError
 
 ROOT = Path(__file__).parent.parent
 CLOCK_TICKS_PER_S = 100
-"""Of Linux's accounts of processes."""
+"""Resolution of Linux's process accounting."""
 
 
 @contextmanager
 def served() -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
-    """Serve on a free port with an empty data folder; yields the address and the process."""
+    """Serve on a free port with an empty data folder; yield the address and the process."""
     with tempfile.TemporaryDirectory() as data:
         options = ["serve", "--port", "0", "--data", data]
         command = [sys.executable, "-c", "from app.cli import main; main()", *options]
@@ -36,7 +36,7 @@ def served() -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
 
 
 def ask(method: str, url: str, body: object = None) -> dict[str, Any]:
-    """Return the JSON that the server answers with; raises `urllib.error.HTTPError` for a problem."""
+    """Return the server's JSON answer; raise `urllib.error.HTTPError` for a problem."""
     content = None if body is None else json.dumps(body).encode()
     request = urllib.request.Request(url, content, {"content-type": "application/json"}, method=method)
     with urllib.request.urlopen(request) as answer:
@@ -45,7 +45,7 @@ def ask(method: str, url: str, body: object = None) -> dict[str, Any]:
 
 
 def cpu_s(pid: int) -> float | None:
-    """Return the CPU time that a process has spent (s); None where the system has no such account."""
+    """Return the CPU time that a process has spent (s); None where the system does not report it."""
     account = Path(f"/proc/{pid}/stat")
     if not account.exists():
         return None

@@ -1,7 +1,7 @@
 """A process that watches a stage: ``python -m bench.viewers PORT SECRET COUNT``.
 
-Each viewer is a client of viser's protocol on a websocket of its own and reads all that it is sent. Once all have the
-scene, a line says so; when standard input ends, another says as JSON how much each has read, and they hang up.
+Each viewer is a client of viser's protocol on a websocket of its own and reads all messages. Once all viewers have the
+scene, the process prints a line; when standard input ends, it prints as JSON how much each has read, and disconnects.
 """
 
 import asyncio
@@ -16,13 +16,13 @@ from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 
 READY = "watching"
 QUIET_S = 0.5
-"""A viewer that has been sent nothing for so long has the whole scene (s)."""
+"""Silence after which a viewer has the whole scene (s)."""
 
 SUBPROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
 
 async def watch(port: int, secret: str, count: int) -> None:
-    """Connect so many viewers, and read until standard input ends."""
+    """Connect `count` viewers, and read until standard input ends."""
     address, headers = f"ws://{LOOPBACK}:{port}", {SECRET_HEADER: secret}
     connections = [
         await connect(address, subprotocols=[SUBPROTOCOL], additional_headers=headers, proxy=None, max_size=None)
@@ -38,7 +38,7 @@ async def watch(port: int, secret: str, count: int) -> None:
 
 
 async def _read_scene(connection: ClientConnection) -> None:
-    """Read what there is already."""
+    """Read the scene that is there already."""
     await connection.recv()
     try:
         while True:
@@ -49,7 +49,7 @@ async def _read_scene(connection: ClientConnection) -> None:
 
 
 async def _read(connection: ClientConnection) -> tuple[int, int]:
-    """Read until the connection is closed; messages and bytes."""
+    """Read until the connection is closed; return the number of messages and bytes."""
     messages, size = 0, 0
     async for message in connection:
         messages, size = messages + 1, size + len(message)

@@ -1,7 +1,7 @@
-"""What a "no" takes: the same cloth, its folds in an order that can be done, and in one that is too long for a PR2.
+"""The cost of a "no": the same cloth with its folds in a feasible order, and in an order that is too long for a PR2.
 
-A "no" is a proof: the search has been through every state there is. Without slack in its reach the robot may find a
-way that it does not find with a comfort radius, so both are asked.
+A "no" is a proof: the search has visited every reachable state. Without a reach margin the robot may find a way that it
+does not find with a comfort radius, so both are measured.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ COMFORTS_M = (0.0, 0.03)
 
 
 def yes_and_no(articles: Sequence[str], repetitions: int) -> Report:
-    """Both orders of the folds of scarf and tie, in turns."""
+    """Measure both orders of the folds of scarf and tie, in turns."""
     rows = []
     for pair in PAIRS:
         for comfort_m in COMFORTS_M if set(pair) & set(articles) else ():

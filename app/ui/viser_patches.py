@@ -1,18 +1,18 @@
-"""All that is changed of viser, and why; `tests/app/test_viser_patches.py` fails where viser changes under it.
+"""All changes to viser, with their reasons; `tests/app/test_viser_patches.py` fails where viser changes under them.
 
-**A server that nobody but this process can talk to.** viser listens on a port of its own and asks nobody who they are,
-so any web page open in a browser on this machine could connect to it and read the scene. A stage is reached through the
-one public address only: the viser port wants a secret header, which our proxy knows and which no page can send along
-with a websocket. viser has no option for that, and makes its websocket server inside of a function, so no subclass can.
-It hands a `process_request` hook to `websockets.asyncio.server.serve` when it starts, though, and while it starts we
-put our check in front of that hook.
+**A server that only this process can reach.** viser listens on a port of its own without authentication, so any web
+page open in a browser on this machine could connect to it and read the scene. A stage is reached through the one public
+address only: the viser port requires a secret header, which our proxy knows and which no page can send along with a
+websocket. viser has no option for that, and makes its websocket server inside a function, so no subclass can change it.
+But when it starts it passes a `process_request` hook to `websockets.asyncio.server.serve`, and during the start we put
+our check in front of that hook.
 
 **A page that fits into ours.** viser's page is one built file without options for its looks. Its notices, and on a
-phone its panel of controls, have no place in our frame: the style that we add hides all but the canvas and the panels
-that float, and lays the board's ground behind them. A frame is narrower than a window, so what viser takes for a phone
-is made narrower too. Its labels are black on white whatever the ground: their shaders are given the page's own colours,
-light on dark, which can be read on either. Until the visitor's panel is there, viser shows one with the address of the
-websocket; so the frame tells our page when its own panel has come, and our page covers it until then.
+phone its panel of controls, have no place in our frame: the style that we add hides everything but the canvas and the
+floating panels, and puts the board's background behind them. A frame is narrower than a window, so the width below
+which viser assumes a phone is reduced. Its labels are black on white on every background: their shaders get the page's
+own colours, light on dark, which are legible on both. Until the visitor's panel is there, viser shows one with the
+address of the websocket; so the frame tells our page when its own panel has come, and our page covers it until then.
 """
 
 import contextlib
@@ -36,16 +36,16 @@ LOOPBACK = "127.0.0.1"
 SECRET_HEADER = "X-Pleat-Stage"
 
 VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
-"""The page that stages are seen in: one file, everything in it."""
+"""The page that shows a stage: a single self-contained file."""
 
 PANEL_LABEL = "Table"
-"""The label of the visitor's panel, by which it is found."""
+"""The label by which the visitor's panel is found."""
 
 SEATED = "pleat-seated"
-"""What the frame tells the page once the visitor's own panel is there."""
+"""The frame's message to the page once the visitor's own panel is there."""
 
 PHONE_WIDTH = "(max-width: 36em)"
-"""The media query by which viser's page tells a phone."""
+"""The media query with which viser's page recognises a phone."""
 
 _HIDE = (
     b"<style>#root * { visibility: hidden }"
@@ -94,7 +94,7 @@ _starting = threading.Lock()
 
 
 def start_private_viser() -> tuple[viser.ViserServer, str]:
-    """A running viser server on a free loopback port, and the secret it wants in `SECRET_HEADER`."""
+    """Start a viser server on a free loopback port; return it and the secret it requires in `SECRET_HEADER`."""
     secret = secrets.token_urlsafe(32)
     rich.get_console().quiet = True  # viser announces itself there; its address is of no use to anyone
     with _starting, _asking_for(secret):
@@ -128,6 +128,6 @@ def _guarded(hook: _Hook, secret: str) -> _Hook:
 
 @functools.lru_cache(maxsize=1)
 def stage_page() -> bytes:
-    """Return the page that stages are seen in: viser's, with what we add to it."""
+    """Return the page that shows a stage: viser's page with our additions."""
     styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
     return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + _SEATED, 1)
