@@ -96,7 +96,7 @@ _starting = threading.Lock()
 def start_private_viser() -> tuple[viser.ViserServer, str]:
     """Start a viser server on a free loopback port; return it and the secret it requires in `SECRET_HEADER`."""
     secret = secrets.token_urlsafe(32)
-    rich.get_console().quiet = True  # viser announces itself there; its address is of no use to anyone
+    rich.get_console().quiet = True  # viser prints its address there, which nobody can use
     with _starting, _asking_for(secret):
         return viser.ViserServer(host=LOOPBACK, port=0, verbose=False), secret
 

@@ -16,6 +16,7 @@ from planner.robot.joint_chain_pair import cheapest_chain_pair
 from planner.robot.tool_path import NoPath
 
 _TRIES_MAX = 24
+"""Pairs of chains tried before the search gives up."""
 
 _ASKED_OF = (4, 2, 1)
 """Strides over the poses to be checked: few are checked first, the others only if that changes nothing."""

@@ -18,7 +18,10 @@ STRIDE = 3
 """Poses of the path for each link of the chain."""
 
 _SMOOTHINGS = 6
+"""Passes of the filter that rounds the corners of the chain."""
+
 _TRIES_MAX = 16
+"""Chains tried before the search gives up."""
 
 _ASKED_OF = {1: 3, 2: 1}
 """By try, the stride over the links whose samples are checked: a few links soon show that there is no path."""

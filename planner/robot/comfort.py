@@ -45,6 +45,7 @@ FORGETFUL = -1
 """The slot of a row that finds no room in the memory."""
 
 _SCATTER = 0x1E3779B97F4A7C15
+"""Odd multiplier of the hash function, which spreads neighbouring keys over the table."""
 
 
 class Memory(NamedTuple):

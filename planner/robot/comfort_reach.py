@@ -21,6 +21,7 @@ from planner.robot.posture_room import Room, no_walls
 from planner.robot.sided_arm import SidedArm
 
 _MOST_BACK_OFFS = 32
+"""Largest number of standoffs: one bit of a mask each."""
 
 _SMALL_BITS = 4
 """Size of a memory that will hardly be used any more, as a power of two."""

@@ -14,6 +14,7 @@ from planner.robot.aim import ToolPose
 from planner.robot.arm import ArmShape, Sector
 
 MOST_ARCS = 8
+"""Room for arcs in an array; further arcs are left out."""
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})

@@ -16,6 +16,7 @@ CELL_BITS = 18
 """Bits of a coordinate in grid steps: with steps of `LENGTH_M`, 1.3 m either way."""
 
 _SCATTER = 0x1E3779B97F4A7C15
+"""Odd multiplier of the hash function, which spreads neighbouring keys over the table."""
 
 
 class Memory(NamedTuple):

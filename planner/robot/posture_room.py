@@ -32,7 +32,7 @@ SAMPLES = 12
 
 SHOULDER, SHOULDER_LIFT, UPPER_ARM, FOREARM, WRIST, PALM, FINGERS = 0, 1, 2, 4, 5, 6, 7
 BASE, TORSO = 0, 1
-"""Indices of parts of the body."""
+"""Indices of parts: those of an arm above, those of the body here."""
 
 CELL_M = 0.02
 """Size of a cell (m); the answer at its centre holds for all of it."""

@@ -27,6 +27,7 @@ DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)
 """Directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
 
 _RING = np.array(_STRAIGHT)
+"""Directions from a point to the four on the comfort circle."""
 
 
 def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float) -> tuple[Shortfall, int]:

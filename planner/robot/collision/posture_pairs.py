@@ -14,6 +14,7 @@ from planner.robot.collision.parts import PALM
 from planner.robot.collision.separation import Parts, first_close_pair
 
 _UNKNOWN = -1
+"""Marks a posture that has not been compared with the other arm's hand yet."""
 
 
 @njit(cache=True, nogil=True)

@@ -25,6 +25,7 @@ IntArray = NDArray[np.int32]
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
+"""Directions whose extreme points are the first corners kept: the faces, edges and corners of a cube."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
