@@ -49,7 +49,7 @@ def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
 def least_gaps(
     shape: ArmShape, ways: FloatArray, axes: FloatArray, back_offs: int, step: float, comfort: float
 ) -> FloatArray:
-    """Return for each way a lower bound on how far its worst point is from reach with margin (m), shape (n,).
+    """Return for each way a lower bound on how far its worst point is from the comfort radius (m), shape (n,).
 
     The best approach counts.
 

@@ -1,4 +1,4 @@
-"""The standoffs from which a tool is within reach with margin at each of many points: the search's queries, compiled.
+"""The standoffs from which a tool is within the comfort radius at each of many points: the search's queries, compiled.
 
 The naive way takes points x approaches x standoffs x five points of exact queries, and a search repeats them again and
 again. Besides the memory (see `planner.robot.comfort`) two things make it cheap:
@@ -87,7 +87,7 @@ def back_off_masks(
     before: int,
     room: Room,
 ) -> NDArray[np.uint32]:
-    """Return for each approach and point a bit mask of the standoffs from which the tool is there with margin.
+    """Return for each approach and point a bit mask of the standoffs within the comfort radius.
 
     Args:
         numbers: the arm.
@@ -141,7 +141,7 @@ def anywhere(
     enough: int,
     room: Room,
 ) -> BoolArray:
-    """Return for each approach and point, each on its own, whether some standoff has the tool there with margin.
+    """Return for each approach and point, each on its own, whether some standoff is within the comfort radius.
 
     The arguments are those of `back_off_masks`, but there may be any number of standoffs. After `enough` approaches
     that reach every point the others are left false.

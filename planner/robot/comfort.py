@@ -1,9 +1,9 @@
-"""A test of whether a tool is within reach with margin at a place: computed once, then remembered. Compiled.
+"""A test of whether a tool is within the comfort radius at a place: computed once, then remembered. Compiled.
 
-A place is within reach with margin when it and four places on the circle of the comfort radius round it are within
-reach. Standoffs lie on a grid of 5 cm and drags on a grid of 10 cm, so the same places recur in the base frame, always
-in rows along its x axis. The memory therefore holds rows: the places of one approach, one y and one z that lie a step
-apart in x, one bit each. A row is looked up once and then answers for all standoffs.
+A place is within the comfort radius when it and four places on the circle of this radius round it are within reach.
+Standoffs lie on a grid of 5 cm and drags on a grid of 10 cm, so the same places recur in the base frame, always in rows
+along its x axis. The memory therefore holds rows: the places of one approach, one y and one z that lie a step apart in
+x, one bit each. A row is looked up once and then answers for all standoffs.
 
 Every place is put onto the grid of `LENGTH_M` before it is tested, so that remembered answers are exact, whichever
 query came first. Mirroring lets both arms share the memory. The memory is a hash table with linear probing. When it is
@@ -39,7 +39,7 @@ ROWS, QUERIES = 0, 1
 """Indices of the counts: rows, and queries made."""
 
 KNOWN, GOOD = 0, 1
-"""Indices of a row's bits: which places have been tested, and which of them are within reach with margin."""
+"""Indices of a row's bits: which places have been tested, and which of them are within the comfort radius."""
 
 FORGETFUL = -1
 """The slot of a row that finds no room in the memory."""
@@ -182,7 +182,7 @@ def aim_from(ask: Question, place: Place, back_off: int) -> ToolPose:
 def is_comfortable_at(
     ask: Question, memory: Memory, room: Room, arcs: FloatArray, slot: int, place: Place, back_off: int
 ) -> bool:
-    """Return whether a tool is within reach with margin at a place from a standoff, from memory if it is known there.
+    """Return whether a tool is within the comfort radius at a place from a standoff, from memory if it is known there.
 
     Inlined into its callers: passing so many arrays costs as much as many an answer.
 

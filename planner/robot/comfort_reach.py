@@ -1,4 +1,4 @@
-"""The places that the hands of a PR2 reach with margin, for either arm: the compiled queries and the state they share.
+"""The places within the comfort radius, for either arm of a PR2: the compiled queries and the state they share.
 
 The arms are mirror images: places and approaches are mirrored on the way in, and the memory of answers (see
 `planner.robot.comfort`) is the left arm's. Queries are counted and timed here.
@@ -28,7 +28,7 @@ _SMALL_BITS = 4
 
 
 class ComfortReach:
-    """The reach with margin of a PR2 with its torso at one height, for one comfort radius.
+    """The reach of a PR2 with its torso at one height, for one comfort radius.
 
     It remembers its answers and counts its queries, so each plan should have its own; it must not be shared between
     threads. Places are tested on the grid of `LENGTH_M`, base frame.
@@ -115,7 +115,7 @@ class ComfortReach:
         enough: int | None = None,
         start: int | None = None,
     ) -> NDArray[np.uint32]:
-        """Return bit masks, shape (k, n), of the standoffs from which each point is within reach with margin.
+        """Return bit masks, shape (k, n), of the standoffs from which each point is within the comfort radius.
 
         Args:
             arm: index into `arm_names`.
@@ -128,7 +128,7 @@ class ComfortReach:
 
         Returns:
             Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
-                there; a row is 0 if it cannot follow them all.
+            there; a row is 0 if it cannot follow them all.
         """
         if count > _MOST_BACK_OFFS:
             raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
@@ -197,7 +197,7 @@ class ComfortReach:
         step_m: float,
         enough: int | None = None,
     ) -> BoolArray:
-        """Return which points, each on its own, are within reach with margin from at least one standoff, shape (k, n).
+        """Return which points, each on its own, are within the comfort radius from at least one standoff, shape (k, n).
 
         Args:
             arm: index into `arm_names`.

@@ -1,7 +1,7 @@
 """The least driving with which hands follow their paths, compiled.
 
 Each hand keeps one approach. At every waypoint the base may drive to and fro as long as every hand, resting, is within
-reach with margin at each standoff on the way. The task is to choose the approaches and the standoffs so that the base
+the comfort radius at each standoff on the way. The task is to choose the approaches and the standoffs so that the base
 drives least.
 
 The naive way finds the standoffs for every approach at every waypoint, combines the approaches of all hands, and
@@ -77,7 +77,7 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
 
     Returns:
         For each standoff a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
-            hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
+        hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
     """
     hands, count, arcs = len(task.labels), len(begun), np.empty((MOST_ARCS, 2))
     answer = np.full((2 + hands, count), IMPOSSIBLE, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The paths that hands follow, and the standoffs from which they are within reach with margin on the way. Compiled.
+"""The paths that hands follow, and the standoffs from which they are within the comfort radius on the way. Compiled.
 
 Sets of standoffs are the bits of a number, so that a row of the memory (see `planner.robot.comfort`) answers for all of
 them at once. Only what is not remembered is tested, place by place.
@@ -66,7 +66,7 @@ class Task(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: int, wanted: int) -> int:
-    """Return which of the wanted standoffs have one hand within reach with margin, testing them one by one."""
+    """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
     place = Place(x, y, z)
     ask = question(task.numbers, task.shoulder, task.axes, task.labels[hand, approach], task.comfort, task.step)
@@ -87,7 +87,7 @@ def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: i
 
 @njit(cache=True, nogil=True)
 def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> int:
-    """Return which of the wanted standoffs reach with margin, if a row remembers all of them; else -1."""
+    """Return which wanted standoffs are within the comfort radius, if a row remembers all of them; else -1."""
     if slot < 0 or wanted & from_cell(_WHOLE_ROW, cell) & ~from_cell(bits[slot, KNOWN], cell):
         return -1
     return wanted & from_cell(bits[slot, GOOD], cell)
@@ -95,7 +95,7 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
 
 @njit(cache=True, nogil=True)
 def at_extremes(task: Task, arcs: FloatArray, hand: int, near: int) -> NDArray[np.int64]:
-    """Return the near standoffs that reach with margin at the beginning, apex and end of a hand's path.
+    """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
 
     Shape (k, 3), for each approach; all 0 where one of them is.
     """

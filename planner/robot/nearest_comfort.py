@@ -1,11 +1,11 @@
-"""The distance of a point from reach with margin: computed for explanations, after planning has failed. Compiled.
+"""The distance of a point from the comfort radius: computed for explanations, after planning has failed. Compiled.
 
-The places that an approach reaches with margin form no simple region: limits cut slivers and notches into it. Doubling
-steps leap over those and would then call a far place the nearest. So the search goes outwards in thin shells, along all
+The places within the comfort radius of an approach form no simple region: limits cut slivers into it. Doubling steps
+leap over those and would then call a far place the nearest. So the search goes outwards in thin shells, along all
 directions and approaches and from all places of the base at once, and ends in the first shell that has a place within
-reach with margin. Only there is each find refined by bisection, and a line is skipped if it is not within reach where
-it would beat the best so far. A lower bound (`planner.robot.arm_gap`) makes this cheap: shells within it are skipped,
-line by line.
+the comfort radius. Only there is each find refined by bisection, and a line is skipped if it is not within the radius
+where it would beat the best so far. A lower bound (`planner.robot.arm_gap`) makes this cheap: shells within it are
+skipped, line by line.
 
 Points are seen from the left arm's shoulder (m), parallel to the base.
 """
@@ -74,7 +74,7 @@ def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> T
 
 @njit(cache=True, nogil=True)
 def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
-    """Return a lower bound on how far a tool point is from reach with margin in an approach (m), see `comfort_gap`."""
+    """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
     return comfort_gap(shape, _aim(shape, wanted, point, approach), wanted.comfort)
 
 
@@ -92,19 +92,19 @@ def _is_wanted(
 def nearest_comfort(
     shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray, furthest: float
 ) -> tuple[float, int, int, int, int]:
-    """Return the smallest displacement along one of the directions that brings the tool within reach with margin.
+    """Return the smallest displacement along one of the directions that brings the tool within the comfort radius.
 
     Args:
         shape: the arm.
         wanted: the requirements on the place.
-        points: one place of the tool as seen from several places of the base, shape (n, 3); within reach with margin
+        points: one place of the tool as seen from several places of the base, shape (n, 3); within the comfort radius
             from none.
         directions: unit vectors, shape (m, 3).
         furthest: the furthest displacement searched (m); the last shell is searched whole.
 
     Returns:
         The displacement (m), rounded up to `FINEST_M`; the point; the approach; the direction; queries made. Infinity,
-            -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
+        -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
     """
     scratch, comfort, axes = _scratch(shape), wanted.comfort, wanted.axes
     hopeless = np.empty((len(points), len(axes), len(directions)))
@@ -159,8 +159,8 @@ def least_worst(
 
     Returns:
         How far the worst place must be displaced (m), its index, and the approach; 0, -1 and the approach where all are
-            within reach with margin; infinity, -1 and the approach that is nearest by length where none is better than
-            `furthest`.
+        within the comfort radius; infinity, -1 and the approach that is nearest by length where none is better than
+        `furthest`.
     """
     scratch = _scratch(shape)
     gaps = np.full((len(wanted.axes), len(places)), math.inf)
@@ -195,7 +195,7 @@ def least_worst(
 
 @njit(cache=True, nogil=True)
 def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratch) -> bool:
-    """Return whether the first approach reaches a place with margin from at least one of several places of the base."""
+    """Return whether a place is within the comfort radius in the first approach, from some place of the base."""
     for point in points:
         if aims_gap(shape, wanted, point, 0) <= 0.0 and _is_wanted(shape, wanted, point, 0, wanted.comfort, scratch)[0]:
             return True
@@ -206,7 +206,7 @@ def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratc
 def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple[float, int, int, int]:
     """Return the largest circle round a point on which the tool is still within reach.
 
-    The point itself is not within reach with the full margin.
+    The point itself is not within the comfort radius wanted.
 
     Args:
         shape: the arm.
@@ -215,7 +215,7 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
 
     Returns:
         The radius (m), rounded down to `FINEST_M`; the point; the approach; queries made. 0, -1, -1 where the place
-            itself is out of reach.
+        itself is out of reach.
     """
     scratch = _scratch(shape)
     bare = Wanted(wanted.axes, wanted.labels, 0.0, wanted.room)
@@ -243,7 +243,7 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
 
 @njit(cache=True, nogil=True)
 def is_hindered(shape: ArmShape, wanted: Wanted, points: FloatArray) -> bool:
-    """Return whether the joints reach a place with margin from some point, so that only the body prevents it."""
+    """Return whether only the body prevents a place that the joints put within the comfort radius."""
     scratch = _scratch(shape)
     for point in points:
         for approach in range(len(wanted.axes)):

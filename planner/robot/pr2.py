@@ -117,7 +117,7 @@ class Pr2:
 
         Returns:
             Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of `near`; or None
-                where the pose is out of reach.
+            where the pose is out of reach.
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 

@@ -1,6 +1,6 @@
 """The PR2's implementation of the reach that the primitives ask for, with the shortfall of places out of reach.
 
-Plans use only places within reach with margin. How far a place falls short is computed once there is no plan, for
+Plans use only places within the comfort radius. How far a place falls short is computed once there is no plan, for
 explanations and to tell what is hopeless.
 """
 
@@ -45,7 +45,7 @@ class Pr2Reach(ComfortReach):
     def shortfall(
         self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
     ) -> Shortfall | None:
-        """Return why, and by how much, a place is not within reach with margin, in the best of some approaches.
+        """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
 
         Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up.
 
@@ -56,7 +56,7 @@ class Pr2Reach(ComfortReach):
             at_most_m: the longest displacement tried (m), if less than that.
 
         Returns:
-            The smallest shortfall; None where some approach reaches the place with margin from somewhere.
+            The smallest shortfall; None where the place is within the comfort radius from somewhere.
         """
         if len(approaches) == 0:
             raise ValueError("without an approach no point is within reach")
@@ -85,8 +85,8 @@ class Pr2Reach(ComfortReach):
             at_most_m: the longest displacement tried (m).
 
         Returns:
-            The place's index, and its shortfall in that approach; None where some approach brings all within reach with
-                margin. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
+            The place's index, and its shortfall in that approach; None where some approach brings all within the
+            comfort radius. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
         """
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         started = thread_time()

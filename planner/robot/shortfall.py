@@ -1,4 +1,4 @@
-"""Why, and by how much, a place is not within the left arm's reach with margin.
+"""Why, and by how much, a place is not within the left arm's comfort radius.
 
 Everything is seen from the arm's shoulder (m), parallel to the base. The base may stand in several places: the place is
 given as it is seen from each.
@@ -31,7 +31,7 @@ _RING = np.array(_STRAIGHT)
 
 
 def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float) -> tuple[Shortfall, int]:
-    """Return the shortfall of a place that is not within reach with margin from anywhere, and the queries made.
+    """Return the shortfall of a place that is not within the comfort radius from anywhere, and the queries made.
 
     Args:
         shape: the arm.

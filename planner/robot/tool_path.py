@@ -95,7 +95,7 @@ def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, kn
 
     Returns:
         Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where no joints so near are valid, which says
-            nothing about others.
+        nothing about others.
     """
     positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
     joints, bad = joints_along(
