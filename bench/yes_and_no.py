@@ -1,7 +1,7 @@
 """The cost of a "no": the same cloth with its folds in a feasible order, and in an order that is too long for a PR2.
 
-A "no" is a proof: the search has visited every reachable state. Without a comfort radius the robot may find a way that it
-does not find with a comfort radius, so both are measured.
+A "no" is a proof: the search has visited every reachable state. Without a comfort radius the robot may find a way that
+it does not find with one, so both are measured.
 """
 
 from collections.abc import Sequence
