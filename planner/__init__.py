@@ -11,6 +11,8 @@ planning needs.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from planner.kernel_cache import use_kernel_cache
+
 if TYPE_CHECKING:
     from planner.cloth.garment import Garment
     from planner.cloth.garment_files import load_garment, shipped_garment_names
@@ -56,6 +58,7 @@ _HOMES = {
     "planner.task.task": ("Limits", "Task"),
     "planner.task.world_state": ("WorldState",),
 }
+use_kernel_cache()
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 

@@ -17,6 +17,7 @@ BELOW_MOTION = GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.message": frozenset(),
+    "planner.kernel_cache": frozenset(),
     "planner.errors": frozenset({"planner.message"}),
     "planner.strict_model": frozenset({"planner.errors"}),
     "planner.json_form": frozenset({"planner.errors", "planner.strict_model"}),

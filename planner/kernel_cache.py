@@ -1,0 +1,49 @@
+"""Where compiled kernels are kept: a folder of the user's cache for each state of their sources.
+
+Numba keeps what it has compiled beside a source and looks at the age of that file alone. A kernel calls others, from
+other files: when one of these changes, the kernel that is kept is another than the one that is written. So the folder
+is named for all sources at once.
+"""
+
+import hashlib
+import os
+import shutil
+from pathlib import Path
+
+from platformdirs import user_cache_path
+
+_SOURCES = ("robot", "primitives")
+"""The rooms that have kernels."""
+
+_KEPT_MAX = 4
+"""Folders that stay, the one in use among them: a checkout or two, and the state before an update."""
+
+
+def use_kernel_cache() -> None:
+    """Have Numba keep kernels in the folder for these sources, unless `NUMBA_CACHE_DIR` says where; call it first."""
+    if "NUMBA_CACHE_DIR" in os.environ:
+        return
+    folder = user_cache_path("pleat") / "kernels" / _digest(Path(__file__).parent)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        os.utime(folder)
+        _drop_old(folder.parent)
+    except OSError:
+        return  # nowhere to keep them: Numba finds a place of its own, or compiles each time
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+
+
+def _digest(package: Path) -> str:
+    """Return a name for the state of the sources of all kernels, and of where they are: Numba keeps paths too."""
+    found = hashlib.sha256(str(package).encode())
+    for room in _SOURCES:
+        for path in sorted((package / room).rglob("*.py")):
+            found.update(path.read_bytes())
+    return found.hexdigest()[:16]
+
+
+def _drop_old(folder: Path) -> None:
+    """Drop the folders that have been used least lately."""
+    by_age = sorted(folder.iterdir(), key=lambda one: one.stat().st_mtime, reverse=True)
+    for old in by_age[_KEPT_MAX:]:
+        shutil.rmtree(old, ignore_errors=True)

@@ -1,0 +1,55 @@
+"""Compiled kernels are kept for one state of all their sources, so that none is used that is not what is written."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from planner import kernel_cache
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for room in ("robot", "primitives"):
+        (tmp_path / "planner" / room).mkdir(parents=True)
+        (tmp_path / "planner" / room / "kernel.py").write_text("one = 1\n")
+    monkeypatch.setattr(kernel_cache, "__file__", str(tmp_path / "planner" / "kernel_cache.py"))
+    monkeypatch.setattr(kernel_cache, "user_cache_path", lambda name: tmp_path / "cache" / name)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    return tmp_path / "planner"
+
+
+def used(monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    kernel_cache.use_kernel_cache()
+    return Path(os.environ["NUMBA_CACHE_DIR"])
+
+
+def test_the_folder_is_another_once_any_kernel_is(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = used(monkeypatch)
+    assert before.is_dir() and used(monkeypatch) == before
+    (package / "primitives" / "kernel.py").write_text("one = 2\n")
+    assert used(monkeypatch) != before
+
+
+def test_old_folders_go(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folders = []
+    for number in range(6):
+        (package / "robot" / "kernel.py").write_text(f"one = {number}\n")
+        folders.append(used(monkeypatch))
+        os.utime(folders[-1], (number, number))
+    last = used(monkeypatch)
+    assert last == folders[-1] and len(list(last.parent.iterdir())) == 4
+    assert not folders[0].exists()
+
+
+def test_who_says_where_is_obeyed(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "/elsewhere")
+    kernel_cache.use_kernel_cache()
+    assert os.environ["NUMBA_CACHE_DIR"] == "/elsewhere"
+
+
+def test_without_a_place_to_keep_them_numba_looks_for_one(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (package.parent / "cache").write_text("a file where a folder should be")
+    kernel_cache.use_kernel_cache()
+    assert "NUMBA_CACHE_DIR" not in os.environ
