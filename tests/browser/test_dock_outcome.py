@@ -13,6 +13,7 @@ from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
+from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import cost_s, expect_planned
 
 FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
@@ -260,7 +261,7 @@ def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: 
     before_s = planned(page, sheet)
     page.get_by_role("button", name="Best place").click()
     expect(page.get_by_text("Trying places")).to_be_visible()
-    page.locator(".best-place .suggestion").click()
+    page.locator(".best-place .suggestion").click(timeout=SEARCH_MS)
     expect(page.locator(".total-change")).to_contain_text("less than before")
     assert cost_s(page) < before_s
     assert (sheet.can_undo or "").startswith("Move the garment ")

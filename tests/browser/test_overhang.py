@@ -7,6 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.app.samples import towel
 from tests.browser.conftest import Garment, Sheet
+from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
 
 NewSheet = Callable[[Garment], Sheet]
@@ -37,7 +38,7 @@ def test_cloth_over_the_edge_is_a_sentence_a_picture_and_a_button(
     expect(page.locator(".problem-cross")).to_have_count(1)
     expect(page.locator(".reason-text")).to_have_text(by)
     move = page.get_by_role("group", name="Suggestions").get_by_role("button", name="Move the garment")
-    move.first.click()
+    move.first.click(timeout=SEARCH_MS)
     expect_planned(page)
     expect(page.locator(".overhang, .problem-cross")).to_have_count(0)
     page.get_by_role("button", name="Undo").click()

@@ -15,6 +15,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.app.conftest import Served
 from tests.browser.board_hand import Point
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet, windows
+from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
 from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
 
@@ -55,7 +56,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     assert pulled["history"]["can_undo"] == "Move vertex"
     assert pulled["drawing"]["outline"][PULLED]["point"][1] < -0.05
 
-    expect(page.locator(".suggestions button", has_text="Move the garment").first).to_be_attached()
+    expect(page.locator(".suggestions button", has_text="Move the garment").first).to_be_attached(timeout=SEARCH_MS)
     way.press("Move the garment")
     expect_planned(page)
     helped = sheet.state

@@ -9,6 +9,7 @@ from playwright.sync_api import Page, Route, expect
 from planner import Garment, Scene, make_plan
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
+from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
 
 
@@ -55,7 +56,7 @@ def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -
     chip = page.get_by_role("button", name="Cost map")
     for _ in range(2):
         chip.click()
-        expect(page.locator(".layer-under .cost").first).to_be_visible()
+        expect(page.locator(".layer-under .cost").first).to_be_visible(timeout=SEARCH_MS)
         chip.click()
         expect(page.locator(".layer-under .cost")).to_have_count(0)
     assert len(asked) == 1
