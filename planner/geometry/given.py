@@ -26,13 +26,17 @@ PlanePoint = Annotated[tuple[Bounded, Bounded], BeforeValidator(_pair)]
 """A point of the plane (m)."""
 
 
+_STRICT = core_schema.CoreConfig(strict=True, allow_inf_nan=False)
+"""How a pose's numbers are read; a typed dictionary takes nothing over from what it stands in."""
+
+
 def _bounded(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401
     """Return the schema that reads a dataclass with all its numbers bounded; writing stays as it is."""
     number = schema(Bounded)
     members = {field.name: core_schema.typed_dict_field(number) for field in fields(source)}
     return core_schema.no_info_after_validator_function(
         lambda given: source(**given),
-        core_schema.typed_dict_schema(members, extra_behavior="forbid"),
+        core_schema.typed_dict_schema(members, extra_behavior="forbid", config=_STRICT),
         serialization=core_schema.plain_serializer_function_ser_schema(_same, return_schema=schema(source)),
     )
 

@@ -127,6 +127,9 @@ def put(path: str, value: object) -> Callable[[Json], None]:
         ("placement.yaw_rad", "north", "placement.yaw_rad", "number"),
         ("placement.x_m", -10.5, "placement.x_m", "-10.5"),
         ("placement", 3, "placement", ""),
+        ("placement.x_m", True, "placement.x_m", "number"),
+        ("placement.x_m", "0.5", "placement.x_m", "number"),
+        ("placement.x_m", math.nan, "placement.x_m", "finite"),
     ],
 )
 def test_what_is_no_garment_is_refused_by_field_and_number(path: str, value: object, field: str, words: str):

@@ -55,6 +55,8 @@ def test_a_table_given_in_part_keeps_the_rest():
         ({"stations": {}}, "stations"),
         ({"stations": {"a": {"x_m": 0, "y_m": 0}}}, "stations.a.yaw_rad"),
         ({"stations": {"a": {"x_m": 11, "y_m": 0, "yaw_rad": 0}}}, "stations.a.x_m"),
+        ({"stations": {"a": {"x_m": True, "y_m": 0, "yaw_rad": 0}}}, "stations.a.x_m"),
+        ({"stations": {"a": {"x_m": "0.5", "y_m": 0, "yaw_rad": 0}}}, "stations.a.x_m"),
         ({"stations": {f"s{i}": {"x_m": 0, "y_m": 0, "yaw_rad": 0} for i in range(65)}}, "stations"),
         ({"friction": -0.1}, "friction"),
         ({"friction": True}, "friction"),
