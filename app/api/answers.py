@@ -8,6 +8,11 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from planner.geometry.pose import Pose2
+from planner.task.grip import BaseStop, Grip
+from planner.task.plan import Statistics
+from planner.task.scene import Scene
+
 Point = tuple[float, float]
 Point3 = tuple[float, float, float]
 
@@ -20,41 +25,26 @@ class Health(BaseModel):
     problem: str | None = None
 
 
-class PoseFile(BaseModel):
-    """A pose in the table frame (m, rad)."""
-
-    x_m: float
-    y_m: float
-    yaw_rad: float
-
-
-class FoldFile(BaseModel):
-    """A fold; what lies to the left of start -> end moves."""
+class GarmentFold(BaseModel):
+    """A fold of a garment; what lies to the left of start -> end moves."""
 
     name: str
     kind: Literal["blue", "red"]
     start: Point
     end: Point
-    grip_radius_m: float | None = None
+    grip_radius_m: float
 
 
-class GarmentFile(BaseModel):
-    """A garment file."""
+class GarmentAnswer(BaseModel):
+    """A garment as it is drawn, every field filled in; it may be one that cannot be."""
 
     name: str
-    title: str | None = None
-    outline: list[Point]
-    areal_density_kg_m2: float = 0.2
-    folds: list[FoldFile] = Field(default_factory=list)
-    grip_radius_m: float = 0.127
-    placement: PoseFile | None = None
-
-
-class GarmentAnswer(GarmentFile):
-    """A garment, every field filled in."""
-
     title: str
-    folds: list[FoldFile]
+    outline: list[Point]
+    areal_density_kg_m2: float
+    folds: list[GarmentFold]
+    grip_radius_m: float
+    placement: Pose2
 
 
 class GarmentEntry(BaseModel):
@@ -63,38 +53,6 @@ class GarmentEntry(BaseModel):
     name: str
     title: str
     shipped: bool
-
-
-class TableFile(BaseModel):
-    """A table (m)."""
-
-    depth_m: float = 1.6
-    width_m: float = 0.98
-    height_m: float = 0.79
-
-
-class SceneFile(BaseModel):
-    """A scene; every field is optional, given stations replace the five."""
-
-    table: TableFile = Field(default_factory=TableFile)
-    stations: dict[str, PoseFile] = Field(default_factory=dict)
-    torso_m: float = 0.29
-    friction: float = 1.0
-    support_angle_rad: float = 0.0873
-    approach_cone_rad: float = 1.309
-    back_off_max_m: float = 0.8
-    edge_clear_m: float = 0.03
-    arm_motion_s: float = 3.0
-    grip_dwell_s: float = 0.5
-    base_speed_m_s: float = 0.25
-    base_turn_rad_s: float = 0.5
-
-
-class SceneAnswer(SceneFile):
-    """A scene, every field filled in."""
-
-    table: TableFile
-    stations: dict[str, PoseFile]
 
 
 class LayerAnswer(BaseModel):
@@ -112,29 +70,13 @@ class DagAnswer(BaseModel):
     layers: list[LayerAnswer]
 
 
-class GripAnswer(BaseModel):
-    """What one arm does: tool points in the table frame (m)."""
-
-    arm: str
-    pick: Point3
-    apex: Point3 | None
-    place: Point3
-
-
-class BaseAnswer(PoseFile):
-    """Where a primitive leaves the base."""
-
-    station: str
-    back_off_m: float
-
-
 class StepPart(BaseModel):
     """What every primitive has: its time in the plan, where it leaves the base, and what the arms do."""
 
     start_s: float
     duration_s: float
-    base: BaseAnswer
-    grips: list[GripAnswer]
+    base: BaseStop
+    grips: list[Grip]
 
 
 class FoldPart(StepPart):
@@ -184,8 +126,8 @@ class Change(BaseModel):
     """The fields of a plan request that a suggestion changes; the others stay."""
 
     garment: GarmentAnswer | None = None
-    placement: PoseFile | None = None
-    scene: SceneAnswer | None = None
+    placement: Pose2 | None = None
+    scene: Scene | None = None
     start_station: str | None = None
     comfort_radius_m: float | None = None
 
@@ -231,20 +173,6 @@ class ReasonAnswer(BaseModel):
     change: Change | None
 
 
-class StatisticsAnswer(BaseModel):
-    """What the search did: counts, and times (s); `bound_s` is what any plan takes at least."""
-
-    expanded: int
-    explored: int
-    ik_queries: int
-    ik_time_s: float
-    search_time_s: float
-    joint_time_s: float
-    bound_s: float | None
-    ways: int
-    is_cut_short: bool
-
-
 class PlanAnswer(BaseModel):
     """A plan, or why there is none."""
 
@@ -254,9 +182,9 @@ class PlanAnswer(BaseModel):
     primitives: list[PrimitiveAnswer]
     dag: DagPart
     final_layers: list[LayerAnswer]
-    final_placement: PoseFile | None
+    final_placement: Pose2 | None
     reasons: list[ReasonAnswer]
-    statistics: StatisticsAnswer
+    statistics: Statistics
 
 
 class SampleAnswer(BaseModel):
@@ -264,7 +192,7 @@ class SampleAnswer(BaseModel):
 
     t_s: float
     primitive: int
-    base: PoseFile
+    base: Pose2
     torso_m: float
     joints: dict[str, float]
     grippers_m: dict[str, float]

@@ -4,19 +4,18 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
 
 from fastapi import Request
 
-from app.api.messages import BaseField, Placement, PlanRequest, StartField
+from app.api.messages import BaseField, PlanRequest, StartField
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
-from planner.errors import FieldError, FoldError, GarmentError, RequestError, SceneError
+from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
 from planner.task.grip import BaseStop
 from planner.task.scene import Scene
 from planner.task.task import Task
-from planner.task.world_state import HeldPoint, WorldState
+from planner.task.world_state import WorldState
 
 SHORTEST_S = 0.01
 """The least time that a search is given, though it should have begun earlier (s)."""
@@ -28,29 +27,9 @@ def workspace_of(request: Request) -> Workspace:
     return workspace
 
 
-def asked_garment(workspace: Workspace, garment: str | dict[str, Any]) -> Garment:
-    """The garment of a request's field `garment`: by name, or given whole.
-
-    Raises:
-        UnknownGarmentError: no garment has this name.
-        GarmentError: the one that is given is not valid; the field begins with ``garment``.
-    """
-    if isinstance(garment, str):
-        return workspace.garments.garment(garment)
-    try:
-        return Garment.from_dict(garment)
-    except FieldError as error:
-        raise error.within("garment") from None
-
-
-def asked_scene(scene: dict[str, Any] | None) -> Scene:
-    """The scene of a request's field `scene`, or the default one; raises `SceneError`."""
-    if scene is None:
-        return Scene()
-    try:
-        return Scene.from_dict(scene)
-    except FieldError as error:
-        raise error.within("scene") from None
+def asked_garment(workspace: Workspace, garment: str | Garment) -> Garment:
+    """Return the garment of a request's field `garment`: by name, or given whole; raises `UnknownGarmentError`."""
+    return workspace.garments.garment(garment) if isinstance(garment, str) else garment
 
 
 class TimeLimit:
@@ -69,12 +48,10 @@ class TimeLimit:
 
 def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> Task:
     """Return the task of a plan request, for a search that begins now; raises what is wrong with the request."""
-    garment, scene = asked_garment(workspace, wanted.garment), asked_scene(wanted.scene)
-    placement = None if wanted.placement is None else _pose(wanted.placement)
     task = Task.of(
-        garment,
-        scene,
-        placement=placement,
+        asked_garment(workspace, wanted.garment),
+        wanted.scene,
+        placement=wanted.placement,
         start_station=wanted.start_station,
         robot=wanted.robot,
         comfort_radius_m=wanted.comfort_radius_m,
@@ -89,10 +66,10 @@ def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> T
 def _asked_start(task: Task, wanted: StartField) -> WorldState:
     """Return the state that a request starts from; what it leaves out is as in a task."""
     return WorldState(
-        tuple(wanted.folds_done),
-        task.start.placement if wanted.placement is None else _pose(wanted.placement),
+        wanted.folds_done,
+        wanted.placement or task.start.placement,
         task.start.base if wanted.base is None else _asked_base(task.scene, wanted.base),
-        tuple(HeldPoint(held.arm, (held.point[0], held.point[1])) for held in wanted.held),
+        wanted.held,
         wanted.dragged_m,
     )
 
@@ -111,10 +88,6 @@ def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
         told = f"{wanted.back_off_m} is more than {scene.back_off_max_m:g}, the furthest that the base may back off"
         raise RequestError("start.base.back_off_m", told)
     return BaseStop.at(wanted.station, stations[wanted.station], wanted.back_off_m)
-
-
-def _pose(given: Placement) -> Pose2:
-    return Pose2(given.x_m, given.y_m, given.yaw_rad)
 
 
 @contextmanager

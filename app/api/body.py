@@ -4,31 +4,44 @@ FastAPI would read them itself, but with a parser that takes NaN and Infinity, s
 has no limit; so the routes that take a body come here.
 """
 
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from fastapi import Request
-from pydantic import ValidationError
+from fastapi.concurrency import run_in_threadpool
+from pydantic import TypeAdapter
 from pydantic_core import from_json
 
 from app.api.problems import TooLargeError
 from planner.errors import RequestError
-from planner.strict_model import StrictModel, first_error
+from planner.json_form import JsonForm
 
 LARGEST_BODY = 1 << 20
 
-Model = TypeVar("Model", bound=StrictModel)
+Body = TypeVar("Body")
 
 
-async def read_model(request: Request, model: type[Model], *, may_be_empty: bool = False) -> Model:
-    """The body as a model; raises what `read_object` does, and `RequestError` with the first wrong field.
+class JsonBody(Generic[Body]):
+    """A dependency: the value that a request's body holds, read strictly by its type.
 
-    A body that may be empty and is counts as an object without fields.
+    Attributes:
+        may_be_empty: whether a body that is empty counts as an object without fields.
+        example: one that is answered, for the description.
     """
-    data = await read_object(request, may_be_empty=may_be_empty)
-    try:
-        return model.model_validate(data)
-    except ValidationError as error:
-        raise first_error(error, RequestError) from None
+
+    def __init__(self, kind: type[Body], example: dict[str, Any], *, may_be_empty: bool = False) -> None:
+        """Read bodies of a type."""
+        self.may_be_empty, self.example = may_be_empty, example
+        self._kind: Any = kind
+        self._form: JsonForm[Body] = JsonForm(kind)
+
+    async def __call__(self, request: Request) -> Body:
+        """Return the value; raises what `read_object` does, and the `FieldError` of the first wrong field."""
+        data = await read_object(request, may_be_empty=self.may_be_empty)
+        return await run_in_threadpool(self._form.read, data)
+
+    def schema(self) -> dict[str, Any]:
+        """Return the JSON schema of the body."""
+        return TypeAdapter(self._kind).json_schema()
 
 
 async def read_object(request: Request, *, may_be_empty: bool = False, most: int = LARGEST_BODY) -> dict[str, Any]:

@@ -1,10 +1,14 @@
 """What /docs says about the routes, where FastAPI cannot read it from a signature."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from fastapi import FastAPI
+from fastapi.dependencies.models import Dependant
+from fastapi.routing import APIRoute
 from pydantic import BaseModel
 
+from app.api.body import JsonBody
 from app.api.problems import MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
@@ -16,17 +20,34 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     return {status: {"description": "A problem (RFC 9457)", "content": content} for status in statuses}
 
 
-def takes(model: type[BaseModel], *, may_be_empty: bool = False) -> dict[str, Any]:
-    """Describe a route's body, as an entry of its OpenAPI description."""
-    content = {"application/json": {"schema": whole_schema(model)}}
-    return {"requestBody": {"required": not may_be_empty, "content": content}}
+class DescribedRoute(APIRoute):
+    """A route whose description has the body that its dependency reads."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:  # noqa: ANN401
+        """Add the body's schema and its example to the description."""
+        super().__init__(*args, **options)
+        for body in _bodies(self.dependant):
+            self.openapi_extra = _taking(body)
 
 
-def whole_schema(model: type[BaseModel]) -> dict[str, Any]:
-    """A model's schema that refers to nothing outside itself."""
-    schema = model.model_json_schema()
-    definitions = schema.pop("$defs", {})
-    whole: dict[str, Any] = _inlined(schema, definitions)
+def _bodies(dependant: Dependant) -> Iterator[JsonBody[Any]]:
+    """Yield what reads the body among the dependencies of a route, and among theirs."""
+    for dependency in dependant.dependencies:
+        if isinstance(dependency.call, JsonBody):
+            yield dependency.call
+        yield from _bodies(dependency)
+
+
+def _taking(body: JsonBody[Any]) -> dict[str, Any]:
+    content = {"application/json": {"schema": whole_schema(body.schema()), "example": body.example}}
+    return {"requestBody": {"required": not body.may_be_empty, "content": content}}
+
+
+def whole_schema(schema: dict[str, Any]) -> dict[str, Any]:
+    """Return a schema that refers to nothing outside itself."""
+    plain = dict(schema)
+    definitions = plain.pop("$defs", {})
+    whole: dict[str, Any] = _inlined(plain, definitions)
     return whole
 
 
@@ -61,6 +82,6 @@ def describe(app: FastAPI, *models: type[BaseModel]) -> None:
 
 
 def _schemas(model: type[BaseModel]) -> dict[str, Any]:
-    schema = model.model_json_schema(ref_template="#/components/schemas/{model}")
+    schema = model.model_json_schema(ref_template="#/components/schemas/{model}", mode="serialization")
     definitions: dict[str, Any] = schema.pop("$defs", {})
     return {**definitions, model.__name__: schema}

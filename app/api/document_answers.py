@@ -4,8 +4,10 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from app.api.answers import GarmentAnswer, LayerAnswer, Point, PoseFile, Says, SceneAnswer
+from app.api.answers import GarmentAnswer, LayerAnswer, Point, Says
 from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
+from planner.geometry.pose import Pose2
+from planner.task.scene import Scene
 
 Ring = list[Point]
 
@@ -45,8 +47,8 @@ class DrawingAnswer(BaseModel):
     areal_density_kg_m2: float
     grip_radius_m: float
     folds: list[FoldAnswer]
-    placement: PoseFile
-    scene: SceneAnswer
+    placement: Pose2
+    scene: Scene
     start_station: str
     comfort_radius_m: float
 

@@ -2,10 +2,9 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
-from app.api.described import whole_schema
 from app.api.messages import GarmentField
 from app.drawing.drawing_json import DrawingModel
 from planner.geometry.given import PlanePoint
@@ -40,7 +39,7 @@ class EditRequest(StrictModel):
     base_version: Version
     label: Label = "Edit"
     phase: Literal["preview", "commit", "cancel"] = "commit"
-    drawing: Annotated[Any, PlainValidator(_drawing), WithJsonSchema(whole_schema(DrawingModel))] | None = None
+    drawing: Annotated[Any, PlainValidator(_drawing, json_schema_input_type=DrawingModel)] | None = None
     coalesce: Key | None = None
     gesture: Key | None = None
 

@@ -6,14 +6,14 @@ from functools import partial
 from typing import Annotated, Any
 from urllib.parse import urlencode
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
 from app.api.asked import asked_garment, workspace_of
-from app.api.body import read_model, read_object
-from app.api.commands import command_of, obey, put_garment
-from app.api.described import problems, takes
+from app.api.body import JsonBody
+from app.api.commands import obey, put_garment
+from app.api.described import DescribedRoute, problems
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
@@ -24,7 +24,7 @@ from app.api.document_answers import (
 )
 from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest, NewDocument, TravelRequest
 from app.api.live_messages import document_message, playback_message
-from app.api.messages import Play
+from app.api.messages import AnyCommand, Command
 from app.api.problems import ProblemResponse
 from app.api.waiting import quick_answer
 from app.document_state import DocumentState
@@ -40,7 +40,16 @@ from app.workspace import Workspace
 from planner.errors import FieldError, RequestError
 from planner.geometry.segment import Segment
 
-router = APIRouter(prefix="/api/documents", tags=["documents"])
+router = APIRouter(prefix="/api/documents", tags=["documents"], route_class=DescribedRoute)
+
+CreaseRequestBody = Annotated[
+    CreaseRequest, Depends(JsonBody(CreaseRequest, {"after": 0, "line": {"start": [0.0, 0.2], "end": [0.4, 0.2]}}))
+]
+CommandBody = Annotated[Command, Depends(JsonBody(AnyCommand, {"do": "pause"}))]
+EditRequestBody = Annotated[EditRequest, Depends(JsonBody(EditRequest, {"base_version": 1, "phase": "cancel"}))]
+GarmentRequestBody = Annotated[GarmentRequest, Depends(JsonBody(GarmentRequest, {"garment": "tie"}))]
+NewDocumentBody = Annotated[NewDocument, Depends(JsonBody(NewDocument, {"garment": "hand-towel"}))]
+TravelRequestBody = Annotated[TravelRequest, Depends(JsonBody(TravelRequest, {"base_version": 1}, may_be_empty=True))]
 
 PAGE, PAGE_MAX = 100, 500
 """Documents on a page of the list: as long as nobody asks for another number, and at most."""
@@ -70,12 +79,10 @@ async def list_documents(
 @router.post(
     "",
     status_code=201,
-    openapi_extra=takes(NewDocument),
     responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 507)},
 )
-async def create_document(request: Request) -> JSONResponse:
+async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
     """A new document; its address is in `Location`."""
-    wanted = await read_model(request, NewDocument)
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
     message = await run_in_threadpool(document_message, opened.id, opened.document.state)
     location = f"{request.scope.get('root_path', '')}/d/{opened.id}"
@@ -96,18 +103,17 @@ async def remove_document(request: Request, document_id: str) -> Response:
     return Response(status_code=204)
 
 
-@router.put("/{document_id}/drawing", openapi_extra=takes(EditRequest), responses=_CHANGED)
-async def put_drawing(request: Request, document_id: str) -> Response:
+@router.put("/{document_id}/drawing", responses=_CHANGED)
+async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
     """Change the drawing; 409, with the current `state`, when it was changed by somebody else meanwhile."""
-    edit = _edit(await read_model(request, EditRequest))
+    edit = _edit(wanted)
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.edit, edit))
 
 
-@router.put("/{document_id}/garment", openapi_extra=takes(GarmentRequest), responses=_CHANGED)
-async def put_other_garment(request: Request, document_id: str) -> Response:
+@router.put("/{document_id}/garment", responses=_CHANGED)
+async def put_other_garment(request: Request, document_id: str, wanted: GarmentRequestBody) -> Response:
     """Another garment in place of the one that is drawn, as one step."""
-    wanted = await read_model(request, GarmentRequest)
     opened = await _opened(request, document_id)
 
     def put() -> DocumentState:
@@ -117,30 +123,26 @@ async def put_other_garment(request: Request, document_id: str) -> Response:
     return await _changed(opened, put)
 
 
-@router.post("/{document_id}/undo", openapi_extra=takes(TravelRequest, may_be_empty=True), responses=_CHANGED)
-async def undo(request: Request, document_id: str) -> Response:
+@router.post("/{document_id}/undo", responses=_CHANGED)
+async def undo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
     """Take the last step back; without one nothing happens."""
-    wanted = await read_model(request, TravelRequest, may_be_empty=True)
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.undo, wanted.base_version))
 
 
-@router.post("/{document_id}/redo", openapi_extra=takes(TravelRequest, may_be_empty=True), responses=_CHANGED)
-async def redo(request: Request, document_id: str) -> Response:
+@router.post("/{document_id}/redo", responses=_CHANGED)
+async def redo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
     """Take the step again that was undone last; without one nothing happens."""
-    wanted = await read_model(request, TravelRequest, may_be_empty=True)
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.redo, wanted.base_version))
 
 
 @router.post(
     "/{document_id}/playback",
-    openapi_extra=takes(Play),
     responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422)},
 )
-async def post_playback(request: Request, document_id: str) -> JSONResponse:
+async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """A command as on the websocket: play, pause, seek, speed, theme, choose."""
-    command = command_of(await read_object(request))
     opened = await _opened(request, document_id)
     await run_in_threadpool(obey, command, workspace_of(request), opened.document)
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
@@ -148,12 +150,10 @@ async def post_playback(request: Request, document_id: str) -> JSONResponse:
 
 @router.post(
     "/{document_id}/crease",
-    openapi_extra=takes(CreaseRequest),
     responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 503)},
 )
-async def post_crease(request: Request, document_id: str) -> JSONResponse:
+async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Where a fold would be that takes a point of the cloth to another place, or that runs along a line."""
-    wanted = await read_model(request, CreaseRequest)
     opened = await _opened(request, document_id)
     placed = await quick_answer(request, _placed, opened, wanted)
     return JSONResponse(placed.to_dict())

@@ -1,20 +1,28 @@
 """Garments: the list, one, and saving one's own."""
 
 from dataclasses import asdict
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Depends, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
-from app.api.answers import GarmentAnswer, GarmentEntry, GarmentFile
+from app.api.answers import GarmentEntry
 from app.api.asked import workspace_of
-from app.api.body import read_object
-from app.api.described import problems, takes
+from app.api.body import JsonBody
+from app.api.described import DescribedRoute, problems
+from app.api.messages import WholeGarment
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
 
-router = APIRouter(prefix="/api/garments", tags=["garments"])
+router = APIRouter(prefix="/api/garments", tags=["garments"], route_class=DescribedRoute)
+
+_TOWEL = {
+    "name": "my-towel",
+    "outline": [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]],
+    "folds": [{"name": "half", "kind": "blue", "start": [0.4, 0.15], "end": [0.0, 0.15]}],
+}
+GarmentBody = Annotated[Garment, Depends(JsonBody(WholeGarment, _TOWEL))]
 
 
 @router.get("", response_model=list[GarmentEntry])
@@ -24,7 +32,7 @@ async def list_garments(request: Request) -> list[dict[str, Any]]:
     return [asdict(entry) for entry in entries]
 
 
-@router.get("/{name}", responses={200: {"model": GarmentAnswer}, **problems(404)})
+@router.get("/{name}", responses={200: {"model": Garment}, **problems(404)})
 async def read_garment(request: Request, name: str) -> JSONResponse:
     """A garment file with every field filled in."""
     garment = await run_in_threadpool(workspace_of(request).garments.garment, name)
@@ -33,13 +41,11 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
 
 @router.put(
     "/{name}",
-    openapi_extra=takes(GarmentFile),
-    responses={200: {"model": GarmentAnswer}, 201: {"model": GarmentAnswer}, **problems(403, 409, 413, 422, 507)},
+    responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)},
 )
-async def save_garment(request: Request, name: str) -> JSONResponse:
+async def save_garment(request: Request, name: str, garment: GarmentBody) -> JSONResponse:
     """Save or replace a garment of one's own: 201 when it is new, 200 when it was there."""
     shelf = workspace_of(request).garments
-    garment = await run_in_threadpool(Garment.from_dict, await read_object(request))
     if garment.name != name:
         raise GarmentError("name", f"is {garment.name!r}, but the address says {name!r}")
     is_new = await run_in_threadpool(shelf.save, garment)

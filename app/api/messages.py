@@ -1,45 +1,32 @@
 """What clients send: the bodies of requests, and the page's commands."""
 
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field, PlainValidator, TypeAdapter, WithJsonSchema
+from annotated_types import Interval
+from pydantic import Field, PlainValidator, TypeAdapter
 from pydantic_core import PydanticCustomError
 
-from app.api.answers import GarmentFile, SceneFile
-from app.api.described import whole_schema
 from app.playback import SPEED_MAX, SPEED_MIN
-from planner.cloth.garment import FOLDS_MAX
-from planner.geometry.given import PlanePoint
+from planner.cloth.garment import FOLDS_MAX, Garment
+from planner.geometry.given import GivenPose
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
+from planner.task.scene import Scene
+from planner.task.task import TIME_LIMIT_S, Limits
+from planner.task.world_state import HeldPoint
 
 
-def _name_or_object(value: Any) -> Any:  # noqa: ANN401
-    if not isinstance(value, str | dict):
-        raise PydanticCustomError("garment_type", "should be a garment's name or a garment")
-    return value
+def _garment(value: Any) -> str | Garment:  # noqa: ANN401
+    if isinstance(value, str):
+        return value
+    if isinstance(value, dict):
+        return Garment.from_dict(value)
+    raise PydanticCustomError("garment_type", "should be a garment's name or a garment")
 
 
-def _object(value: Any) -> Any:  # noqa: ANN401
-    if not isinstance(value, dict):
-        raise PydanticCustomError("scene_type", "should be a scene")
-    return value
-
-
-GarmentField = Annotated[
-    Any,
-    PlainValidator(_name_or_object),
-    WithJsonSchema({"anyOf": [{"type": "string"}, whole_schema(GarmentFile)]}),
-]
-SceneField = Annotated[Any, PlainValidator(_object), WithJsonSchema(whole_schema(SceneFile))]
-TimeLimit = Annotated[float, Field(ge=0.01, le=60.0)]
-
-
-class Placement(StrictModel):
-    """A pose in the table frame (m, rad)."""
-
-    x_m: Bounded
-    y_m: Bounded
-    yaw_rad: Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
+GarmentField = Annotated[str | Garment, PlainValidator(_garment, json_schema_input_type=str | Garment)]
+WholeGarment = Annotated[Garment, PlainValidator(Garment.from_dict, json_schema_input_type=Garment)]
+TimeLimit = Annotated[float, Interval(ge=TIME_LIMIT_S[0], le=TIME_LIMIT_S[1])]
 
 
 class DagRequest(StrictModel):
@@ -58,37 +45,27 @@ class BaseField(StrictModel):
     yaw_rad: Bounded | None = None
 
 
-class HeldField(StrictModel):
-    """A point of the cloth that an arm holds, article frame (m)."""
-
-    arm: str
-    point: PlanePoint
-
-
 class StartField(StrictModel):
     """The state of the world at the start; what is left out is as it is before all folds."""
 
-    folds_done: Annotated[list[int], Field(max_length=FOLDS_MAX)] = Field(default_factory=list)
-    placement: Placement | None = None
+    folds_done: Annotated[tuple[int, ...], Field(max_length=FOLDS_MAX)] = ()
+    placement: GivenPose | None = None
     base: BaseField | None = None
-    held: Annotated[list[HeldField], Field(max_length=16)] = Field(default_factory=list)
+    held: Annotated[tuple[HeldPoint, ...], Field(max_length=16)] = ()
     dragged_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0
 
 
-class PlanRequest(StrictModel):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanRequest(Limits):
     """Asks for a plan; only `garment` is required."""
 
     garment: GarmentField
     start: StartField | None = None
-    placement: Placement | None = None
-    scene: SceneField | None = None
+    placement: GivenPose | None = None
+    scene: Scene | None = None
     start_station: str = "front"
     robot: str = "pr2"
-    comfort_radius_m: Annotated[float, Field(ge=0.0, le=0.1)] = 0.03
-    heuristic: Literal["arm_time", "zero"] = "arm_time"
-    time_limit_s: TimeLimit = 10.0
     work_limit_s: TimeLimit | None = None
-    max_expanded: Annotated[int, Field(ge=1, le=1_000_000)] = 100_000
 
 
 class PlacesRequest(StrictModel):
@@ -171,4 +148,5 @@ class PlanFrom(StrictModel):
 
 
 Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger | PlanFrom
-COMMANDS: TypeAdapter[Command] = TypeAdapter(Annotated[Command, Field(discriminator="do")])
+AnyCommand = Annotated[Command, Field(discriminator="do")]
+COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)

@@ -2,8 +2,9 @@
 
 from pydantic import BaseModel
 
-from app.api.answers import Point, Point3, PoseFile
+from app.api.answers import Point, Point3
 from app.api.document_answers import Ring
+from planner.geometry.pose import Pose2
 
 
 class RegionAnswer(BaseModel):
@@ -18,7 +19,7 @@ class RobotAnswer(BaseModel):
 
     station: str | None
     back_off_m: float
-    pose: PoseFile
+    pose: Pose2
     outline: Ring
     radius_m: float
 
@@ -115,7 +116,7 @@ class OverlaysAnswer(BaseModel):
     primitive: int | None
     done: list[int]
     fold_step: int | None
-    placement: PoseFile
+    placement: Pose2
     robot: RobotAnswer
     table: Ring
     reach: list[ReachAnswer] | None
@@ -129,7 +130,7 @@ class PlaceAnswer(BaseModel):
     """A placement, by how far it moves the article (article frame, m), and what the plan then costs (s)."""
 
     move: Point
-    placement: PoseFile
+    placement: Pose2
     cost_s: float | None
 
 

@@ -5,14 +5,14 @@ from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.asked import TimeLimit, workspace_of
-from app.api.body import read_model
-from app.api.described import problems, takes
+from app.api.body import JsonBody
+from app.api.described import DescribedRoute, problems
 from app.api.messages import PlacesRequest
 from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
@@ -26,7 +26,11 @@ from planner.errors import RequestError, SceneError
 from planner.explain.suggestion_map import Cell
 from planner.geometry.pose import Pose2
 
-router = APIRouter(prefix="/api/documents/{document_id}/overlays", tags=["overlays"])
+router = APIRouter(prefix="/api/documents/{document_id}/overlays", tags=["overlays"], route_class=DescribedRoute)
+
+PlacesRequestBody = Annotated[
+    PlacesRequest, Depends(JsonBody(PlacesRequest, {"step_m": 0.5, "time_limit_s": 2.0}, may_be_empty=True))
+]
 
 Time = Annotated[float | None, Query(ge=0.0, allow_inf_nan=False)]
 BackOff = Annotated[float, Query(allow_inf_nan=False)]
@@ -60,12 +64,10 @@ async def read_overlays(
 
 @router.post(
     "/places",
-    openapi_extra=takes(PlacesRequest, may_be_empty=True),
     responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 503)},
 )
-async def post_places(request: Request, document_id: str) -> Response:
+async def post_places(request: Request, document_id: str, wanted: PlacesRequestBody) -> Response:
     """Plan the document's garment wherever it could be laid, not turned, and return what that costs."""
-    wanted = await read_model(request, PlacesRequest, may_be_empty=True)
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     state = opened.document.state
     if state.task is None:

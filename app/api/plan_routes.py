@@ -4,15 +4,15 @@ import json
 from functools import partial
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import DagAnswer, PlanAnswer, TimelineAnswer
 from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
-from app.api.body import read_model, read_object
-from app.api.described import problems, takes
+from app.api.body import JsonBody, read_object
+from app.api.described import DescribedRoute, problems
 from app.api.messages import DagRequest, PlanRequest
 from app.api.waiting import answer_of, quick_answer
 from app.files.import_file import LARGEST_PLAN_FILE
@@ -22,7 +22,10 @@ from app.workspace import Workspace
 from planner import Plan, Timeline, fold_dag
 from planner.errors import UnsolvedPlanError
 
-router = APIRouter(prefix="/api", tags=["plans"])
+router = APIRouter(prefix="/api", tags=["plans"], route_class=DescribedRoute)
+
+DagRequestBody = Annotated[DagRequest, Depends(JsonBody(DagRequest, {"garment": "t-shirt"}))]
+PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment": "hand-towel"}))]
 
 PLAN_FILE_TYPE = "application/vnd.pleat.plan+json"
 
@@ -36,26 +39,21 @@ _PLAN_FILE_BODY = {
 SampleRate = Annotated[float, Query(ge=1.0, le=200.0, allow_inf_nan=False)]
 
 
-@router.post(
-    "/dag", openapi_extra=takes(DagRequest), responses={200: {"model": DagAnswer}, **problems(404, 413, 422, 503)}
-)
-async def post_dag(request: Request) -> JSONResponse:
+@router.post("/dag", responses={200: {"model": DagAnswer}, **problems(404, 413, 422, 503)})
+async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
     """Which fold waits for which, and the layers after all of them."""
-    wanted = await read_model(request, DagRequest)
     return JSONResponse(await quick_answer(request, _dag, workspace_of(request), wanted))
 
 
 @router.post(
     "/plans",
-    openapi_extra=takes(PlanRequest),
     responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)},
 )
-async def post_plan(request: Request) -> JSONResponse:
+async def post_plan(request: Request, wanted: PlanRequestBody) -> JSONResponse:
     """Plan; "there is no plan" is an answer, too.
 
     The limit runs from the arrival of the request. One whose time is up before its turn comes is answered with 503.
     """
-    wanted = await read_model(request, PlanRequest)
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_plan, workspace, wanted, limit)
     return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))

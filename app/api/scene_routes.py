@@ -1,12 +1,11 @@
 """The server's health and the default scene."""
 
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
 
 from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
-from app.api.answers import Health, SceneFile
+from app.api.answers import Health
 from app.api.asked import workspace_of
 from planner.task.scene import Scene
 
@@ -23,10 +22,10 @@ async def read_health(request: Request) -> Health:
     return Health(status="degraded" if problem else "ok", version=own_version(), problem=problem)
 
 
-@router.get("/scene", response_model=SceneFile)
-async def read_scene() -> dict[str, Any]:
+@router.get("/scene")
+async def read_scene() -> Scene:
     """The default scene."""
-    return Scene().to_dict()
+    return Scene()
 
 
 def own_version() -> str:

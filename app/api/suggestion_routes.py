@@ -5,6 +5,7 @@ import time
 from collections.abc import AsyncIterator
 from concurrent.futures import Future
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any, Literal
 
@@ -14,18 +15,25 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app import searches
-from app.api.answers import Change, PoseFile, Says
+from app.api.answers import Change, Says
 from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
-from app.api.body import read_model
-from app.api.described import problems, takes
+from app.api.body import JsonBody
+from app.api.described import DescribedRoute, problems
 from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.waiting import answer_of, until
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
 from app.workspace import Workspace
+from planner.geometry.pose import Pose2
 from planner.task.task import Task
 
-router = APIRouter(prefix="/api", tags=["suggestions"])
+router = APIRouter(prefix="/api", tags=["suggestions"], route_class=DescribedRoute)
+
+PlacementsRequestBody = Annotated[
+    PlacementsRequest,
+    Depends(JsonBody(PlacementsRequest, {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 2.0})),
+]
+PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment": "hand-towel", "time_limit_s": 2.0}))]
 
 
 class SuggestionEvent(BaseModel):
@@ -49,7 +57,8 @@ class CellAnswer(BaseModel):
     cost_s: float | None
 
 
-class BestAnswer(PoseFile):
+@dataclass(frozen=True)
+class BestAnswer(Pose2):
     """The cheapest placement."""
 
     cost_s: float
@@ -132,9 +141,9 @@ class SuggestionSearch:
         return ServerSentEvent(event="done", data=data)
 
 
-async def _begun(request: Request) -> SuggestionSearch:
+async def _begun(request: Request, wanted: PlanRequestBody) -> SuggestionSearch:
     """The search that a request asks for, its request found good."""
-    search = SuggestionSearch(workspace_of(request), await read_model(request, PlanRequest))
+    search = SuggestionSearch(workspace_of(request), wanted)
     await search.begin(request)
     return search
 
@@ -142,7 +151,6 @@ async def _begun(request: Request) -> SuggestionSearch:
 @router.post(
     "/suggestions",
     response_class=EventSourceResponse,
-    openapi_extra=takes(PlanRequest),
     responses={200: {"model": SuggestionEvent}, **problems(404, 413, 422, 503)},
 )
 async def post_suggestions(
@@ -159,12 +167,10 @@ async def post_suggestions(
 
 @router.post(
     "/placements",
-    openapi_extra=takes(PlacementsRequest),
     responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)},
 )
-async def post_placements(request: Request) -> JSONResponse:
+async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JSONResponse:
     """Plan a garment wherever it could be laid on the default table, not turned, and return what that costs."""
-    wanted = await read_model(request, PlacementsRequest)
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_placements, workspace, wanted, limit)
     return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))

@@ -2,21 +2,21 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Depends, Request
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from app.api.answers import GarmentAnswer, Point
-from app.api.body import read_model
-from app.api.described import problems, takes
+from app.api.body import JsonBody
+from app.api.described import DescribedRoute, problems
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError, Measures
 from planner.cloth.garment import TITLE_MAX
 from planner.strict_model import StrictModel
 
-router = APIRouter(prefix="/api/templates", tags=["templates"])
+router = APIRouter(prefix="/api/templates", tags=["templates"], route_class=DescribedRoute)
 
 
 class MeasureAnswer(BaseModel):
@@ -64,6 +64,9 @@ class MadeRequest(StrictModel):
     title: Annotated[str, Field(max_length=TITLE_MAX)] | None = None
 
 
+MadeRequestBody = Annotated[MadeRequest, Depends(JsonBody(MadeRequest, {"title": "A towel"}, may_be_empty=True))]
+
+
 @router.get("", response_model=list[TemplateAnswer])
 async def list_templates() -> list[dict[str, Any]]:
     """All templates, in the order in which to show them."""
@@ -72,12 +75,10 @@ async def list_templates() -> list[dict[str, Any]]:
 
 @router.post(
     "/{name}",
-    openapi_extra=takes(MadeRequest, may_be_empty=True),
     responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
 )
-async def post_template(request: Request, name: str) -> JSONResponse:
+async def post_template(request: Request, name: str, wanted: MadeRequestBody) -> JSONResponse:
     """The garment that a template makes of these measures, with its folds."""
-    wanted = await read_model(request, MadeRequest, may_be_empty=True)
     template = find_template(name)
     if template is None:
         raise HTTPException(404)

@@ -7,7 +7,8 @@ come, so that planning can go on from there.
 from dataclasses import dataclass
 from typing import Any
 
-from planner.geometry.pose import Point2, Pose2
+from planner.geometry.given import PlanePoint
+from planner.geometry.pose import Pose2
 from planner.json_form import STRICT, JsonForm
 from planner.task.grip import BaseStop
 
@@ -22,7 +23,7 @@ class HeldPoint:
     """
 
     arm: str
-    point: Point2
+    point: PlanePoint
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import httpx
 import pytest
 from pydantic import TypeAdapter
 
-from app.api.answers import GarmentAnswer, GarmentEntry, PlanAnswer, SceneAnswer
+from app.api.answers import GarmentAnswer, GarmentEntry, PlanAnswer
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
@@ -23,6 +23,7 @@ from app.api.problems import Problem
 from app.api.suggestion_routes import SuggestionEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
 from planner import load_garment, make_plan
+from planner.task.scene import Scene
 from tests.app.document_requests import created, put
 from tests.app.samples import towel
 from tests.app.test_live import listening
@@ -46,7 +47,7 @@ def assert_described(answer: Any, shape: Any) -> None:
     [
         ("/api/garments", list[GarmentEntry]),
         ("/api/garments/t-shirt", GarmentAnswer),
-        ("/api/scene", SceneAnswer),
+        ("/api/scene", Scene),
         ("/api/templates", list[TemplateAnswer]),
     ],
 )

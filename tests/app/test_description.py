@@ -4,6 +4,9 @@ from collections.abc import Iterator
 
 import httpx
 import pytest
+from pydantic import TypeAdapter
+
+from planner.task.task import Limits
 
 pytestmark = pytest.mark.anyio
 
@@ -33,3 +36,39 @@ async def test_whatever_the_description_refers_to_is_in_it(client: httpx.AsyncCl
         for name in path:
             assert name in here, reference
             here = here[name]
+
+
+async def test_every_example_of_a_body_is_answered(client: httpx.AsyncClient) -> None:
+    description = (await client.get("/openapi.json")).json()
+    bodies = [
+        (method, path, operation["requestBody"]["content"]["application/json"]["example"])
+        for path, operations in description["paths"].items()
+        for method, operation in operations.items()
+        if "example" in operation.get("requestBody", {}).get("content", {}).get("application/json", {})
+    ]
+    assert len(bodies) >= 14
+    for method, path, example in bodies:
+        if "{document_id}" in path:
+            document = (await client.post("/api/documents", json={"garment": "hand-towel"})).json()
+            path = path.replace("{document_id}", document["id"])
+        name = "towel" if "templates" in path else example.get("name")
+        answer = await client.request(method, path.replace("{name}", str(name)), json=example)
+        assert answer.is_success, (method, path, answer.text)
+
+
+async def test_every_body_in_json_is_described_with_its_fields_and_an_example(client: httpx.AsyncClient) -> None:
+    description = (await client.get("/openapi.json")).json()
+    plan = description["paths"]["/api/plans"]["post"]["requestBody"]["content"]["application/json"]["schema"]
+    limits = TypeAdapter(Limits).json_schema()["properties"]
+    described = {name: plan["properties"][name] for name in limits if name != "work_limit_s"}
+    assert described == {name: field for name, field in limits.items() if name != "work_limit_s"}
+    assert plan["required"] == ["garment"]
+    assert plan["additionalProperties"] is False
+    for path, operations in description["paths"].items():
+        for method, operation in operations.items():
+            content = operation.get("requestBody", {}).get("content", {})
+            assert (
+                "octet-stream" in str(content)
+                or "vnd.pleat.plan" in str(content)
+                or all("example" in kind for kind in content.values())
+            ), (method, path)

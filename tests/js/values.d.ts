@@ -6,8 +6,8 @@ type Schemas = components["schemas"];
 
 /** A point: of the article frame, or of the board (m, or px). */
 export type Point = [number, number];
-export type Point3 = Schemas["GripAnswer"]["pick"];
-export type Pose = Schemas["PoseFile"];
+export type Point3 = Schemas["Grip"]["pick"];
+export type Pose = Schemas["Pose2"];
 
 export type Drawing = Schemas["DrawingAnswer"];
 export type Corner = Schemas["CornerAnswer"];
@@ -16,9 +16,9 @@ export type FoldEnd = Schemas["EndAnswer"];
 export type FoldKind = Fold["kind"];
 export type Garment = Schemas["GarmentAnswer"];
 export type GarmentEntry = Schemas["GarmentEntry"];
-export type GarmentFold = Schemas["FoldFile"];
-export type Scene = Schemas["SceneAnswer"];
-export type Table = Schemas["TableFile"];
+export type GarmentFold = Schemas["GarmentFold"];
+export type Scene = Schemas["Scene"];
+export type Table = Schemas["Table"];
 
 export type DocumentState = Schemas["DocumentAnswer"];
 export type DocumentEntry = Schemas["DocumentEntryAnswer"];
@@ -38,7 +38,7 @@ export type PlanStart = Schemas["WorldState"];
 export type PlanBefore = Schemas["PlanBefore"];
 export type Primitive = Plan["primitives"][number];
 export type Reason = Schemas["ReasonAnswer"];
-export type Statistics = Schemas["StatisticsAnswer"];
+export type Statistics = Schemas["Statistics"];
 
 export type Overlays = Schemas["OverlaysAnswer"];
 export type Region = Schemas["RegionAnswer"];

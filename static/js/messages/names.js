@@ -9,8 +9,8 @@
 export const called = (folds, index) =>
   folds[index]?.name ? `\u201C${folds[index].name}\u201D` : `fold ${index + 1}`;
 
-/** @param {string} station as in `front_left` */
-export const place = (station) => station.replaceAll("_", " ");
+/** @param {string | null} station as in `front_left` */
+export const place = (station) => station?.replaceAll("_", " ") ?? "no station";
 
 /** Corners, edges and layers are counted from 1 for people. @param {number} index */
 export const counted = (index) => index + 1;
