@@ -12,7 +12,7 @@ from app.replanner import Replanner
 from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
-from planner.robot.pr2 import load_robot
+from planner.robots.pr2 import load_robot
 
 ROBOT = "pr2"
 

@@ -23,7 +23,7 @@ from bench.report import Report, Row
 from bench.viewers import READY
 from planner import Plan, load_garment, make_plan
 from planner.motion.timeline import Timeline
-from planner.robot.pr2 import load_robot
+from planner.robots.pr2 import load_robot
 
 COLUMNS = (
     "article",

@@ -7,8 +7,8 @@ import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.robot.description import read_model
-from planner.robot.pr2_card import pr2_card
+from planner.robots.description import read_model
+from planner.robots.pr2_card import pr2_card
 
 TORSO_M = 0.29
 """How far the torso is raised in all queries about reach (m)."""

@@ -8,13 +8,13 @@ from bench.pin_arm import TORSO_M
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import BoolArray
-from planner.robot.approaches import APPROACHES
-from planner.robot.arm import read_arm
-from planner.robot.description import read_model
-from planner.robot.kernel import reachable_batch
-from planner.robot.pr2 import load_robot
-from planner.robot.reach import Pr2Reach
-from planner.robot.sided_arm import SidedArm
+from planner.robots.approaches import APPROACHES
+from planner.robots.arm import read_arm
+from planner.robots.description import read_model
+from planner.robots.kernel import reachable_batch
+from planner.robots.pr2 import load_robot
+from planner.robots.reach import Pr2Reach
+from planner.robots.sided_arm import SidedArm
 
 BATCHES = (1, 10, 100, 1000)
 STEP_M = 0.05

@@ -16,8 +16,8 @@ from bench.pin_arm import TORSO_M, pin_arm
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import FloatArray
-from planner.robot.arm import read_arm
-from planner.robot.description import read_model, urdf_path
+from planner.robots.arm import read_arm
+from planner.robots.description import read_model, urdf_path
 
 Solve: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray | None]
 """From a tool's position (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""

@@ -2,18 +2,22 @@
 
 Numba keeps what it has compiled beside a source and looks at the age of that file alone. A kernel calls others, from
 other files: when one of these changes, the kernel that is kept is another than the one that is written. So the folder
-is named for all sources at once.
+is named for all their sources at once.
 """
 
 import hashlib
 import os
+import re
 import shutil
 from pathlib import Path
 
 from platformdirs import user_cache_path
 
-_SOURCES = ("robot", "primitives")
-"""The rooms that have kernels."""
+_IS_KERNEL = re.compile(r"^from numba import", re.MULTILINE)
+"""The mark of a module that has kernels."""
+
+_IMPORTED = re.compile(r"^from (planner[\w.]*) import", re.MULTILINE)
+"""The modules of ours that a module imports: a kernel calls their kernels, and their constants are part of it."""
 
 _KEPT_MAX = 4
 """Folders that stay, the one in use among them: a checkout or two, and the state before an update."""
@@ -35,10 +39,15 @@ def use_kernel_cache() -> None:
 
 def _digest(package: Path) -> str:
     """Return a name for the state of the sources of all kernels, and of where they are: Numba keeps paths too."""
+    texts = {path: path.read_text() for path in package.rglob("*.py")}
+    sources = {path for path, text in texts.items() if _IS_KERNEL.search(text)}
+    for path in tuple(sources):
+        sources |= {
+            (package.parent / name.replace(".", "/")).with_suffix(".py") for name in _IMPORTED.findall(texts[path])
+        }
     found = hashlib.sha256(str(package).encode())
-    for room in _SOURCES:
-        for path in sorted((package / room).rglob("*.py")):
-            found.update(path.read_bytes())
+    for path in sorted(sources & texts.keys()):
+        found.update(texts[path].encode())
     return found.hexdigest()[:16]
 
 

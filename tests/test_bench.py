@@ -35,9 +35,9 @@ from bench.report import Report, Row
 from bench.served import served
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
-from planner.robot.approaches import APPROACHES
-from planner.robot.arm import read_arm
-from planner.robot.description import read_model
+from planner.robots.approaches import APPROACHES
+from planner.robots.arm import read_arm
+from planner.robots.description import read_model
 
 MEASURED = {
     "garment",

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parent.parent
 # Modules of planner that stand outside the rooms and that every room but search may use.
 GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
 
-BELOW_MOTION = GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "robot")}
+BELOW_MOTION = GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "robots")}
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
@@ -23,7 +23,7 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.json_form": frozenset({"planner.errors", "planner.strict_model"}),
     "planner.search": frozenset(),
     "planner.geometry": GROUND,
-    "planner.robot": GROUND | {"planner.geometry"},
+    "planner.robots": GROUND | {"planner.geometry"},
     "planner.cloth": GROUND | {"planner.geometry"},
     "planner.folds": GROUND | {"planner.geometry", "planner.cloth"},
     "planner.task": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
@@ -38,9 +38,9 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
 LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "shapely": ("planner.geometry",),
     "networkx": ("planner.folds", "planner.primitives"),
-    "pinocchio": ("planner.robot",),
-    "coal": ("planner.robot",),
-    "numba": ("planner.robot", "planner.primitives"),
+    "pinocchio": ("planner.robots",),
+    "coal": ("planner.robots",),
+    "numba": ("planner.robots", "planner.primitives"),
     "yourdfpy": ("app.ui",),
     "trimesh": ("app.ui",),
     "viser": ("app.ui",),

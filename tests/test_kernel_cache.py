@@ -7,12 +7,16 @@ import pytest
 
 from planner import kernel_cache
 
+KERNEL = "from numba import njit\n\nfrom planner.units import STEP\n"
+
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    for room in ("robot", "primitives"):
+    for room in ("robots", "primitives"):
         (tmp_path / "planner" / room).mkdir(parents=True)
-        (tmp_path / "planner" / room / "kernel.py").write_text("one = 1\n")
+        (tmp_path / "planner" / room / "kernel.py").write_text(KERNEL)
+        (tmp_path / "planner" / room / "other.py").write_text("one = 1\n")
+    (tmp_path / "planner" / "units.py").write_text("STEP = 1\n")
     monkeypatch.setattr(kernel_cache, "__file__", str(tmp_path / "planner" / "kernel_cache.py"))
     monkeypatch.setattr(kernel_cache, "user_cache_path", lambda name: tmp_path / "cache" / name)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
@@ -28,14 +32,26 @@ def used(monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_the_folder_is_another_once_any_kernel_is(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = used(monkeypatch)
     assert before.is_dir() and used(monkeypatch) == before
-    (package / "primitives" / "kernel.py").write_text("one = 2\n")
+    (package / "primitives" / "kernel.py").write_text(f"{KERNEL}one = 2\n")
     assert used(monkeypatch) != before
+
+
+def test_the_folder_is_another_once_a_constant_of_kernels_is(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = used(monkeypatch)
+    (package / "units.py").write_text("STEP = 2\n")
+    assert used(monkeypatch) != before
+
+
+def test_the_folder_stays_while_only_others_change(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = used(monkeypatch)
+    (package / "primitives" / "other.py").write_text("one = 2\n")
+    assert used(monkeypatch) == before
 
 
 def test_old_folders_go(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folders = []
     for number in range(6):
-        (package / "robot" / "kernel.py").write_text(f"one = {number}\n")
+        (package / "robots" / "kernel.py").write_text(f"{KERNEL}one = {number}\n")
         folders.append(used(monkeypatch))
         os.utime(folders[-1], (number, number))
     last = used(monkeypatch)

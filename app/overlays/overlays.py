@@ -17,7 +17,7 @@ from app.overlays.shortfall import shortfall_overlay
 from app.overlays.slip import slip_overlay
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
-from planner.robot.pr2 import load_robot
+from planner.robots.pr2 import load_robot
 
 NOTCH_M, FRINGE_M = 0.04, 0.1
 """Widths below which notches of a reach region are filled, and parts of it left out (m)."""

@@ -24,7 +24,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
-from planner.robot.pr2 import load_robot
+from planner.robots.pr2 import load_robot
 from planner.task.reason import Reason
 
 _STEPS, _CORNERS = 40, 96

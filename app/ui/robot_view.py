@@ -7,7 +7,7 @@ from app.ui.lighting import paint
 from app.ui.robot_model import Link, load_robot_model
 from app.ui.rotation import product, turn, yaw
 from planner.geometry.pose import Pose2
-from planner.robot.card import RobotCard
+from planner.robots.card import RobotCard
 
 ROOT = "/robot"
 

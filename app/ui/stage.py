@@ -27,7 +27,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.sample import ClothSurface, Sample
-from planner.robot.card import RobotCard
+from planner.robots.card import RobotCard
 from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
 

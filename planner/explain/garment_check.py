@@ -14,7 +14,7 @@ from planner.primitives.context import Context
 from planner.primitives.fold_trial import grips_obstacle, held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
-from planner.robot.pr2 import load_robot
+from planner.robots.pr2 import load_robot
 from planner.task.reason import Code
 from planner.task.scene import Scene
 

@@ -15,7 +15,7 @@ from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.motion.moments import Moments
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.primitives.obstacle import BlockingContact
-from planner.robot.collision.contact import Contact
+from planner.robots.collision.contact import Contact
 
 _MOMENTS = 16
 """The number of moments tested."""

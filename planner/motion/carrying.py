@@ -15,7 +15,7 @@ from planner.motion.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Lead
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.moments import Moments
 from planner.motion.robot_port import Collisions, RobotPort
-from planner.robot.tool_path import IsFree, NoPath
+from planner.robots.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
 """The sine of the pitch from which a hand may have one finger above the other.

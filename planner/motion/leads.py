@@ -16,7 +16,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.moments import Moments, about_x
-from planner.robot.tool_path import ToolPath
+from planner.robots.tool_path import ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12
 """The lengths of the straight lines to a grip and away from it, where they are within reach (m)."""

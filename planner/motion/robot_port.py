@@ -1,4 +1,4 @@
-"""The protocol for what planning needs of a robot besides its reach; `planner.robot` implements it."""
+"""The protocol for what planning needs of a robot besides its reach; `planner.robots` implements it."""
 
 from collections.abc import Callable, Hashable, Sequence
 from typing import Protocol
@@ -6,10 +6,10 @@ from typing import Protocol
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.primitives.reach import Reach
-from planner.robot.arm_pair_path import BothArms
-from planner.robot.card import RobotCard
-from planner.robot.collision.contact import Contact
-from planner.robot.tool_path import IsFree, NoPath, ToolPath
+from planner.robots.arm_pair_path import BothArms
+from planner.robots.card import RobotCard
+from planner.robots.collision.contact import Contact
+from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 
 class Clearance(Protocol):

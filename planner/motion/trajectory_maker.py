@@ -22,7 +22,7 @@ from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_planner import Line, TransitPlanner
 from planner.motion.transit_time import TransitTime
 from planner.primitives.context import Context
-from planner.robot.card import ArmCard, RobotCard
+from planner.robots.card import ArmCard, RobotCard
 from planner.task.phase import ClothMotion, Phase
 from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
 

@@ -25,7 +25,7 @@ from planner.motion.tries import QUICK, Tries
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
-from planner.robot.tool_path import NoPath
+from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
 
 MARGIN_M = 0.001

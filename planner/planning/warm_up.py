@@ -15,7 +15,7 @@ from planner.planning.driving_bound import DrivingBound
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
 from planner.primitives.base_legs import travel
-from planner.robot.tool_path import ToolPath
+from planner.robots.tool_path import ToolPath
 from planner.task.task import Task
 
 _NAPKIN = {

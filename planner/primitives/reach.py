@@ -1,4 +1,4 @@
-"""The protocol for queries about a robot's reach. The primitives own it; `planner.robot` implements it."""
+"""The protocol for queries about a robot's reach. The primitives own it; `planner.robots` implements it."""
 
 import math
 from typing import Protocol

@@ -10,8 +10,8 @@ from planner.geometry.table import Table
 from planner.planning import problem
 from planner.primitives.obstacle import BlockingContact, Obstacle, Obstacles
 from planner.primitives.state import State
-from planner.robot.collision.contact import Contact
-from planner.robot.pr2 import Pr2
+from planner.robots.collision.contact import Contact
+from planner.robots.pr2 import Pr2
 from planner.task.reason import Code
 from tests.planning.test_motion_validator import (
     HALF,

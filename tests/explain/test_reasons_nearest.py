@@ -13,7 +13,7 @@ from planner.primitives.context import Context
 from planner.primitives.fold_trial import fold_trials, geometric_obstacle
 from planner.primitives.g_drag import GDrag
 from planner.primitives.state import State
-from planner.robot.shortfall import DIRECTIONS
+from planner.robots.shortfall import DIRECTIONS
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import met, refused
 

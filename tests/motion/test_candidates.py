@@ -11,7 +11,7 @@ from planner.geometry.table import Table
 from planner.motion.moments import moments_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
-from planner.robot.pr2 import Pr2
+from planner.robots.pr2 import Pr2
 from tests.replay.planned import planned
 
 

@@ -1,6 +1,6 @@
 """What collides, seen independently: the convex hulls of the robot's full meshes, posed by yourdfpy.
 
-Nothing of `planner.robot` is used. Every link is the hull of all that the URDF has for it, shown or for collisions.
+Nothing of `planner.robots` is used. Every link is the hull of all that the URDF has for it, shown or for collisions.
 Links are compared unless nothing moves between them; one carries the other over no more than three joints (such
 neighbours are hollow round each other, and their hulls overlap where they do not); or both are of one gripper.
 All are compared with all of the table. Lengths in m.

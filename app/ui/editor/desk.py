@@ -16,7 +16,7 @@ from app.document import Document
 from app.document_state import DocumentState
 from app.ui.editor.seat import Seat
 from app.ui.viewpoint import Viewpoint
-from planner.robot.card import RobotCard
+from planner.robots.card import RobotCard
 
 _log = logging.getLogger(__name__)
 

@@ -12,7 +12,7 @@ from app.ui.robot_model import Link, load_robot_model
 from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 from planner.geometry.table import Table
-from planner.robot.card import RobotCard
+from planner.robots.card import RobotCard
 
 _MARGIN = 1.12
 _TILT = 0.002  # a camera that looks straight down has no defined up direction

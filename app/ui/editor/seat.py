@@ -21,7 +21,7 @@ from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from app.ui.viser_patches import PANEL_LABEL
 from planner.geometry.pose import Pose2
-from planner.robot.card import RobotCard
+from planner.robots.card import RobotCard
 
 _PANEL_PX = 250
 _PANEL_GAP_PX = 15

@@ -1,0 +1,162 @@
+"""The standoffs from which a tool is within the comfort radius at each of many points: the search's queries, compiled.
+
+The naive way takes points x approaches x standoffs x five points of exact queries, and a search repeats them again and
+again. Besides the memory (see `planner.robots.comfort`) two things make it cheap:
+
+- *Early rejection.* A path is followed in one orientation, so an approach is dropped at the first point that no
+  standoff reaches. A path's end and middle are tested first: they are the likeliest to fail.
+- *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
+
+Arguments dominate the cost of a call, so an arm comes as one array of numbers (see `planner.robots.kernel.shape_of`).
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.aim import is_within_height
+from planner.robots.comfort import (
+    FORGETFUL,
+    GOOD,
+    KNOWN,
+    ROW_STEP,
+    Memory,
+    Place,
+    Question,
+    aim_from,
+    cells_of,
+    is_comfortable_at,
+    place_of,
+    question,
+    row_slot,
+)
+from planner.robots.pan_arcs import MOST_ARCS
+from planner.robots.posture_room import Room
+
+
+@njit(cache=True, nogil=True)
+def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, count: int) -> bool:
+    """Return whether no standoff reaches a place."""
+    if not is_within_height(ask.shape, aim_from(ask, place, 0)):
+        return True
+    slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
+    if slot != FORGETFUL and ask.step == ROW_STEP:
+        wanted = cells_of(place.x, count)
+        if memory.bits[slot, GOOD] & wanted != 0:
+            return False
+        if memory.bits[slot, KNOWN] & wanted == wanted:
+            return True
+    while back_off < count and not is_comfortable_at(ask, memory, room, arcs, slot, place, back_off):
+        back_off += 1
+    return back_off == count
+
+
+@njit(cache=True, nogil=True)
+def _arrivals(
+    ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, before: int, count: int
+) -> int:
+    """Return the standoffs at which the base may be at a place, having come from some at the place before.
+
+    These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
+    """
+    mask, slot = 0, row_slot(ask, memory.keys, memory.counts, place)
+    for back_off in range(count):
+        is_next = back_off > 0 and (mask >> (back_off - 1)) & 1 == 1
+        if (before >> back_off) & 1 == 1 or is_next:
+            mask |= (1 if is_comfortable_at(ask, memory, room, arcs, slot, place, back_off) else 0) << back_off
+    for back_off in range(count - 2, -1, -1):
+        is_new = (before >> back_off) & 1 == 0 and (mask >> back_off) & 1 == 0
+        if is_new and (mask >> (back_off + 1)) & 1 == 1:
+            mask |= (1 if is_comfortable_at(ask, memory, room, arcs, slot, place, back_off) else 0) << back_off
+    return mask
+
+
+@njit(cache=True, nogil=True)
+def back_off_masks(
+    numbers: FloatArray,
+    shoulder: FloatArray,
+    memory: Memory,
+    points: FloatArray,
+    axes: FloatArray,
+    labels: NDArray[np.int64],
+    count: int,
+    step: int,
+    comfort: float,
+    enough: int,
+    before: int,
+    room: Room,
+) -> NDArray[np.uint32]:
+    """Return for each approach and point a bit mask of the standoffs within the comfort radius.
+
+    Args:
+        numbers: the arm.
+        shoulder: its shoulder, in the frame of the points (m), shape (3,).
+        memory: earlier answers for this comfort radius; added to.
+        points: tool points at standoff 0 (m), shape (n, 3).
+        axes: all approach axes, shape (m, 3).
+        labels: the memory's labels of the approaches tested: one more than their index, shape (k,).
+        count: the number of standoffs, at most 32.
+        step: the distance between standoffs, in steps of `LENGTH_M`, by which the points move along x.
+        comfort: the comfort radius (m).
+        enough: the number of approaches that can follow the path after which the others are left at 0.
+        before: bit mask of the standoffs from which the base may come to the first point.
+        room: the obstacles to the arm's postures.
+    """
+    arcs = np.empty((MOST_ARCS, 2))
+    masks = np.zeros((len(labels), len(points)), dtype=np.uint32)
+    places = [place_of(point, shoulder) for point in points]
+    alive = 0
+    for approach in range(len(labels)):
+        if alive == enough:
+            break
+        ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
+        is_dead = False
+        for i in (len(points) - 1, len(points) // 2):
+            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, arcs, places[i], count))
+        if is_dead:
+            continue
+        mask = before
+        for i in range(len(points)):
+            mask = _arrivals(ask, memory, room, arcs, places[i], mask, count)
+            masks[approach, i] = mask
+            if mask == 0:
+                masks[approach, :] = 0
+                break
+        alive += 1 if mask != 0 else 0
+    return masks
+
+
+@njit(cache=True, nogil=True)
+def anywhere(
+    numbers: FloatArray,
+    shoulder: FloatArray,
+    memory: Memory,
+    points: FloatArray,
+    axes: FloatArray,
+    labels: NDArray[np.int64],
+    count: int,
+    step: int,
+    comfort: float,
+    enough: int,
+    room: Room,
+) -> BoolArray:
+    """Return for each approach and point, each on its own, whether some standoff is within the comfort radius.
+
+    The arguments are those of `back_off_masks`, but there may be any number of standoffs. After `enough` approaches
+    that reach every point the others are left false.
+    """
+    arcs = np.empty((MOST_ARCS, 2))
+    answers = np.zeros((len(labels), len(points)), dtype=np.bool_)
+    places = [place_of(point, shoulder) for point in points]
+    alive = 0
+    for approach in range(len(labels)):
+        if alive == enough:
+            break
+        ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
+        is_dead = False
+        for i in range(len(points)):
+            answers[approach, i] = not _is_out_of_reach(ask, memory, room, arcs, places[i], count)
+            is_dead = is_dead or not answers[approach, i]
+        alive += 0 if is_dead else 1
+    return answers

@@ -1,0 +1,143 @@
+"""Convex bodies, moving with the arms or standing still, and tests for which of them touch.
+
+A compiled pass over all postures (`separation`) rules out nearly all pairs. Coal tests the remaining pairs exactly, one
+by one, until a pair touches.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import coal
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.robots.arm import ArmShape
+from planner.robots.collision.part_poses import EACH, PLACE, Index
+from planner.robots.collision.separation import ROUNDING, Parts, first_close
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+class Pairs(NamedTuple):
+    """Pairs of bodies to compare.
+
+    Attributes:
+        numbers: the bodies' numbers, shape (q, 2).
+        margins: the distance that each pair must keep (m), shape (q,).
+    """
+
+    numbers: Index
+    margins: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bodies:
+    """The parts of both arms, left before right, then the rest of the robot, then the parts of the table.
+
+    Attributes:
+        arm: the left arm.
+        torso_m: how far the torso is raised (m).
+        parts: all bodies.
+        shapes: the same bodies as coal shapes, without their roundings.
+        poses: the poses of the robot's static parts, shape (p, 5, 3).
+        places: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
+            shape (t, 3).
+    """
+
+    arm: ArmShape
+    torso_m: float
+    parts: Parts
+    shapes: Sequence[coal.CollisionGeometry]
+    poses: FloatArray
+    places: FloatArray
+
+    def are_free(
+        self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False
+    ) -> BoolArray:
+        """Return in which postures no pair touches, shape (n,).
+
+        Args:
+            pairs: the pairs to compare.
+            bases: the base poses, see `rows`.
+            joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
+            arms: those arms, 0 for the left and 1 for the right, shape (k,).
+            is_certain: accept only postures that the compiled pass proves free; faster, but misses some free ones.
+        """
+        if is_certain:
+            close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+            return close < 0
+        is_free = np.ones(len(joints), dtype=np.bool_)
+        is_free[[*self.touching(pairs, bases, joints, arms)]] = False
+        return is_free
+
+    def touching(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> Iterator[int]:
+        """Yield the postures in which some pair touches.
+
+        Each round runs the compiled pass from the pair after the one that coal has found apart.
+        """
+        stands = rows(bases)
+        asked, start = np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
+        while len(asked):
+            at = stands if len(stands) == 1 else stands[asked]
+            close, places = self.first_close(pairs, at, joints[asked], arms, start)
+            is_open = close >= 0
+            for k in np.flatnonzero(is_open):
+                if self._touch(pairs, int(close[k]), places[k]):
+                    is_open[k] = False
+                    yield int(asked[k])
+            asked, start = asked[is_open], close[is_open] + 1
+
+    def first_close(
+        self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
+    ) -> tuple[Index, FloatArray]:
+        """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
+        return first_close(
+            self.arm,
+            self.torso_m,
+            self.parts,
+            self.poses.copy(),
+            pairs.numbers,
+            np.ascontiguousarray(joints, dtype=np.float64),
+            arms,
+            bases,
+            self.places,
+            start,
+            pairs.margins,
+        )
+
+    def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:
+        """Return how far one body of a pair must move until their margin is kept (m); negative if it is kept."""
+        distance_m = coal.distance(*self._posed(pairs, pair, poses), coal.DistanceRequest(), coal.DistanceResult())
+        return self._gap(pairs, pair) - float(distance_m)
+
+    def _touch(self, pairs: Pairs, pair: int, poses: FloatArray) -> bool:
+        """Return whether a pair violates its margin, at poses of shape (2, 5, 3)."""
+        request = coal.CollisionRequest()
+        request.security_margin = self._gap(pairs, pair)
+        return bool(coal.collide(*self._posed(pairs, pair, poses), request, coal.CollisionResult()))
+
+    def _gap(self, pairs: Pairs, pair: int) -> float:
+        """Return the distance that the hulls of a pair must keep (m): the margin and both roundings."""
+        a, b = pairs.numbers[pair]
+        rounding = self.parts.bounds[:, ROUNDING]
+        return float(pairs.margins[pair] + rounding[a] + rounding[b])
+
+    def _posed(
+        self, pairs: Pairs, pair: int, poses: FloatArray
+    ) -> tuple[coal.CollisionGeometry, coal.Transform3s, coal.CollisionGeometry, coal.Transform3s]:
+        a, b = pairs.numbers[pair].tolist()
+        return self.shapes[a], _transform(a, poses[0]), self.shapes[b], _transform(b, poses[1])
+
+
+def rows(bases: Pose2 | FloatArray) -> FloatArray:
+    """Return bases as rows of x (m), y (m) and yaw (rad), shape (n, 3), or (1, 3) for a single base."""
+    if isinstance(bases, Pose2):
+        return np.array([[bases.x_m, bases.y_m, bases.yaw_rad]])
+    return np.ascontiguousarray(bases, dtype=np.float64)
+
+
+def _transform(part: int, pose: FloatArray) -> coal.Transform3s:
+    """Return a body's pose for coal, with the left-handed frames of the right arm made right-handed."""
+    rotation = pose[:PLACE] * _MIRROR if EACH <= part < 2 * EACH else pose[:PLACE]
+    return coal.Transform3s(rotation, pose[PLACE])

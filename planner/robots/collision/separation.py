@@ -1,0 +1,175 @@
+"""Tests for which pairs of convex parts are certainly apart: compiled, for many postures at once.
+
+Nearly all pairs are far apart in nearly all postures, and passing them to coal one by one costs far more than testing
+them here. So this finds, for every posture, the first pair that is *not* certainly apart; only those go to the exact
+algorithm. A pair is certainly apart if
+
+- the sphere round one does not reach the box round the other, or
+- a plane separates the two (`planner.robots.collision.plane`).
+
+Postures mostly follow one another along a path. The distance of each pair is therefore remembered, and the pair is
+skipped until its parts have moved as far.
+
+Arrays are passed one by one: taking them out of a tuple in the inner loop costs more than the loop does.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.robots.arm import ArmShape
+from planner.robots.collision.part_poses import EACH, MIDDLE, Index, pose_arm, pose_table, set_middles
+from planner.robots.collision.plane import room_at_plane
+
+HALF, RADIUS, ROUNDING = 3, 6, 7
+"""Columns of bounds, after the bounding box's centre: half its extents, the sphere's radius, the rounding (m)."""
+
+
+class Parts(NamedTuple):
+    """All parts: those of the arms first, left before right, then those that stand still while arms move.
+
+    Attributes:
+        corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
+        spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
+        bounds: for each part its bounding box's centre, in its frame, half the box's extents, the radius of the sphere
+            about that centre that contains the part, and the part's rounding beyond its hull (m), shape (p, 8).
+    """
+
+    corners: FloatArray
+    spans: Index
+    bounds: FloatArray
+
+
+@njit(cache=True, nogil=True)
+def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[float, float, float]:
+    """Return the way from the box round part b to the centre of part a (m); zero if that is inside."""
+    dx = poses[a, MIDDLE, 0] - poses[b, MIDDLE, 0]
+    dy = poses[a, MIDDLE, 1] - poses[b, MIDDLE, 1]
+    dz = poses[a, MIDDLE, 2] - poses[b, MIDDLE, 2]
+    ox = oy = oz = 0.0
+    for axis in range(3):
+        along = poses[b, 0, axis] * dx + poses[b, 1, axis] * dy + poses[b, 2, axis] * dz
+        half = bounds[b, HALF + axis]
+        outside = along - min(max(along, -half), half)
+        ox += outside * poses[b, 0, axis]
+        oy += outside * poses[b, 1, axis]
+        oz += outside * poses[b, 2, axis]
+    return ox, oy, oz
+
+
+@njit(cache=True, nogil=True)
+def _room_between(
+    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
+) -> float:
+    """Return by how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
+    wx, wy, wz = _towards(bounds, poses, a, b)
+    room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
+    if room > 0.0:
+        return room
+    bx, by, bz = _towards(bounds, poses, b, a)
+    room = math.sqrt(bx * bx + by * by + bz * bz) - bounds[b, RADIUS] - margin
+    if room > 0.0:
+        return room
+    gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
+    room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
+    if room < 0.0 and a < EACH <= b < 2 * EACH:
+        # Which of two arms finds a plane may be chance; a mirror image must give the same answer.
+        room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
+    return room
+
+
+@njit(cache=True, nogil=True)
+def first_close_pair(
+    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
+) -> int:
+    """Return the first pair, from a start, that is not certainly apart by a margin (m); -1 if all are."""
+    for pair in range(start, len(pairs)):
+        if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
+            return pair
+    return -1
+
+
+@njit(cache=True, nogil=True)
+def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
+    """Add to the distances (m) that any point of each part has moved those since the last pose, and keep the pose.
+
+    The bound adds the centre's displacement and the radius times the most by which the rotations' difference can
+    stretch a vector: its Frobenius norm over the square root of two.
+    """
+    for part in range(len(poses)):
+        turned = moved = 0.0
+        for axis in range(3):
+            for row in range(3):
+                change = poses[part, row, axis] - before[part, row, axis]
+                turned += change * change
+            change = poses[part, MIDDLE, axis] - before[part, MIDDLE, axis]
+            moved += change * change
+        if turned + moved != 0.0:
+            gone[part] += math.sqrt(moved) + bounds[part, RADIUS] * math.sqrt(0.5 * turned)
+            before[part] = poses[part]
+
+
+@njit(cache=True, nogil=True)
+def first_close(
+    shape: ArmShape,
+    lift_m: float,
+    parts: Parts,
+    poses: FloatArray,
+    pairs: Index,
+    joints: FloatArray,
+    arms: Index,
+    bases: FloatArray,
+    tables: FloatArray,
+    start: Index,
+    margins: FloatArray,
+) -> tuple[Index, FloatArray]:
+    """Return for every posture the first pair, from a start, that is not certainly apart.
+
+    Args:
+        shape: the left arm.
+        lift_m: how far the torso is raised (m).
+        parts: all parts.
+        poses: the poses of all parts, shape (p, 5, 3); the body's are given, the arms' and table's are overwritten and
+            end as those of the last posture.
+        pairs: numbers of the parts to be compared, shape (q, 2).
+        joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
+        arms: those arms, 0 for the left and 1 for the right, shape (k,).
+        bases: the base poses: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
+        tables: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
+            shape (t, 3).
+        start: the pair with which to start, shape (n,).
+        margins: the distance that each pair should keep (m), shape (q,).
+
+    Returns:
+        The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
+    """
+    corners, spans, bounds = parts
+    found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    first = len(poses) - len(tables)
+    before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
+    for i in range(len(joints)):
+        if i < len(bases):
+            pose_table(bases[i], tables, poses[first:])
+            set_middles(bounds[first:], poses[first:])
+        for k in range(len(arms)):
+            low, high = EACH * arms[k], EACH * (arms[k] + 1)
+            pose_arm(shape, lift_m, joints[i, k], 1.0 - 2.0 * arms[k], poses[low:high])
+            set_middles(bounds[low:high], poses[low:high])
+        _add_ways(bounds, before, poses, gone)
+        found[i] = -1
+        for pair in range(start[i], len(pairs)):
+            a, b = pairs[pair]
+            if gone[a] + gone[b] < apart_until[pair]:
+                continue
+            room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
+            if room < 0.0:
+                found[i] = pair
+                break
+            apart_until[pair] = gone[a] + gone[b] + room
+        if found[i] >= 0:
+            for side in range(2):
+                places[i, side] = poses[pairs[found[i], side]]
+    return found, places

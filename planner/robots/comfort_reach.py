@@ -1,0 +1,225 @@
+"""The places within the comfort radius, for either arm of a PR2: the compiled queries and the state they share.
+
+The arms are mirror images: places and approaches are mirrored on the way in, and the memory of answers (see
+`planner.robots.comfort`) is the left arm's. Queries are counted and timed here.
+"""
+
+from time import thread_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.tolerance import LENGTH_M
+from planner.robots.approaches import APPROACHES, mirror_images
+from planner.robots.arm import numbers_of
+from planner.robots.back_offs import anywhere, back_off_masks
+from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
+from planner.robots.driving_task import UNSEEN, Task
+from planner.robots.following import Following
+from planner.robots.posture_room import Room, no_walls
+from planner.robots.sided_arm import SidedArm
+
+_MOST_BACK_OFFS = 32
+"""Largest number of standoffs: one bit of a mask each."""
+
+_SMALL_BITS = 4
+"""Size of a memory that will hardly be used any more, as a power of two."""
+
+
+class ComfortReach:
+    """The reach of a PR2 with its torso at one height, for one comfort radius.
+
+    It remembers its answers and counts its queries, so each plan should have its own; it must not be shared between
+    threads. Places are tested on the grid of `LENGTH_M`, base frame.
+    """
+
+    def __init__(
+        self,
+        arm_names: tuple[str, ...],
+        arms: tuple[SidedArm, ...],
+        torso_m: float,
+        comfort_m: float,
+        room: Room | None = None,
+    ) -> None:
+        """Start with an empty memory: names and arms from left to right, torso and comfort in m.
+
+        `room` holds the obstacles to the left arm's postures; None: the body is no obstacle.
+        """
+        self._arm_names = arm_names
+        self._arms = arms
+        self._torso_m = torso_m
+        self._comfort_m = comfort_m
+        self._memory = empty_memory()
+        self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
+        self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
+        self._numbers = numbers_of(arms[0].shape)
+        self._shoulder = arms[0].shoulder(torso_m)
+        images = mirror_images()
+        self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
+        self._shortfall_queries = 0
+        self._query_time_s = 0.0
+
+    def forget(self) -> None:
+        """Drop the memory, some 2 MB, and keep the counts; the answers stay the same."""
+        queries = self.queries - self._shortfall_queries
+        self._memory = empty_memory(_SMALL_BITS)
+        self._memory.counts[QUERIES] = queries
+
+    @property
+    def arm_names(self) -> tuple[str, ...]:
+        """The arms from left to right."""
+        return self._arm_names
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions from which the grippers may pinch cloth, base frame."""
+        return APPROACHES
+
+    @property
+    def shoulders(self) -> tuple[Point3, ...]:
+        """The shoulder of each arm, base frame (m)."""
+        found = [arm.mirrored_places(arm.shoulder(self._torso_m)[None])[0] for arm in self._arms]
+        return tuple((float(x), float(y), float(z)) for x, y, z in found)
+
+    @property
+    def torso_m(self) -> float:
+        """How far the torso is raised (m)."""
+        return self._torso_m
+
+    @property
+    def comfort_m(self) -> float:
+        """The comfort radius (m)."""
+        return self._comfort_m
+
+    @property
+    def queries(self) -> int:
+        """The number of queries computed by the exact kernel so far, points on the comfort circle included.
+
+        What is remembered, or further away than the arm is long, is answered without a query.
+        """
+        return int(self._memory.counts[QUERIES]) + self._shortfall_queries
+
+    @property
+    def query_time_s(self) -> float:
+        """Time spent answering (s), memory included."""
+        return self._query_time_s
+
+    def back_offs(
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+        start: int | None = None,
+    ) -> NDArray[np.uint32]:
+        """Return bit masks, shape (k, n), of the standoffs from which each point is within the comfort radius.
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: the number of standoffs, at most 32; raises `ValueError` beyond.
+            step_m: the distance between standoffs (m).
+            enough: the number of approaches wanted that can follow the points; None: all.
+            start: the standoff at which the hand is at the first point already; None: any.
+
+        Returns:
+            Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
+            there; a row is 0 if it cannot follow them all.
+        """
+        if count > _MOST_BACK_OFFS:
+            raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
+        started = thread_time()
+        masks = back_off_masks(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
+            count,
+            round(step_m / LENGTH_M),
+            self._comfort_m,
+            len(approaches) if enough is None else enough,
+            (1 << count) - 1 if start is None else 1 << start,
+            self._room,
+        )
+        self._query_time_s += thread_time() - started
+        return masks
+
+    def following(
+        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
+    ) -> Following:
+        """Return hands that are to follow paths, each in one approach.
+
+        Args:
+            arms: for each hand its index into `arm_names`; one or two.
+            paths: for each hand its tool points in the base frame at standoff 0 (m), shape (hands, n, 3).
+            approaches: for each hand indices into `approaches`, best first.
+            step_m: the distance between standoffs (m).
+        """
+        labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
+        places = np.empty(paths.shape, dtype=np.int64)
+        for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
+            labels[hand, : len(allowed)] = self._labels[arm][allowed]
+            places[hand] = np.round(self._arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
+        places -= np.round(self._shoulder / LENGTH_M).astype(np.int64)
+        slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
+        step = round(step_m / LENGTH_M)
+        cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
+        task = Task(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._axes,
+            labels,
+            places,
+            cells,
+            slots,
+            self._comfort_m,
+            step,
+            self._room,
+        )
+        return Following(task, self._add_time)
+
+    def _add_time(self, time_s: float) -> None:
+        self._query_time_s += time_s
+
+    def from_anywhere(
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        count: int,
+        step_m: float,
+        enough: int | None = None,
+    ) -> BoolArray:
+        """Return which points, each on its own, are within the comfort radius from at least one standoff, shape (k, n).
+
+        Args:
+            arm: index into `arm_names`.
+            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,).
+            count: the number of standoffs.
+            step_m: the distance between standoffs (m).
+            enough: the number of approaches wanted that reach every point; None: all.
+        """
+        started = thread_time()
+        answers = anywhere(
+            self._numbers,
+            self._shoulder,
+            self._memory,
+            self._arms[arm].mirrored_places(points),
+            self._axes,
+            self._labels[arm][approaches],
+            count,
+            round(step_m / LENGTH_M),
+            self._comfort_m,
+            len(approaches) if enough is None else enough,
+            self._room,
+        )
+        self._query_time_s += thread_time() - started
+        return answers

@@ -1,0 +1,154 @@
+"""The least driving with which hands follow their paths, compiled.
+
+Each hand keeps one approach. At every waypoint the base may drive to and fro as long as every hand, resting, is within
+the comfort radius at each standoff on the way. The task is to choose the approaches and the standoffs so that the base
+drives least.
+
+The naive way finds the standoffs for every approach at every waypoint, combines the approaches of all hands, and
+searches for the shortest way through each combination. Nearly all of that work is unnecessary. Instead:
+
+- *By rising cost.* A set of standoffs is the bits of a number. With `t` steps of driving the base can be where it can
+  be with `t - 1`, one step beside that, and where it was at the waypoint before with `t`: a few operations on numbers,
+  and only places that occur are ever tested.
+- *Bounds first.* The beginning, the apex and the end of a path alone mostly tell the least driving of a combination, or
+  that it is infeasible.
+- *Pruning by incumbents.* A place matters with `t` steps only if no end found so far is as good from there.
+- *Limited steps.* Ways of more than `most` steps are left for a later call.
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import FloatArray
+from planner.robots.driving_incumbents import EVERY, UNBEATEN, Incumbents, least_steps, no_incumbents, tell_useful
+from planner.robots.driving_task import Task, ask_each, at_extremes, remembered
+from planner.robots.pan_arcs import MOST_ARCS
+
+
+@njit(cache=True, nogil=True)
+def _follow(
+    task: Task, arcs: FloatArray, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]
+) -> bool:
+    """Follow the paths in one choice of approaches and record improved ends; return whether more steps may help."""
+    bits, slots, cells, useful = task.memory.bits, task.slots, task.cells, best.useful
+    reached, last_begun = np.zeros(cells.shape[1], dtype=np.int64), 0
+    for level in range(len(best.begun)):
+        before, has_grown = best.begun[level], best.begun[level] != last_begun
+        last_begun = before
+        if useful[level] == 0:
+            return False
+        for waypoint in range(len(reached)):
+            here = reached[waypoint]
+            new = (before | here << 1 | here >> 1) & ~here & useful[level]
+            for hand in range(len(chosen) if new else 0):
+                approach = chosen[hand]
+                found = remembered(bits, slots[hand, approach, waypoint], cells[hand, waypoint], new)
+                new = found if found >= 0 else ask_each(task, arcs, hand, approach, waypoint, new)
+            reached[waypoint] = before = here | new
+            has_grown = has_grown or new != 0
+            if before == 0:
+                break
+        is_better = False
+        for end in range(len(best.ends) if before & best.useful[level] else 0):
+            if (before >> end) & 1 and level < best.ends[end] and (best.useful[level] >> end) & 1:
+                best.ends[end], answer[2:, end] = level, chosen
+                is_better = True
+                if best.wanted == UNBEATEN:
+                    tell_useful(best)
+        if is_better:
+            tell_useful(best)
+        if not has_grown and level >= best.near.max():
+            return False
+    return bool(best.useful[-1] != 0)
+
+
+@njit(cache=True, nogil=True)
+def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) -> tuple[NDArray[np.int64], int]:
+    """Return the least total steps of driving for each standoff at which the base may stand in the end.
+
+    Args:
+        task: the paths that the hands follow.
+        begun: for each standoff the steps in which the base can be there when the hands begin, shape (count,); count at
+            most 32.
+        most: the largest number of steps considered.
+        wanted: which ends, see `planner.geometry.driving.Wanted`.
+
+    Returns:
+        For each standoff a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
+        hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
+    """
+    hands, count, arcs = len(task.labels), len(begun), np.empty((MOST_ARCS, 2))
+    answer = np.full((2 + hands, count), IMPOSSIBLE, dtype=np.int64)
+    best = no_incumbents(begun, most, wanted)
+    near = 0
+    for j in range(count):
+        near |= (1 if best.near[j] <= most else 0) << j
+    more = most + 1 if best.near.max() > most else IMPOSSIBLE
+    masks = np.full((2, task.labels.shape[1], 3), near, dtype=np.int64)
+    for hand in range(hands):
+        masks[hand] = at_extremes(task, arcs, hand, near)
+        if not masks[hand].any():
+            return answer, more
+    pairs, bounds = _pairs(masks, hands, best)
+    chosen = np.empty(hands, dtype=np.int64)
+    for number in np.argsort(bounds, kind="mergesort"):
+        one, other = pairs[number]
+        begin, apex, end = masks[0, one] & masks[1, other]
+        if bounds[number] < IMPOSSIBLE and least_steps(best.begun, best.useful, begin, apex, end) < IMPOSSIBLE:
+            chosen[0] = one
+            if hands == 2:
+                chosen[1] = other
+            if _follow(task, arcs, chosen, best, answer):
+                more = min(more, most + 1)
+        elif bounds[number] == IMPOSSIBLE and best.useful[-1] != 0:
+            more = min(more, most + 1)
+    answer[0] = best.ends
+    _settle(task, arcs, begun, wanted, answer)
+    return answer, more
+
+
+@njit(cache=True, nogil=True)
+def _pairs(masks: NDArray[np.int64], hands: int, best: Incumbents) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the feasible choices of approaches and a lower bound on the steps of each; record the possible ends."""
+    ones = np.flatnonzero(masks[0, :, 0])
+    others = np.flatnonzero(masks[1, :, 0]) if hands == 2 else np.zeros(1, dtype=np.int64)
+    pairs = np.empty((len(ones) * len(others), 2), dtype=np.int64)
+    bounds = np.empty(len(pairs), dtype=np.int64)
+    count, best.possible[0] = 0, 0
+    for one in ones:
+        for other in others:
+            begin, apex, end = masks[0, one] & masks[1, other]
+            if begin and apex and end:
+                pairs[count] = one, other
+                best.possible[0] |= end
+                count += 1
+    tell_useful(best)
+    for number in range(count):
+        one, other = pairs[number]
+        begin, apex, end = masks[0, one] & masks[1, other]
+        bounds[number] = least_steps(best.begun, best.useful, begin, apex, end)
+    return pairs[:count], bounds[:count]
+
+
+@njit(cache=True, nogil=True)
+def _settle(task: Task, arcs: FloatArray, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
+    """Remove ends that were beaten later on, and find where the base begins on the way to the others."""
+    count = len(begun)
+    alone, found = np.empty(count, dtype=np.int64), np.empty_like(answer)
+    for end in range(count):
+        for other in range(count if wanted == UNBEATEN else 0):
+            if other != end and answer[0, other] + abs(end - other) <= answer[0, end]:
+                answer[0, end] = IMPOSSIBLE
+        for first in range(count if answer[0, end] < IMPOSSIBLE else 0):
+            alone[:] = IMPOSSIBLE
+            alone[first] = begun[first]
+            if begun[first] + abs(end - first) <= answer[0, end]:
+                best = no_incumbents(alone, answer[0, end], EVERY)
+                best.possible[0] = 1 << end
+                tell_useful(best)
+                _follow(task, arcs, answer[2:, end], best, found)
+                if best.ends[end] == answer[0, end]:
+                    answer[1, end] = first
+                    break

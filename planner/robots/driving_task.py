@@ -1,0 +1,115 @@
+"""The paths that hands follow, and the standoffs from which they are within the comfort radius on the way. Compiled.
+
+Sets of standoffs are the bits of a number, so that a row of the memory (see `planner.robots.comfort`) answers for all
+of them at once. Only what is not remembered is tested, place by place.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.robots.comfort import (
+    FORGETFUL,
+    GOOD,
+    KNOWN,
+    ROW_CELLS,
+    ROW_STEP,
+    Memory,
+    Place,
+    from_cell,
+    is_comfortable_at,
+    question,
+    row_slot,
+)
+from planner.robots.posture_room import Room
+
+UNSEEN = -2
+"""The slot of a row that has not been looked up."""
+
+_WHOLE_ROW = (1 << ROW_CELLS) - 1
+
+
+class Task(NamedTuple):
+    """The paths that hands follow.
+
+    Attributes:
+        numbers: the arm, see `planner.robots.kernel.shape_of`.
+        shoulder: its shoulder, in the base frame (m), shape (3,).
+        memory: earlier answers for this comfort radius; added to.
+        axes: all approach axes, shape (m, 3).
+        labels: for each hand the memory's labels of the approaches it may use, best first, 0 after the last; shape
+            (hands, k).
+        places: for each hand, one or two, and waypoint the place, in steps of `LENGTH_M`, shape (hands, n, 3).
+        cells: for each hand and waypoint the place's cell in its row, shape (hands, n).
+        slots: for each hand, approach and waypoint the row's slot in the memory, if the base drives by the row's step;
+            `UNSEEN` until it is looked up. Shape (hands, k, n); added to.
+        comfort: the comfort radius (m).
+        step: the distance between standoffs, in steps of `LENGTH_M`.
+        room: the obstacles to the arms' postures.
+    """
+
+    numbers: FloatArray
+    shoulder: FloatArray
+    memory: Memory
+    axes: FloatArray
+    labels: NDArray[np.int64]
+    places: NDArray[np.int64]
+    cells: NDArray[np.int64]
+    slots: NDArray[np.int64]
+    comfort: float
+    step: int
+    room: Room
+
+
+@njit(cache=True, nogil=True)
+def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: int, wanted: int) -> int:
+    """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
+    x, y, z = task.places[hand, waypoint]
+    place = Place(x, y, z)
+    ask = question(task.numbers, task.shoulder, task.axes, task.labels[hand, approach], task.comfort, task.step)
+    slot, found, back_off = row_slot(ask, task.memory.keys, task.memory.counts, place), 0, 0
+    if task.step == ROW_STEP:
+        task.slots[hand, approach, waypoint] = slot
+        if slot != FORGETFUL:
+            bits, cell = task.memory.bits[slot], task.cells[hand, waypoint]
+            found = wanted & from_cell(bits[GOOD], cell)
+            wanted &= ~from_cell(bits[KNOWN], cell)
+    while wanted >> back_off:
+        is_wanted = (wanted >> back_off) & 1 == 1
+        if is_wanted and is_comfortable_at(ask, task.memory, task.room, arcs, slot, place, back_off):
+            found |= 1 << back_off
+        back_off += 1
+    return found
+
+
+@njit(cache=True, nogil=True)
+def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> int:
+    """Return which wanted standoffs are within the comfort radius, if a row remembers all of them; else -1."""
+    if slot < 0 or wanted & from_cell(_WHOLE_ROW, cell) & ~from_cell(bits[slot, KNOWN], cell):
+        return -1
+    return wanted & from_cell(bits[slot, GOOD], cell)
+
+
+@njit(cache=True, nogil=True)
+def at_extremes(task: Task, arcs: FloatArray, hand: int, near: int) -> NDArray[np.int64]:
+    """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
+
+    Shape (k, 3), for each approach; all 0 where one of them is.
+    """
+    last = task.places.shape[1] - 1
+    bits, slots, cells = task.memory.bits, task.slots[hand], task.cells[hand]
+    masks = np.zeros((task.labels.shape[1], 3), dtype=np.int64)
+    for approach in range(task.labels.shape[1]):
+        if task.labels[hand, approach] == 0:
+            break
+        for number, waypoint in ((1, (last + 1) // 2), (2, last), (0, 0)):
+            found = remembered(bits, slots[approach, waypoint], cells[waypoint], near)
+            found = found if found >= 0 else ask_each(task, arcs, hand, approach, waypoint, near)
+            masks[approach, number] = found
+            if found == 0:
+                masks[approach] = 0
+                break
+    return masks

@@ -1,0 +1,258 @@
+"""The seven joints for a full pose of the tool, as near as possible to the arm's present joints.
+
+`planner.robots.kernel` shows that some pan reaches the pose; this module chooses one. With pan and branch fixed the
+other six joints follow in closed form, so the nearest solution is the minimum of a distance along the closed curves of
+the arcs. The curve is sampled, with the present pan and a known witness among the samples, and the best sample is
+refined by halving steps. Wrist and forearm roll are continuous joints: they are unwound to the turn nearest to their
+present angle, so that joints may be interpolated.
+
+As in the kernel the arm is a left arm and poses are in its shoulder's frame (m, rad).
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.robots.aim import ToolPose, aim_at
+from planner.robots.arm import ArmShape, Sector
+from planner.robots.kernel import witness
+from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
+
+SAMPLES = 16
+"""Samples for each branch of the elbow along an arc."""
+
+FINEST = 1e-7
+"""Step along the curve at which the refinement ends (rad)."""
+
+NEARBY, SETTLED, PROBE = 0.2, 1e-4, 1e-5
+"""Limits along the curve for neighbouring poses of a path (rad).
+
+The largest distance between them, the precision to which they are refined, and the step that probes the direction.
+"""
+
+X, Y, Z = 0, 1, 2
+
+
+@njit(cache=True, nogil=True)
+def turn(frame: FloatArray, i: int, j: int, angle: float) -> None:
+    """Turn a frame's axis i towards its axis j: (X, Y) turns about z, (Y, Z) about x, (Z, X) about y."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    for row in range(3):
+        a, b = frame[row, i], frame[row, j]
+        frame[row, i], frame[row, j] = cos * a + sin * b, cos * b - sin * a
+
+
+@njit(cache=True, nogil=True)
+def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the tool's position, shape (3,), and rotation, shape (3, 3), at seven joint angles."""
+    frame = np.eye(3)
+    turn(frame, X, Y, joints[0])
+    position = shape.offset * frame[:, 0]
+    turn(frame, Z, X, joints[1])
+    turn(frame, Y, Z, joints[2])
+    position += shape.upper * frame[:, 0]
+    turn(frame, Z, X, joints[3])
+    turn(frame, Y, Z, joints[4])
+    position += shape.fore * frame[:, 0]
+    turn(frame, Z, X, joints[5])
+    turn(frame, Y, Z, joints[6])
+    position += shape.tool * frame[:, 0]
+    return position, frame
+
+
+@njit(cache=True, nogil=True)
+def tool_places(shape: ArmShape, joints: FloatArray) -> FloatArray:
+    """Return the tool's positions for rows of joints, shape (n, 7), seen from the shoulder (m), shape (n, 3)."""
+    found = np.empty((len(joints), 3))
+    for i in range(len(joints)):
+        found[i] = tool_pose(shape, joints[i])[0]
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _within(limits: Sector, angle: float) -> float:
+    """Return the equivalent of an angle within limits, or nan; an angle outside by rounding is clipped."""
+    angle += math.tau * math.ceil((limits.low - ANGLE_RAD - angle) / math.tau)
+    return min(max(angle, limits.low), limits.high) if angle <= limits.high + ANGLE_RAD else math.nan
+
+
+@njit(cache=True, nogil=True)
+def _unwound(angle: float, near: float) -> float:
+    """Return the equivalent of an angle within half a turn of another."""
+    return angle - math.tau * math.floor((angle - near) / math.tau + 0.5)
+
+
+@njit(cache=True, nogil=True)
+def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joints: FloatArray) -> None:
+    """Set pan, lift, roll and elbow so that the wrist's centre is at the tool pose's; nan where it cannot be."""
+    pan = _within(shape.pan, pan)
+    cos_pan, sin_pan = math.cos(pan), math.sin(pan)
+    u, v, w = cos_pan * aim.x + sin_pan * aim.y - shape.offset, cos_pan * aim.y - sin_pan * aim.x, aim.z
+    bones_2 = shape.upper * shape.upper + shape.fore * shape.fore
+    cos_elbow = (u * u + v * v + w * w - bones_2) / (2.0 * shape.upper * shape.fore)
+    bent = math.sqrt(max(1.0 - cos_elbow * cos_elbow, 0.0))
+    side = shape.fore * bent
+    sin_roll, rest = -v, math.sqrt(max(side * side - v * v, 0.0))
+    a, b = shape.upper + shape.fore * cos_elbow, branch * rest
+    joints[0] = pan
+    joints[1] = _within(shape.lift, math.atan2(b, a) - math.atan2(w, u))
+    joints[2] = _within(shape.roll, math.atan2(sin_roll, b))
+    joints[3] = _within(shape.elbow, -math.atan2(bent, cos_elbow))
+
+
+@njit(cache=True, nogil=True)
+def _along(frame: FloatArray, aim: ToolPose, axis: int) -> float:
+    """Return the component of the approach axis along an axis of a frame."""
+    component: float = aim.ax * frame[0, axis] + aim.ay * frame[1, axis] + aim.az * frame[2, axis]
+    return component
+
+
+@njit(cache=True, nogil=True)
+def turn_hand(
+    shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
+) -> None:
+    """Set the last three joints so that the tool has a rotation; `frame` is scratch space, shape (3, 3)."""
+    frame[:] = 0.0
+    frame[0, 0] = frame[1, 1] = frame[2, 2] = 1.0
+    turn(frame, X, Y, joints[0])
+    turn(frame, Z, X, joints[1])
+    turn(frame, Y, Z, joints[2])
+    turn(frame, Z, X, joints[3])
+    ahead, left, up = _along(frame, aim, X), _along(frame, aim, Y), _along(frame, aim, Z)
+    sideways = math.hypot(left, up)
+    joints[4] = near[4] if sideways <= ANGLE_RAD else _unwound(math.atan2(-left, up), near[4])
+    joints[5] = _within(shape.wrist, -math.atan2(sideways, ahead))
+    turn(frame, Y, Z, joints[4])
+    turn(frame, Z, X, joints[5])
+    cos, sin = 0.0, 0.0
+    for row in range(3):
+        cos += frame[row, Y] * rotation[row, Y]
+        sin += frame[row, Z] * rotation[row, Y]
+    joints[6] = _unwound(math.atan2(sin, cos), near[6])
+
+
+@njit(cache=True, nogil=True)
+def _solve_on(
+    shape: ArmShape,
+    aim: ToolPose,
+    rotation: FloatArray,
+    near: FloatArray,
+    arc: FloatArray,
+    theta: float,
+    joints: FloatArray,
+    frame: FloatArray,
+) -> float:
+    """Set the joints at a point of an arc's curve; return the squared distance from `near`, or infinity."""
+    place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
+    turn_hand(shape, aim, rotation, near, joints, frame)
+    distance = 0.0
+    for i in range(7):
+        distance += (joints[i] - near[i]) * (joints[i] - near[i])
+    return math.inf if math.isnan(distance) else distance
+
+
+@njit(cache=True, nogil=True)
+def _theta_of(arc: FloatArray, pan: float) -> float:
+    """Return the angle of an arc's curve, on the first branch, where the pan is nearest to a given pan."""
+    return math.acos(min(max((arc[0] - pan) / max(arc[1], ANGLE_RAD), -1.0), 1.0))
+
+
+@njit(cache=True, nogil=True)
+def nearest_joints(
+    shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
+) -> tuple[bool, FloatArray]:
+    """Return whether any joints bring the tool to a pose, and those nearest to `near`, shape (7,)."""
+    aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
+    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    step = math.pi / SAMPLES
+    best_arc, best_theta = witness(shape, aim, arcs)
+    best = math.inf
+    if best_arc >= 0:
+        best = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    for arc in range(pan_arcs(shape, aim, arcs)):
+        present = _theta_of(arcs[arc], near[0])
+        for sample in range(-2, 2 * SAMPLES):
+            theta = (sample + 0.5) * step if sample >= 0 else (2 * sample + 3) * present
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            if distance < best:
+                best, best_arc, best_theta = distance, arc, theta
+    if best == math.inf:
+        return False, joints
+    while step > FINEST:
+        step *= 0.5
+        for theta in (best_theta - step, best_theta + step):
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)
+            if distance < best:
+                best, best_theta = distance, theta
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    return True, joints
+
+
+@njit(cache=True, nogil=True)
+def nearby_joints(
+    shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
+) -> tuple[bool, FloatArray]:
+    """Return whether joints near the present pan bring the tool to a pose, and those joints.
+
+    Like `nearest_joints`, but restricted to the neighbourhood, and by Gauss-Newton steps: for neighbouring poses of a
+    path.
+    """
+    aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
+    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    best, best_arc, best_theta = math.inf, -1, 0.0
+    for arc in range(pan_arcs(shape, aim, arcs)):
+        present = _theta_of(arcs[arc], near[0])
+        for theta in (present, -present):
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            if distance < best:
+                best, best_arc, best_theta = distance, arc, theta
+    if best_arc < 0:
+        return False, joints
+    ahead = np.empty(7)
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    while True:
+        step = _step_towards(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, ahead, frame)
+        is_nearer = False
+        while abs(step) > SETTLED and not is_nearer:
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta + step, ahead, frame)
+            is_nearer = distance < best
+            if is_nearer:
+                best, best_theta = distance, best_theta + step
+                joints[:] = ahead
+            step *= 0.5
+        if not is_nearer:
+            return True, joints
+
+
+@njit(cache=True, nogil=True)
+def _step_towards(
+    shape: ArmShape,
+    aim: ToolPose,
+    rotation: FloatArray,
+    near: FloatArray,
+    arc: FloatArray,
+    theta: float,
+    joints: FloatArray,
+    ahead: FloatArray,
+    frame: FloatArray,
+) -> float:
+    """Return how far along an arc's curve the linearised joints are nearest to `near` (rad).
+
+    `ahead` and `frame` are scratch space, shapes (7,) and (3, 3).
+    """
+    probe = PROBE
+    if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+        probe = -PROBE
+        if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+            return 0.0
+    along, squared = 0.0, 0.0
+    for i in range(7):
+        rate = (ahead[i] - joints[i]) / probe
+        along += rate * (near[i] - joints[i])
+        squared += rate * rate
+    if squared == 0.0:
+        return 0.0
+    return min(max(along / squared, -NEARBY), NEARBY)

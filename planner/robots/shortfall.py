@@ -1,0 +1,101 @@
+"""Why, and by how much, a place is not within the left arm's comfort radius.
+
+Everything is seen from the arm's shoulder (m), parallel to the base. The base may stand in several places: the place is
+given as it is seen from each.
+"""
+
+import math
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.shortfall import Cause, Shortfall
+from planner.robots.arm import ArmShape
+from planner.robots.kernel import reachable_batch
+from planner.robots.limiting_joint import limiting_joint
+from planner.robots.nearest_comfort import Wanted, aims_gap, is_hindered, nearest_comfort, widest_comfort
+
+FURTHEST_M = 0.8
+"""Largest displacement tried (m)."""
+
+SIDEWAYS = 0.1
+"""Fraction of a displacement below which its change of the distance to the shoulder counts as sideways."""
+
+_STRAIGHT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
+_SLANTING = tuple((x * math.sqrt(0.5), y * math.sqrt(0.5), 0.0) for x in (1.0, -1.0) for y in (1.0, -1.0))
+DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)))
+"""Directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
+
+_RING = np.array(_STRAIGHT)
+"""Directions from a point to the four on the comfort circle."""
+
+
+def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float) -> tuple[Shortfall, int]:
+    """Return the shortfall of a place that is not within the comfort radius from anywhere, and the queries made.
+
+    Args:
+        shape: the arm.
+        wanted: the requirements on the place, at least one approach; the shortfall's `approach` is an index into them.
+        points: the tool's position as seen from each place of the base, shape (n, 3).
+        at_most_m: the longest displacement tried, if less than `FURTHEST_M`.
+    """
+    furthest = min(at_most_m, FURTHEST_M)
+    short_by_m, seen_from, approach, direction, queries = nearest_comfort(shape, wanted, points, DIRECTIONS, furthest)
+    comfort, widest_from, widest_approach, more = widest_comfort(shape, wanted, points)
+    queries += more
+    is_at_least = seen_from < 0
+    if is_at_least:
+        seen_from, approach, short_by_m = _nearest_by_length(shape, wanted, points, furthest)
+    point, axis = points[seen_from], wanted.axes[approach]
+    towards = _homewards(point) if is_at_least else DIRECTIONS[direction]
+    joint, comfort_m = limiting_joint(shape, point, axis), None
+    cause: Cause = "too_far" if is_at_least else _cause(point, point - shape.tool * axis, towards, short_by_m)
+    if widest_from >= 0:
+        cause, comfort_m = "comfort_only", comfort
+        joint = _missed_on_ring(shape, points[widest_from], wanted.axes[widest_approach], wanted.comfort)
+        queries += len(_RING)
+    elif is_hindered(shape, wanted, points):
+        cause, joint = "own_body", None
+    return Shortfall(cause, joint, short_by_m, is_at_least, _as_point(towards), approach, seen_from, comfort_m), queries
+
+
+def _missed_on_ring(shape: ArmShape, point: FloatArray, axis: FloatArray, comfort_m: float) -> str | None:
+    """Return the joint that limits at an unreachable place of the comfort circle."""
+    ring = point + comfort_m * _RING
+    missed = ring[~reachable_batch(shape, ring, np.repeat(axis[None], len(ring), axis=0))]
+    return limiting_joint(shape, missed[0] if len(missed) else point, axis)
+
+
+def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m: float) -> Cause:
+    """Return why a point is out of reach that a displacement brings into it.
+
+    A point whose wrist is above the shoulder and must come down is too far, even where the tool hangs below.
+    """
+    further_m = np.linalg.norm(point + short_by_m * towards) - np.linalg.norm(point)
+    is_too_high = towards[2] < 0.0 and wrist[2] > 0.0
+    if is_too_high or further_m < -SIDEWAYS * short_by_m:
+        return "too_far"
+    return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"
+
+
+def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, furthest: float) -> tuple[int, int, float]:
+    """Return from where and how an unreachable place is nearest by length, and a lower bound on its shortfall.
+
+    The bound is the larger of what its wrist is beyond the arm (`planner.robots.arm_gap`) and `furthest`, up to which
+    all directions were tried.
+    """
+    approaches = range(len(wanted.axes))
+    gaps = np.array([[aims_gap(shape, wanted, point, approach) for approach in approaches] for point in points])
+    seen_from, approach = np.unravel_index(int(gaps.argmin()), gaps.shape)
+    return int(seen_from), int(approach), max(float(gaps.min()), furthest)
+
+
+def _homewards(point: FloatArray) -> FloatArray:
+    """Return the unit direction to the shoulder; straight ahead from the shoulder itself."""
+    distance = float(np.linalg.norm(point))
+    return -point / distance if distance > 0.0 else DIRECTIONS[0]
+
+
+def _as_point(direction: FloatArray) -> Point3:
+    x, y, z = (float(component) for component in direction)
+    return x, y, z

@@ -1,0 +1,70 @@
+"""An arm on its side of the robot: queries in the base frame, answered by the left arm's closed form."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.arm import MIRROR, ArmShape
+from planner.robots.inverse_kinematics import nearest_joints, tool_places, tool_pose
+from planner.robots.kernel import reachable_batch
+
+_MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
+_MIRRORED_ROTATION = np.outer(_MIRRORED_PLACE, _MIRRORED_PLACE)
+
+
+@dataclass(frozen=True, slots=True)
+class SidedArm:
+    """An arm of the robot.
+
+    Attributes:
+        shape: lengths and limits of the left arm.
+        is_mirrored: whether this is the right arm.
+    """
+
+    shape: ArmShape
+    is_mirrored: bool
+
+    def shoulder(self, torso_m: float) -> FloatArray:
+        """Return the shoulder of the left arm in the base frame (m), shape (3,)."""
+        return np.array([self.shape.shoulder_x, self.shape.shoulder_y, self.shape.shoulder_z + torso_m])
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        """Return points or directions, shape (..., 3), as the left arm sees them; a new array."""
+        return np.array(places * _MIRRORED_PLACE if self.is_mirrored else places, dtype=float, order="C")
+
+    def can_reach(self, positions: FloatArray, axes: FloatArray, torso_m: float) -> BoolArray:
+        """Return which tool points and approach axes, each of shape (n, 3) in the base frame, are within reach."""
+        points = self.mirrored_places(positions) - self.shoulder(torso_m)
+        return reachable_batch(self.shape, points, self.mirrored_places(axes))
+
+    def joints_near(
+        self, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
+    ) -> FloatArray | None:
+        """Return the joints nearest to `near`, shape (7,), with the tool at a pose in the base frame, or None."""
+        point = self.mirrored_places(position) - self.shoulder(torso_m)
+        found, joints = nearest_joints(self.shape, point, self.mirrored_rotations(rotation), self.mirrored_joints(near))
+        return self.mirrored_joints(joints) if found else None
+
+    def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
+        position, rotation = tool_pose(self.shape, self.mirrored_joints(joints))
+        return self.mirrored_places(position + self.shoulder(torso_m)), self.mirrored_rotations(rotation)
+
+    def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
+        """Return the tool's positions in the base frame for rows of joints, shape (n, 7) -> (n, 3), m."""
+        return self.mirrored_places(tool_places(self.shape, self.mirrored_joints(joints)) + self.shoulder(torso_m))
+
+    def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
+        """Return how high the elbow is above the floor (m)."""
+        _, lift, *_ = self.mirrored_joints(joints)
+        return float(self.shoulder(torso_m)[2] - self.shape.upper * np.sin(lift))
+
+    def mirrored_joints(self, joints: FloatArray) -> FloatArray:
+        """Return joints, shape (..., 7), as the left arm's, and back; a new array."""
+        return np.array(joints * MIRROR if self.is_mirrored else joints, dtype=float, order="C")
+
+    def mirrored_rotations(self, rotations: FloatArray) -> FloatArray:
+        """Return rotations, shape (..., 3, 3), as the left arm sees them; a new array."""
+        mirrored = rotations * _MIRRORED_ROTATION if self.is_mirrored else rotations
+        return np.array(mirrored, dtype=float, order="C")

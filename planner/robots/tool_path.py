@@ -1,0 +1,117 @@
+"""The path of an arm's tool, pose after pose, and joints near to known ones that follow it.
+
+At every pose the arm keeps to the known pan and branch of the elbow, and the other joints follow in closed form, so the
+tool is exactly on its path.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.joint_chain import filled, solutions
+from planner.robots.sided_arm import SidedArm
+
+IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
+"""A collision check: from the poses' indices (m,), their joints (m, 7) and a flag, tell which are free (m,).
+
+With the flag set only joints that are certainly free count, which is faster.
+"""
+
+_LEAP_RAD = 0.4
+"""Movement of a joint between neighbouring poses from which it counts as a jump (rad)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToolPath:
+    """The path of an arm's tool: poses a centimetre or a few degrees apart.
+
+    Attributes:
+        positions: base frame, shape (n, 3), m.
+        rotations: the tool's axes as columns, base frame, shape (n, 3, 3).
+        spans_s: the longest duration wanted for each step from pose to pose (s), shape (n - 1,); infinite where time
+            does not matter.
+        core: the first of the poses that matter, and the one after their last; the others only lead there and away.
+    """
+
+    positions: FloatArray
+    rotations: FloatArray
+    spans_s: FloatArray
+    core: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NoPath:
+    """The result of a search that found no path for an arm.
+
+    Attributes:
+        blocked: poses of the path's core, counted from its first, at which the arm collides in every posture; empty
+            where the path is only disconnected, shape (k,).
+        is_core: whether the core alone has no path either, whatever leads there and away.
+    """
+
+    blocked: NDArray[np.int64]
+    is_core: bool
+
+    @property
+    def is_hopeless(self) -> bool:
+        """Whether there is no path whatever leads there and away."""
+        return self.is_core or len(self.blocked) > 0
+
+
+def free_postures(
+    arm: SidedArm,
+    position: FloatArray,
+    rotation: FloatArray,
+    torso_m: float,
+    is_free: Callable[[FloatArray], BoolArray],
+) -> FloatArray:
+    """Return samples of an arm's joints that bring its tool to a pose and do not collide (rad), shape (k, 7).
+
+    Args:
+        arm: the arm.
+        position: the tool's position, base frame, shape (3,), m.
+        rotation: its axes, base frame, shape (3, 3).
+        torso_m: how far the torso is raised (m).
+        is_free: the check of which joints, shape (m, 7), do not collide.
+    """
+    place = arm.mirrored_places(position)[None] - arm.shoulder(torso_m)
+    joints, costs = solutions(arm.shape, place, arm.mirrored_rotations(rotation)[None], -np.inf)
+    able = arm.mirrored_joints(joints[0, np.isfinite(costs[0])])
+    return able[is_free(able)] if len(able) else able
+
+
+def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray) -> FloatArray | None:
+    """Return joints that keep a tool on a path, near to known joints: much faster than `ArmSearch`.
+
+    Args:
+        arm: the arm.
+        path: the tool's path.
+        torso_m: how far the torso is raised (m).
+        is_free: the check of which joints are collision-free.
+        known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
+
+    Returns:
+        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where no joints so near are valid, which says
+        nothing about others.
+    """
+    positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
+    joints, bad = joints_along(
+        arm, positions, arm.mirrored_rotations(path.rotations), arm.mirrored_joints(known), is_free
+    )
+    return None if len(bad) else joints
+
+
+def joints_along(
+    arm: SidedArm, positions: FloatArray, rotations: FloatArray, guides: FloatArray, is_free: IsFree
+) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Return the joints near guides at every pose, as the left arm sees both, and the poses where they are invalid."""
+    joints, is_found = filled(arm.shape, positions, rotations, guides)
+    leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
+    is_bad = ~is_found | np.append(leaps, False)
+    named = arm.mirrored_joints(joints)
+    if not is_bad.any():
+        is_bad = ~is_free(np.arange(len(positions)), named, False)
+    return named, np.flatnonzero(is_bad)

@@ -1,0 +1,118 @@
+"""Both arms along their tools' paths: exactly on them, past each other where one is in the other's way."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray
+from planner.geometry.table import Table
+from planner.robots.tool_path import IsFree, NoPath, ToolPath
+from tests.robots.collision_samples import FAR, ROBOT, TORSO_M
+
+TABLE_M = 0.79
+COLLISIONS = ROBOT.collisions(Table(), TORSO_M)
+LEAP_RAD = 0.4
+
+
+def line(start: tuple[float, float, float], end: tuple[float, float, float], yaw_deg: float) -> ToolPath:
+    """A straight way in 40 steps, the hand pointing down by 45 degrees."""
+    rotation = Approach(math.radians(yaw_deg), math.radians(45)).rotation
+    return ToolPath(np.linspace(start, end, 41), np.broadcast_to(rotation, (41, 3, 3)), np.full(40, np.inf), (0, 41))
+
+
+def is_free(arm: int) -> IsFree:
+    """The robot stands nowhere near the table."""
+    return lambda _, joints, is_certain: COLLISIONS.arm_free(arm, FAR, joints, is_certain=is_certain)
+
+
+def along(paths: tuple[ToolPath, ToolPath], both_arms=COLLISIONS) -> FloatArray | NoPath:
+    return ROBOT.arm_pair_path(paths, TORSO_M, TABLE_M, (is_free(0), is_free(1)), both_arms)
+
+
+def alone(paths: tuple[ToolPath, ToolPath]) -> FloatArray:
+    """How each arm would go if the other were not there."""
+    each = (ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free(arm)) for arm, path in enumerate(paths))
+    return np.stack([*each], axis=1)
+
+
+def require_followed(paths: tuple[ToolPath, ToolPath], joints: FloatArray) -> None:
+    assert joints.shape == (41, 2, 7)
+    for arm, path in enumerate(paths):
+        for at, position, rotation in zip(joints[:, arm], path.positions, path.rotations, strict=True):
+            found = ROBOT.tool_pose(arm, at, TORSO_M)
+            np.testing.assert_allclose(found[0], position, atol=1e-6)
+            np.testing.assert_allclose(found[1], rotation, atol=1e-6)
+    assert np.abs(np.diff(joints, axis=0)).max() < LEAP_RAD
+    assert COLLISIONS.free(FAR, joints).all()
+
+
+class Between:
+    """Arms in each other's way as somebody says."""
+
+    def __init__(self, is_apart) -> None:
+        self._is_apart = is_apart
+
+    def arms_apart(self, joints: FloatArray) -> BoolArray:
+        return np.array([self._is_apart(left, right) for left, right in joints], dtype=bool)
+
+    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        return np.array([[self._is_apart(a, b) for b in right] for a in left], dtype=bool)
+
+
+APART = (line((0.6, 0.4, 0.9), (0.7, 0.2, 0.9), 0.0), line((0.6, -0.4, 0.9), (0.7, -0.2, 0.9), 0.0))
+
+
+def test_arms_that_are_not_in_each_others_way_go_as_they_would_alone():
+    joints = along(APART)
+    require_followed(APART, joints)
+    np.testing.assert_array_equal(joints, alone(APART))
+
+
+@pytest.mark.parametrize("gap_m", [0.12, 0.16])
+def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: float):
+    # The left hand goes to the right and the right one to the left, one behind the other.
+    paths = (
+        line((0.62 + gap_m, 0.25, 0.9), (0.62 + gap_m, -0.1, 0.9), 0.0),
+        line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0),
+    )
+    assert not COLLISIONS.arms_apart(alone(paths)).all(), "else nothing is to be found"
+    require_followed(paths, along(paths))
+
+
+def test_where_neither_can_go_as_it_would_alone_both_give_way():
+    # Elbows by the arms' pans: what both together may have is less than either has by itself.
+    calm = along(APART)
+    room = [np.abs(calm[:, arm, 0]).max() for arm in (0, 1)]
+    assert min(room) > 0.3
+    most = 0.7 * min(room)
+
+    def is_apart(left: FloatArray, right: FloatArray) -> bool:
+        return abs(left[0]) < most and abs(right[0]) < most
+
+    joints = along(APART, Between(is_apart))
+    require_followed(APART, joints)
+    assert (np.abs(joints[:, :, 0]) < most).all()
+
+
+def test_the_room_that_one_needs_is_left_to_it_by_the_other():
+    # Together the pans may not be wider than a little less than what both would take: each alone could keep its own.
+    calm = along(APART)
+    most = 0.9 * (calm[:, 0, 0] - calm[:, 1, 0]).max()
+    joints = along(APART, Between(lambda left, right: left[0] - right[0] < most))
+    require_followed(APART, joints)
+    assert (joints[:, 0, 0] - joints[:, 1, 0] < most).all()
+
+
+def test_where_they_touch_whatever_they_do_every_pose_that_was_asked_is_blocked():
+    found = along(APART, Between(lambda left, right: False))
+    assert isinstance(found, NoPath)
+    assert len(found.blocked) and found.is_core
+
+
+def test_where_one_arm_has_no_way_by_itself_that_is_told():
+    # An arm is 0.951 m long ahead of the base's middle at most (see `test_arm_path`).
+    paths = (line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 0.0), APART[1])
+    found = along(paths)
+    assert isinstance(found, NoPath)
+    assert {36, 39, 40} <= set(found.blocked.tolist())

@@ -1,0 +1,208 @@
+"""Joints along a tool's path: exactly on it, within their limits, without a leap, round what is forbidden."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray
+from planner.robots.arm import MIRROR
+from planner.robots.pr2 import load_robot
+from planner.robots.tool_path import NoPath, ToolPath
+from tests.robots.model import limits, pin_tool_pose
+
+ROBOT = load_robot("pr2")
+CARD = ROBOT.card
+TORSO_M, TABLE_M = 0.29, 0.79
+PITCHES_DEG = (30, 45, 60, 90)
+LEAP_RAD = 0.4
+FREE_M = 0.15
+"""A left tool may come nearer to the base's middle line than its shoulder is."""
+
+SIDEWAYS = np.array([1.0, -1.0, 1.0])
+
+
+def line(start: tuple[float, float, float], end: tuple[float, float, float], pitch_deg: float) -> ToolPath:
+    """A straight way in steps of a centimetre, in one orientation, on which time does not press."""
+    count = math.ceil(math.dist(start, end) / 0.01) + 1
+    rotation = Approach(0.0, math.radians(pitch_deg)).rotation
+    return ToolPath(
+        np.linspace(start, end, count),
+        np.broadcast_to(rotation, (count, 3, 3)),
+        np.full(count - 1, np.inf),
+        (0, count),
+    )
+
+
+def across(pitch_deg: float) -> ToolPath:
+    """Over the table, from the left arm's side to the middle, 0.28 m."""
+    return line((0.55, 0.35, 0.9), (0.75, FREE_M, 0.9), pitch_deg)
+
+
+def mirrored(path: ToolPath) -> ToolPath:
+    """The path that the other arm sees: y is turned round, and so is the side of the hand."""
+    rotations = path.rotations * np.outer(SIDEWAYS, SIDEWAYS)
+    return replace(path, positions=path.positions * SIDEWAYS, rotations=rotations)
+
+
+def everywhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    return np.ones(len(joints), dtype=bool)
+
+
+def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    return np.zeros(len(joints), dtype=bool)
+
+
+def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | NoPath:
+    return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free)
+
+
+def found_near(path: ToolPath, known: FloatArray, is_free=everywhere, arm: int = 0) -> FloatArray | None:
+    return ROBOT.arm_path_near(arm, path, TORSO_M, is_free, known)
+
+
+def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
+    """The tool is where it must be at every pose, joints are within their limits, and none leaps."""
+    low, high = limits(CARD, arm)
+    assert joints.shape == (len(path.positions), 7)
+    for at, position, rotation in zip(joints, path.positions, path.rotations, strict=True):
+        for pose in (ROBOT.tool_pose(arm, at, TORSO_M), pin_tool_pose(CARD, arm, at, TORSO_M)):
+            np.testing.assert_allclose(pose[0], position, atol=1e-6)
+            np.testing.assert_allclose(pose[1], rotation, atol=1e-6)
+    assert (joints >= low - 1e-9).all() and (joints <= high + 1e-9).all()
+    assert np.abs(np.diff(joints, axis=0)).max() < LEAP_RAD
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+@pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
+def test_the_tool_is_on_its_path_at_every_pose(pitch_deg, arm):
+    path = across(pitch_deg) if arm == 0 else mirrored(across(pitch_deg))
+    require_followed(path, found(path, arm=arm), arm)
+
+
+def test_so_it_is_on_random_lines():
+    rng, followed = np.random.default_rng(11), 0
+    for _ in range(30):
+        start, end = rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2)), rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2))
+        path = line(tuple(start), tuple(end), rng.choice(PITCHES_DEG))
+        joints = found(path)
+        is_path = not isinstance(joints, NoPath)
+        if is_path:
+            require_followed(path, joints)
+            followed += 1
+        assert is_path or not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
+    assert followed > 15
+
+
+def test_a_hand_that_turns_over_is_followed_too():
+    path = line((0.6, 0.3, 0.9), (0.6, 0.3, 1.1), 30)
+    turns = np.linspace(0.0, math.pi, len(path.positions))
+    about_x = np.array([[[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]] for a in turns])
+    rolled = replace(path, rotations=path.rotations @ about_x)
+    require_followed(rolled, found(rolled))
+
+
+def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside():
+    # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead. The
+    # path goes on to 1 m; of its 41 poses, 1 cm apart from 0.6 m on, every third and the last are looked at.
+    blocked = found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)).blocked
+    assert {36, 39, 40} <= set(blocked) <= {27, 30, 33, 36, 39, 40}, (
+        "what is nearer than 0.86 m is in reach at any rate"
+    )
+
+
+def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked():
+    assert found(across(45), nowhere).blocked.tolist() == [*range(0, 29, 3), 29]
+
+
+def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way():
+    # Of the 41 poses those from 0.88 m on, the 29th and later, may be out of reach, those to the 27th are not.
+    path = line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)
+    nearer, farther = (found(replace(path, core=core)) for core in ((0, 27), (30, 41)))
+    assert not len(nearer.blocked) and not nearer.is_core
+    assert {6, 9, 10} <= set(farther.blocked) <= {0, 3, 6, 9, 10} and farther.is_core
+
+
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
+    path = across(45)
+    wall_rad = 0.6
+
+    def beside(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return joints[:, 0] < wall_rad
+
+    calm, other = found(path), found(path, beside)
+    assert calm[:, 0].max() > wall_rad, "else the wall is in nobody's way"
+    require_followed(path, other)
+    assert other[:, 0].max() < wall_rad
+
+
+def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
+    path = across(45)
+    middle = len(path.positions) // 2
+
+    def gate(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return (np.abs(poses - middle) > 2) | (joints[:, 0] < 0.5)
+
+    calm, other = found(path), found(path, gate)
+    assert calm[middle, 0] > 0.5, "else the gate is wide enough"
+    require_followed(path, other)
+    assert other[middle - 2 : middle + 3, 0].max() < 0.5
+
+
+def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
+    # Asked for certainty nothing is free: samples may be struck out for that only where the path found collides.
+    path = across(45)
+
+    def doubtful(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        return np.full(len(joints), not is_certain)
+
+    np.testing.assert_array_equal(found(path, doubtful), found(path))
+
+
+@pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
+def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg):
+    path = across(pitch_deg)
+    np.testing.assert_allclose(found(mirrored(path), arm=1), found(path) * MIRROR, atol=1e-9)
+
+
+def test_so_has_what_goes_round_a_wall():
+    path = across(45)
+    left = found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6)
+    right = found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1)
+    np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
+
+
+def test_elbows_stay_above_the_table_where_they_can():
+    for pitch_deg in PITCHES_DEG:
+        joints = found(across(pitch_deg))
+        assert min(ROBOT.elbow_height(0, at, TORSO_M) for at in joints) > TABLE_M
+
+
+def test_where_known_joints_still_do_they_are_kept():
+    path = across(45)
+    known = found(path)
+    shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
+    near = found_near(shifted, known)
+    require_followed(shifted, near)
+    np.testing.assert_allclose(near, known, atol=0.05)
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm):
+    path = across(45) if arm == 0 else mirrored(across(45))
+    known = found(path, arm=arm)
+    barred = known[-1, 0]
+
+    def is_free(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+        """At the last five poses the pan must not be what it was."""
+        return (np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1)
+
+    assert found_near(path, known, is_free, arm) is None
+    require_followed(path, found(path, is_free, arm), arm)
+
+
+def test_what_is_out_of_reach_is_near_to_nothing():
+    path = across(45)
+    beyond = replace(path, positions=path.positions + np.array([1.0, 0.0, 0.0]))
+    assert found_near(beyond, found(path)) is None

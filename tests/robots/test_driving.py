@@ -1,0 +1,161 @@
+"""The least driving with which hands follow their paths, against Dijkstra's search over every place in comfort."""
+
+from dataclasses import dataclass
+from itertools import product
+
+import networkx as nx
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from planner.geometry.driving import IMPOSSIBLE, Driving
+from planner.robots.approaches import APPROACHES
+from planner.robots.pr2 import load_robot
+from planner.robots.reach import Pr2Reach
+
+ROBOT = load_robot("pr2")
+TORSO_M = 0.29
+STEP_M = 0.05
+COUNT = 17
+AHEAD = np.array([i for i, a in enumerate(APPROACHES) if abs(a.heading_rad) < 1.0])
+
+
+@dataclass(frozen=True)
+class Case:
+    """Hands on paths, and where the base may begin."""
+
+    arms: tuple[int, ...]
+    paths: NDArray[np.float64]
+    approaches: tuple[NDArray[np.int64], ...]
+    begun: NDArray[np.int64]
+
+
+def cases(seed: int, count: int) -> list[Case]:
+    """One or two hands that fold a flap over, away from the robot or to a side, with free hands or holding on."""
+    rng = np.random.default_rng(seed)
+    return [_case(rng) for _ in range(count)]
+
+
+def _case(rng: np.random.Generator) -> Case:
+    arms = tuple(rng.permutation(2)[: rng.integers(1, 3)].tolist())
+    turn = np.linspace(0.0, np.pi, 7)
+    length, heading = rng.uniform(0.05, 0.35), rng.uniform(-1.0, 1.0)
+    x, y = rng.uniform(0.1, 0.6), rng.uniform(-0.2, 0.2)
+    along = length * (1.0 - np.cos(turn))
+    path = np.stack((x + along * np.cos(heading), y + along * np.sin(heading), 0.81 + length * np.sin(turn)), axis=1)
+    beside = np.array([0.0, rng.uniform(0.1, 0.5), 0.0])
+    paths = np.array([path + (beside if arm == 0 else -beside) for arm in arms])
+    allowed = tuple(rng.permutation(AHEAD)[:4] for _ in arms)
+    back_off = int(rng.integers(COUNT))
+    begun = np.abs(np.arange(COUNT) - back_off)
+    if rng.random() < 0.5:
+        begun[begun > 0] = IMPOSSIBLE
+    return Case(arms, np.round(paths, 5), allowed, begun)
+
+
+def asked(reach: Pr2Reach, case: Case) -> Driving:
+    return reach.following(case.arms, case.paths, case.approaches, STEP_M).least_driving(case.begun)
+
+
+def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
+    """For each hand whether each approach has each waypoint in comfort from each back-off, one place at a time."""
+    back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
+    found = []
+    for arm, path, allowed in zip(case.arms, case.paths, case.approaches, strict=True):
+        places = (path[:, None, :] + back).reshape(-1, 3)
+        found.append(reach.from_anywhere(arm, places, allowed, 1, STEP_M).reshape(len(allowed), len(path), COUNT))
+    return found
+
+
+def dijkstra(is_good: NDArray[np.bool_], begun: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The least steps to each back-off at the last waypoint; `is_good` of shape (waypoints, COUNT)."""
+    graph, last = nx.DiGraph(), len(is_good) - 1
+    graph.add_node("start")
+    for waypoint, j in zip(*np.nonzero(is_good), strict=True):
+        if waypoint == 0 and begun[j] < IMPOSSIBLE:
+            graph.add_edge("start", (0, j), weight=int(begun[j]))
+        if waypoint < last and is_good[waypoint + 1, j]:
+            graph.add_edge((waypoint, j), (waypoint + 1, j), weight=0)
+        for beside in (j - 1, j + 1):
+            if 0 <= beside < COUNT and is_good[waypoint, beside]:
+                graph.add_edge((waypoint, j), (waypoint, beside), weight=1)
+    steps = nx.single_source_dijkstra_path_length(graph, "start")
+    return np.array([steps.get((last, j), IMPOSSIBLE) for j in range(COUNT)])
+
+
+def least(reach: Pr2Reach, case: Case) -> NDArray[np.int64]:
+    """The least steps to each end over all combinations of approaches."""
+    hands = comfort(reach, case)
+    ways = [dijkstra(np.logical_and.reduce(good), case.begun) for good in product(*hands)]
+    return np.min(ways, axis=0)
+
+
+def unbeaten(steps: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The ends that cannot be had in as few steps by driving on from another."""
+    beaten = [any(steps[o] + abs(o - e) <= steps[e] for o in range(COUNT) if o != e) for e in range(COUNT)]
+    return np.where(beaten, IMPOSSIBLE, steps)
+
+
+@pytest.mark.parametrize("comfort_m", [0.0, 0.03])
+def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(comfort_m: float):
+    naive, driven = ROBOT.reach(TORSO_M, comfort_m), 0
+    for case in cases(1, 60):
+        expected = least(naive, case)
+        following = ROBOT.reach(TORSO_M, comfort_m).following(case.arms, case.paths, case.approaches, STEP_M)
+        np.testing.assert_array_equal(following.least_driving(case.begun, wanted="every").steps, expected)
+        found = following.least_driving(case.begun)
+        np.testing.assert_array_equal(found.steps, unbeaten(expected))
+        assert found.more == IMPOSSIBLE
+        driven += 0 < expected.min() < IMPOSSIBLE
+    assert driven > 10, "some cases need driving"
+
+
+def test_an_answer_can_be_driven_in_its_approaches_from_where_it_says():
+    reach = ROBOT.reach(TORSO_M, 0.03)
+    ends = 0
+    for case in cases(2, 90):
+        found = asked(reach, case)
+        hands = comfort(reach, case)
+        for end in found.ends:
+            ends += 1
+            is_good = np.logical_and.reduce([good[n] for good, n in zip(hands, found.choice[:, end], strict=True)])
+            alone = np.full(COUNT, IMPOSSIBLE)
+            alone[found.first[end]] = case.begun[found.first[end]]
+            assert dijkstra(is_good, alone)[end] == found.steps[end]
+            chosen = found.approaches(end, case.approaches)
+            assert all(a in allowed for a, allowed in zip(chosen, case.approaches, strict=True))
+    assert ends > 30
+
+
+@pytest.mark.parametrize("most", [0, 1, 3, 8])
+def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int):
+    reach = ROBOT.reach(TORSO_M, 0.03)
+    for case in cases(3, 60):
+        everything = asked(reach, case).steps
+        early = reach.following(case.arms, case.paths, case.approaches, STEP_M).least_driving(case.begun, most)
+        np.testing.assert_array_equal(early.steps, np.where(everything <= most, everything, IMPOSSIBLE))
+        left = everything[(everything > most) & (everything < IMPOSSIBLE)]
+        assert early.more > most
+        assert early.more <= left.min(initial=IMPOSSIBLE)
+
+
+def test_just_any_end_is_found_exactly_where_there_is_one():
+    reach, found = ROBOT.reach(TORSO_M, 0.03), []
+    for case in cases(4, 60):
+        following = reach.following(case.arms, case.paths, case.approaches, STEP_M)
+        found.append(bool(following.least_driving(case.begun, wanted="any").ends))
+        assert found[-1] == bool(asked(reach, case).ends)
+    assert 10 < sum(found) < 50
+
+
+def test_the_best_approaches_are_taken_where_the_base_need_not_drive():
+    """Straight ahead, 30 degrees down, a short fold half a metre ahead: any approach will do, so the first is taken."""
+    turn = np.linspace(0.0, np.pi, 7)
+    path = np.stack((0.55 + 0.05 * (1.0 - np.cos(turn)), 0.2 + 0.0 * turn, 0.85 + 0.05 * np.sin(turn)), axis=1)
+    natural = [i for i, a in enumerate(APPROACHES) if a.heading_rad == 0.0 and not a.is_vertical]
+    reach, begun = ROBOT.reach(TORSO_M, 0.0), np.abs(np.arange(COUNT))
+    for first in natural:
+        allowed = np.array([first, *(other for other in natural if other != first)])
+        found = reach.following((0,), path[None], (allowed,), STEP_M).least_driving(begun)
+        assert found.ends == [0] and found.steps[0] == 0
+        assert found.approaches(0, (allowed,)) == (first,)

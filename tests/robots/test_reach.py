@@ -1,0 +1,228 @@
+"""What the robot says it can reach, against forward kinematics and against the naive way of asking."""
+
+import numpy as np
+import pytest
+
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import Approach
+from planner.robots import comfort, comfort_reach
+from planner.robots.approaches import APPROACHES
+from planner.robots.arm import read_arm
+from planner.robots.pr2 import load_robot
+from planner.robots.reach import Pr2Reach
+from planner.robots.sided_arm import SidedArm
+from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints
+
+ROBOT = load_robot("pr2")
+CARD = ROBOT.card
+TORSO_M = 0.29
+STEP_M = 0.05
+COUNT = 17
+EVERY_APPROACH = np.arange(len(APPROACHES))
+
+
+def bodiless(comfort_m: float) -> Pr2Reach:
+    """The reach of the arms alone, with no body in their way: what the naive loop finds."""
+    arms = tuple(SidedArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
+    return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m)
+
+
+def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down():
+    assert len(APPROACHES) == 4 * 13 + 1
+    assert [approach for approach in APPROACHES if approach.is_vertical] == [Approach(0.0, np.pi / 2)]
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_every_pose_of_a_configuration_within_limits_is_reachable(arm):
+    rng = np.random.default_rng(11)
+    poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
+    positions, rotations = (np.array(part) for part in zip(*poses, strict=True))
+    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    assert answers.mean() >= 0.9995
+    for i in np.flatnonzero(~answers):
+        around = positions[i] + 0.01 * np.vstack((np.eye(3), -np.eye(3)))
+        assert not ROBOT.can_reach(arm, around, np.repeat(rotations[i : i + 1], 6, axis=0), TORSO_M).all()
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_everything_reachable_has_joints_within_limits_that_reach_it(arm):
+    rng = np.random.default_rng(12)
+    positions = rng.uniform((-0.2, -1.1, 0.2), (1.0, 1.1, 1.8), (4000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    assert 300 < answers.sum() < 2000
+    low, high = limits(CARD, arm)
+    for position, rotation in zip(positions[answers], rotations[answers], strict=True):
+        joints = ROBOT.joints_near(arm, position, rotation, TORSO_M, ROBOT.home(arm))
+        assert joints is not None
+        assert np.all((low <= joints) & (joints <= high))
+        reached, turned = pin_tool_pose(CARD, arm, joints, TORSO_M)
+        assert max(abs(reached - position).max(), abs(turned - rotation).max()) < 1e-6
+
+
+def test_mirrored_questions_have_the_same_answer():
+    rng = np.random.default_rng(13)
+    mirror = np.array([1.0, -1.0, 1.0])
+    positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (5000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    left = ROBOT.can_reach(0, positions, rotations, TORSO_M)
+    right = ROBOT.can_reach(1, positions * mirror, mirror[:, None] * rotations * mirror, TORSO_M)
+    np.testing.assert_array_equal(left, right)
+
+
+def test_rolling_the_tool_about_its_axis_changes_nothing():
+    rng = np.random.default_rng(14)
+    positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (2000, 3))
+    rotations = np.array([_random_rotation(rng) for _ in positions])
+    rolled = rotations[:, :, [0, 2, 1]] * np.array([1.0, 1.0, -1.0])
+    np.testing.assert_array_equal(
+        ROBOT.can_reach(0, positions, rotations, TORSO_M), ROBOT.can_reach(0, positions, rolled, TORSO_M)
+    )
+
+
+@pytest.mark.parametrize("comfort_m", [0.0, 0.03])
+@pytest.mark.parametrize("arm", [0, 1])
+def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
+    asked = bodiless(comfort_m)
+    for points in _paths(np.random.default_rng(15)):
+        masks = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        np.testing.assert_array_equal(masks, _naive_masks(arm, points, comfort_m))
+        again = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        np.testing.assert_array_equal(masks, again)
+
+
+@pytest.mark.parametrize("comfort_m", [0.0, 0.03])
+@pytest.mark.parametrize("arm", [0, 1])
+def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
+    asked = bodiless(comfort_m)
+    points = np.vstack(list(_paths(np.random.default_rng(20))))
+    few = 3
+    expected = _naive_comfort(arm, points, comfort_m)[:, :, :few].any(axis=2)
+    assert expected.any() and not expected.all()
+    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
+    queries = asked.queries
+    assert queries > 0
+    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
+    assert asked.queries == queries
+
+
+def test_from_anywhere_and_back_offs_share_what_they_remember():
+    asked = bodiless(0.03)
+    point = np.array([[0.3, 0.1, 0.9]])
+    masks = asked.back_offs(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    anywhere = asked.from_anywhere(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    np.testing.assert_array_equal(anywhere, masks != 0)
+    assert asked.queries == queries
+
+
+def test_what_was_asked_before_is_not_queried_again():
+    asked = bodiless(0.03)
+    points = next(_paths(np.random.default_rng(16)))
+    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    assert queries > 0
+    assert asked.query_time_s > 0.0
+    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    assert asked.queries == queries
+
+
+def test_the_right_arm_profits_from_what_the_left_one_was_asked():
+    asked = bodiless(0.03)
+    points = next(_paths(np.random.default_rng(17)))
+    left = asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    queries = asked.queries
+    by_direction = {(a.heading_rad, a.pitch_rad): i for i, a in enumerate(APPROACHES)}
+    mirrored = np.array([by_direction[-a.heading_rad, a.pitch_rad] for a in APPROACHES])
+    right = asked.back_offs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
+    np.testing.assert_array_equal(left, right)
+    assert asked.queries == queries
+
+
+def test_a_full_memory_changes_no_answer(monkeypatch):
+    usual = bodiless(0.03)
+    tiny = comfort.empty_memory(size_bits=2)
+    monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
+    forgetful = bodiless(0.03)
+    for points in _paths(np.random.default_rng(18)):
+        np.testing.assert_array_equal(
+            forgetful.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+            usual.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+        )
+
+
+def test_no_points_have_no_back_offs():
+    masks = bodiless(0.0).back_offs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
+    assert masks.shape == (len(APPROACHES), 0)
+
+
+def test_what_cannot_be_asked_is_refused():
+    with pytest.raises(SceneError, match="torso_m"):
+        ROBOT.reach(0.5, 0.03)
+    with pytest.raises(RequestError, match="comfort_m"):
+        ROBOT.reach(0.1, -0.01)
+    with pytest.raises(ValueError, match="33"):
+        ROBOT.reach(0.1, 0.0).back_offs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
+
+
+def test_a_back_off_beyond_a_gap_does_not_count():
+    """The base cannot drive through a place from which the tool, resting, is out of reach."""
+    asked = bodiless(0.0)
+    for points in _paths(np.random.default_rng(19)):
+        shifted = points + np.array([0.4, 0.0, 0.0])
+        path = np.vstack([points[:1], shifted[-1:]])
+        free = asked.back_offs(0, shifted[-1:], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        start = asked.back_offs(0, points[:1], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        followed = asked.back_offs(0, path, EVERY_APPROACH, COUNT, STEP_M)
+        for row, first, last in zip(followed, start, free, strict=True):
+            expected = _connected(int(first), int(last))
+            assert int(row[1]) == expected
+            assert int(row[0]) == (int(first) if expected else 0)
+
+
+def _connected(seeds: int, mask: int) -> int:
+    """The bits of a mask that hang together with a seed bit in it."""
+    found = seeds & mask
+    while True:
+        grown = (found | found << 1 | found >> 1) & mask
+        if grown == found:
+            return found
+        found = grown
+
+
+def _paths(rng: np.random.Generator):
+    """Half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
+    for _ in range(6):
+        turn = np.linspace(0.0, np.pi, 5)
+        x, y, radius = rng.uniform(0.1, 0.7), rng.uniform(-0.3, 0.3), rng.uniform(0.05, 0.2)
+        heights = 0.79 + radius * np.sin(turn)
+        yield np.round(np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1), 5)
+
+
+def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
+    """One query for each approach, point, back-off and comfort point, nothing left out."""
+    masks = np.zeros((len(APPROACHES), len(points)), dtype=np.uint32)
+    for index, comfortable in enumerate(_naive_comfort(arm, points, comfort_m)):
+        row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1)]
+        arrived = [row[0]] if row else []
+        for mask in row[1:]:
+            arrived.append(_connected(arrived[-1], mask))
+        masks[index] = arrived if all(arrived) else 0
+    return masks
+
+
+def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
+    """Whether each approach has each point in comfort from each back-off, shape (k, n, COUNT)."""
+    ring = comfort_m * np.array([(0, 0, 0), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
+    back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
+    asked = (points[:, None, None, :] + back[:, None, :] + ring).reshape(-1, 3)
+    answers = [
+        ROBOT.can_reach(arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
+        for approach in APPROACHES
+    ]
+    return np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3)
+
+
+def _random_rotation(rng: np.random.Generator) -> np.ndarray:
+    rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    return rotation * np.linalg.det(rotation)
