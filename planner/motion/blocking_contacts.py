@@ -1,6 +1,6 @@
 """Find the contact that blocks a motion, and how deep it is even in the best postures.
 
-At some moments of the motion, every posture that brings an arm's tool to its pose is tested alone, then both arms'
+At some moments of the motion, every posture that brings an arm's tool to its pose is tested alone, then all arms'
 postures together. At each moment the posture of least penetration counts; the moment at which that is deepest tells
 what blocks the motion. If some posture is free at every moment, the postures are merely not connected by a path, and
 there is no contact to report.
@@ -16,12 +16,13 @@ from planner.motion.moments import Moments
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.primitives.obstacle import BlockingContact
 from planner.robots.collision.contact import Contact
+from planner.robots.joint_layout import JointLayout
 
 _MOMENTS = 16
 """The number of moments tested."""
 
 _POSTURES, _POSTURES_TOGETHER = 16, 5
-"""The postures tested of an arm alone, and of each arm when both are tested together."""
+"""The postures tested of an arm alone, and of each arm when several are tested together."""
 
 
 class BlockingContacts:
@@ -33,7 +34,7 @@ class BlockingContacts:
         self._collisions = collisions
         self._torso_m = torso_m
         self._height_m = height_m
-        self._homes = np.array([machine.home(arm) for arm in range(len(machine.card.arms))])
+        self._layout = JointLayout.of(machine.card)
 
     def of(self, moments: Moments) -> BlockingContact | None:
         """Return the contact that blocks a motion; None where no contact does so by itself."""
@@ -46,7 +47,7 @@ class BlockingContacts:
         return None
 
     def _postures(self, moments: Moments, moment: int) -> dict[int, FloatArray]:
-        """Return the postures that bring each arm that holds cloth to its tool pose, shape (k, 7)."""
+        """Return the postures that bring each arm that holds cloth to its tool pose, a row each."""
         return {
             int(arm): self._machine.free_postures(
                 int(arm),
@@ -61,17 +62,22 @@ class BlockingContacts:
     def _least_alone(self, moments: Moments, moment: int, postures: dict[int, FloatArray]) -> Iterator[BlockingContact]:
         """Yield, for each arm that touches something in every posture, the least of its contacts."""
         for arm, able in postures.items():
-            tried = np.broadcast_to(self._homes, (len(able), *self._homes.shape)).copy()
-            tried[:, arm] = able
+            tried = self._layout.at_home(len(able))
+            tried[:, self._layout.spans[arm]] = able
             yield from self._least(moments, moment, arm, _some(tried, _POSTURES))
 
     def _least_together(
         self, moments: Moments, moment: int, postures: dict[int, FloatArray]
     ) -> Iterator[BlockingContact]:
         """Yield the least contact if the arms touch something in every combination of their postures."""
+        if len(postures) < 2:
+            return
         some = [_some(able, _POSTURES_TOGETHER) for able in postures.values()]
-        if len(some) == len(self._homes):
-            yield from self._least(moments, moment, min(postures), np.array([*product(*some)]))
+        combined = np.array([np.concatenate(chosen) for chosen in product(*some)])
+        tried = self._layout.at_home(len(combined))
+        if len(tried):
+            tried[:, self._layout.joints_of(sorted(postures))] = combined
+        yield from self._least(moments, moment, min(postures), tried)
 
     def _least(self, moments: Moments, moment: int, arm: int, postures: FloatArray) -> Iterator[BlockingContact]:
         base = Pose2.of(moments.bases[moment])

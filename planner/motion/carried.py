@@ -17,12 +17,12 @@ class Carried:
         moments: the moments while cloth is held.
         cloths: the cloth on the table before and after.
         bases: the base at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
-        joints: every arm's joints (rad), shape (steps, arms, 7). Arms that take no part are at home; those that have
+        joints: every arm's joints (rad), shape (steps, joints). Arms that take no part are at home; those that have
             let go wait where they withdrew to.
         first: the step at which the hands reach the grips: the first of the moments.
         lines: how the hands approach and withdraw.
-        half_turns: the extra turn of each hand about its approach axis (rad), 0 or pi, shape (arms,). The two fingers
-            are interchangeable, so each hand is turned the way that is nearer to home.
+        half_turns: the extra turn of the joints that turn hands about their approach axes (rad), 0 or pi, shape
+            (joints,). The two fingers are interchangeable, so each hand is turned the way that is nearer to home.
     """
 
     moments: Moments
@@ -39,7 +39,7 @@ class Carried:
         return self.first + len(self.moments) - 1
 
     def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
-        """Return its joints as guides for a transfer that differs a little, shape (steps, arms, 7).
+        """Return its joints as guides for a transfer that differs a little, shape (steps, joints).
 
         Args:
             first: the step of that transfer at which the hands reach the grips.
@@ -52,8 +52,6 @@ class Carried:
         leaving = np.linspace(self.last, len(self.joints) - 1.0, steps - first - len(new) + 1)[1:]
         places = np.concatenate([coming, held, leaving])
         before = np.minimum(places.astype(np.int64), len(self.joints) - 1)
-        along = (places - before)[:, None, None]
+        along = (places - before)[:, None]
         after = np.minimum(before + 1, len(self.joints) - 1)
-        found = np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after])
-        found[:, :, -1] -= self.half_turns
-        return found
+        return np.asarray((1.0 - along) * self.joints[before] + along * self.joints[after] - self.half_turns)

@@ -1,8 +1,9 @@
-"""Find joint paths for a transfer: both arms from before their grips, along the cloth's path, to after letting go."""
+"""Find joint paths for a transfer: all arms from before their grips, along the cloth's path, to after letting go."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from itertools import combinations
 from typing import TypeAlias
 
 import numpy as np
@@ -15,6 +16,7 @@ from planner.motion.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Lead
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.moments import Moments
 from planner.motion.robot_port import Collisions, RobotPort
+from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 
 _STEEP = 0.6
@@ -64,7 +66,8 @@ class Carrier:
         self._collisions = collisions
         self._torso_m = torso_m
         self._height_m = height_m
-        self._arms = len(machine.card.arms)
+        self._layout = JointLayout.of(machine.card)
+        self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
         self._searched = lru_cache(_RUNS_KEPT)(self._search)
         self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
         self._are_apart = lru_cache(_PLACES_KEPT)(self._search_apart)
@@ -113,15 +116,17 @@ class Carrier:
         are_same_arms = np.array_equal(moments.is_used, like.moments.is_used)
         if not are_same_arms or like.lines.roll_rad not in _rolls(moments):
             return None
-        leads = Leads.of(moments, like.lines, self._height_m, self._has_room, cloths)
-        joints, guides = self._at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
-        for lead, is_free in zip(leads.each, self._are_free(leads, cloths), strict=True):
-            known = guides[:, lead.arm]
-            found = self._machine.arm_path_near(lead.arm, lead.path, self._torso_m, is_free, known)
+        leads = self._leads(moments, like.lines, cloths)
+        joints, guides = self._layout.at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
+        are_free = self._are_free(leads, cloths)
+        for lead in leads.each:
+            span = self._layout.spans[lead.arm]
+            known = guides[:, span]
+            found = self._machine.arm_path_near(lead.arm, lead.path, self._torso_m, are_free[lead.arm], known)
             if found is None:
                 return None
-            joints[:, lead.arm] = found
-        if len(leads.each) > 1 and not self._collisions.arms_apart(joints).all():
+            joints[:, span] = found
+        if len(leads.each) > 1 and not self._are_all_apart(joints):
             return None
         return self._half_turned(leads, moments, cloths, joints, like.lines)
 
@@ -131,48 +136,57 @@ class Carrier:
         Where there is no path, return the moments at which an arm collides in every posture, or cannot pass the other.
         """
         moments, cloths = asked.moments, asked.cloths
-        leads = Leads.of(moments, lines, self._height_m, self._has_room, cloths)
-        found = self._arm_paths(leads, cloths)
+        leads = self._leads(moments, lines, cloths)
+        found = self._machine.arm_paths(
+            {lead.arm: lead.path for lead in leads.each},
+            self._torso_m,
+            self._height_m,
+            self._are_free(leads, cloths),
+            self._collisions,
+        )
         if isinstance(found, NoPath):
             return found
-        joints = self._at_home(len(leads.bases))
-        joints[:, [lead.arm for lead in leads.each]] = found
+        joints = self._layout.at_home(len(leads.bases))
+        joints[:, self._layout.joints_of(lead.arm for lead in leads.each)] = found
         return self._half_turned(leads, moments, cloths, joints, lines)
 
+    def _leads(self, moments: Moments, lines: Lines, cloths: Cloths) -> Leads:
+        rolls = lines.roll_rad * self._rolling
+        return Leads.of(moments, lines, rolls, self._height_m, self._has_room, cloths)
+
+    def _are_all_apart(self, joints: FloatArray) -> bool:
+        """Return whether no arm touches another in any of some configurations."""
+        return bool(self._collisions.arms_apart(tuple(self._layout.arms), joints).all())
+
     def _half_turned(self, leads: Leads, moments: Moments, cloths: Cloths, joints: FloatArray, lines: Lines) -> Carried:
-        """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free."""
-        half_turns, turned = np.zeros(self._arms), joints.copy()
-        for lead, is_free in zip(leads.each, self._are_free(leads, cloths), strict=True):
-            away = joints[[0, -1], lead.arm, -1] - self._machine.home(lead.arm)[-1]
+        """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free.
+
+        A hand whose last joint does not turn without end stays as it is.
+        """
+        layout, turned = self._layout, joints.copy()
+        half_turns, are_free = np.zeros_like(layout.home), self._are_free(leads, cloths)
+        for lead in leads.each:
+            span = layout.spans[lead.arm]
+            last = span.stop - 1
+            away = joints[[0, -1], last] - layout.home[last]
             as_is, half = (np.abs(np.remainder(away + turn, 2.0 * np.pi) - np.pi).max() for turn in (np.pi, 0.0))
-            if half < as_is - ANGLE_RAD:
-                turned[:, lead.arm, -1] += np.pi
-                if is_free(np.arange(len(turned)), turned[:, lead.arm], True).all():
-                    half_turns[lead.arm] = np.pi
+            if layout.is_continuous[last] and half < as_is - ANGLE_RAD:
+                turned[:, last] += np.pi
+                if are_free[lead.arm](np.arange(len(turned)), turned[:, span], True).all():
+                    half_turns[last] = np.pi
                 else:
-                    turned[:, lead.arm] = joints[:, lead.arm]
-        if len(leads.each) > 1 and half_turns.any() and not self._collisions.arms_apart(turned).all():
-            half_turns, turned = np.zeros(self._arms), joints
+                    turned[:, last] = joints[:, last]
+        if len(leads.each) > 1 and half_turns.any() and not self._are_all_apart(turned):
+            half_turns, turned = np.zeros_like(layout.home), joints
         return Carried(moments, cloths, leads.bases, turned, leads.first, lines, half_turns)
 
-    def _arm_paths(self, leads: Leads, cloths: Cloths) -> FloatArray | NoPath:
-        """Return the joints of the arms that take part, shape (steps, arms, 7)."""
-        are_free = self._are_free(leads, cloths)
-        if len(leads.each) > 1:
-            left, right = (lead.path for lead in leads.each)
-            return self._machine.arm_pair_path(
-                (left, right), self._torso_m, self._height_m, (are_free[0], are_free[1]), self._collisions
-            )
-        (lead,), (is_free,) = leads.each, are_free
-        found = self._machine.arm_path(lead.arm, lead.path, self._torso_m, self._height_m, is_free)
-        return found if isinstance(found, NoPath) else found[:, None]
-
-    def _are_free(self, leads: Leads, cloths: Cloths) -> list[IsFree]:
-        """Return for each arm that takes part a test for collisions with body, table and an arm that stays at home.
+    def _are_free(self, leads: Leads, cloths: Cloths) -> dict[int, IsFree]:
+        """Return for each arm that takes part a test for collisions with body, table and arms that stay at home.
 
         An empty hand also has to stay above the cloth, except near its grip.
         """
-        is_alone = len(leads.each) == 1
+        layout = self._layout
+        idle = set(layout.arms) - {lead.arm for lead in leads.each}
 
         def is_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
             arm = lead.arm
@@ -182,13 +196,13 @@ class Carrier:
                 if cloth is not None and len(asked):
                     bases = leads.bases[steps[asked]]
                     answers[asked] = cloth.arm_clear(arm, bases, joints[asked], is_certain=is_certain)
-            if is_alone:
-                both = self._at_home(len(joints))
-                both[:, arm] = joints
-                answers &= self._collisions.arms_apart(both, is_certain=is_certain)
+            if idle:
+                every, near = layout.at_home(len(joints)), tuple(sorted({arm, *idle}))
+                every[:, layout.spans[arm]] = joints
+                answers &= self._collisions.arms_apart(near, every[:, layout.joints_of(near)], is_certain=is_certain)
             return answers
 
-        return [partial(is_free, lead) for lead in leads.each]
+        return {lead.arm: partial(is_free, lead) for lead in leads.each}
 
     def _can_hold(self, arms: list[int], moments: Moments, moment: int, roll_rad: float) -> bool:
         """Return whether the arms have free postures at a moment, each alone and all together, with a given roll.
@@ -196,21 +210,32 @@ class Carrier:
         An arm that takes no part in the transfer is at home.
         """
         held = [arm for arm in arms if moments.is_held[arm, moment]]
-        poses: list[_Pose | None] = [None] * self._arms
+        poses: list[_Pose | None] = [None] * len(self._layout.arms)
         for arm in held:
-            rotation = moments.rotations[arm, moment] @ rolled(arm, roll_rad)
+            rotation = moments.rotations[arm, moment] @ rolled(roll_rad * self._rolling[arm])
             poses[arm] = _pose(moments.bases[moment], moments.positions[arm, moment], rotation)
         if len(held) < len(arms):
             return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
         return self._are_apart(*poses)
 
-    def _search_apart(self, left: "_Pose | None", right: "_Pose | None") -> bool:
-        """Return whether both arms can take their tool poses at once without contact; None: at home."""
-        return self._collisions.are_some_apart(self._able(0, left), self._able(1, right))
+    def _search_apart(self, *poses: "_Pose | None") -> bool:
+        """Return whether all arms can take their tool poses at once without contact; None: at home."""
+        able = [self._able(arm, pose) for arm, pose in enumerate(poses)]
+        pairs = [*combinations(self._layout.arms, 2)]
+        if not all(self._collisions.are_some_apart(pair, able[pair[0]], able[pair[1]]) for pair in pairs):
+            return False
+        if len(pairs) == 1:
+            return True
+        apart = np.ones([len(postures) for postures in able], dtype=np.bool_)
+        for pair in pairs:
+            beside = [arm for arm in self._layout.arms if arm not in pair]
+            of_pair = self._collisions.postures_apart(pair, able[pair[0]], able[pair[1]])
+            apart &= np.expand_dims(of_pair, beside)
+        return bool(apart.any())
 
     def _able(self, arm: int, pose: "_Pose | None") -> FloatArray:
         """Return the postures of one arm at a tool pose, or at home, that touch neither body nor table."""
-        return self._machine.home(arm)[None] if pose is None else self._free_postures(arm, *pose)
+        return self._layout.home[None, self._layout.spans[arm]] if pose is None else self._free_postures(arm, *pose)
 
     def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
         """Return the postures of one arm at a tool pose that touch neither body nor table. Cached."""
@@ -225,10 +250,6 @@ class Carrier:
             self._torso_m,
             lambda joints: self._collisions.arm_free(arm, stand[None], joints, is_certain=True),
         )
-
-    def _at_home(self, steps: int) -> FloatArray:
-        homes = np.array([self._machine.home(arm) for arm in range(self._arms)])
-        return np.broadcast_to(homes, (steps, *homes.shape)).copy()
 
     def _has_room(
         self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray, cloth: LyingCloth | None

@@ -16,7 +16,7 @@ class JointTrack:
 
     Attributes:
         times_s: the times of the keyframes (s), rising.
-        joints: the joints at each (rad), shape (arms, 7) each.
+        joints: the joints of all arms at each (rad), shape (joints,) each.
     """
 
     times_s: list[float]
@@ -25,18 +25,17 @@ class JointTrack:
     _openings_m: list[list[float]] = field(default_factory=list)
 
     @staticmethod
-    def at_rest(joints: FloatArray) -> "JointTrack":
-        """Return a trajectory that begins at some joints, shape (arms, 7), with all grippers open."""
-        arms = len(joints)
+    def at_rest(joints: FloatArray, arms: int) -> "JointTrack":
+        """Return a trajectory of some arms that begins at their joints, shape (joints,), with all grippers open."""
         return JointTrack([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
 
     @property
     def last(self) -> FloatArray:
-        """The joints of the last keyframe (rad), shape (arms, 7)."""
+        """The joints of the last keyframe (rad), shape (joints,)."""
         return self.joints[-1]
 
     def joints_at(self, t_s: float) -> FloatArray:
-        """Return all arms' joints at a time (rad), shape (arms, 7)."""
+        """Return all arms' joints at a time (rad), shape (joints,)."""
         after = int(np.searchsorted(self.times_s, t_s, side="right"))
         if after == 0 or after == len(self.times_s):
             return self.joints[max(after - 1, 0)]
@@ -49,7 +48,7 @@ class JointTrack:
         return self._grip_times_s[arm], self._openings_m[arm]
 
     def add(self, times_s: FloatArray, joints: FloatArray) -> None:
-        """Add keyframes, shapes (n,) and (n, arms, 7); skip those no later than the last."""
+        """Add keyframes, shapes (n,) and (n, joints); skip those no later than the last."""
         for t, here in zip(times_s.tolist(), joints, strict=True):
             if t > self.times_s[-1]:
                 self.times_s.append(t)

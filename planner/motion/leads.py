@@ -59,7 +59,7 @@ class Lines:
     """How hands approach and withdraw.
 
     Attributes:
-        roll_rad: their roll about their approach axes; see `rolled`.
+        roll_rad: their roll about their approach axes (rad); a mirrored arm's hand rolls the other way.
         shares: the fractions of the line and of the rise to try; the first for which there is room is taken.
     """
 
@@ -105,18 +105,21 @@ class Leads:
     first: int
 
     @staticmethod
-    def of(moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> "Leads":
+    def of(
+        moments: Moments, lines: Lines, rolls_rad: FloatArray, height_m: float, has_room: HasRoom, cloths: Cloths
+    ) -> "Leads":
         """Return the parts of the arms that hold cloth at some of the moments.
 
         Args:
             moments: the moments while cloth is held.
             lines: how hands approach and withdraw.
+            rolls_rad: the roll of each arm's hand about its approach axis (rad), shape (arms,).
             height_m: the table top's height above the floor (m).
             has_room: the test whether a hand has room.
             cloths: the cloth on the table before and after.
         """
         arms = np.flatnonzero(moments.is_held.any(axis=1))
-        ways = [_way(int(arm), moments, lines, height_m, has_room, cloths) for arm in arms]
+        ways = [_way(int(arm), moments, lines, rolls_rad, height_m, has_room, cloths) for arm in arms]
         before = max(len(_stepped(way.approach)) for way in ways) - 1
         after = max(len(_stepped(way.retreat)) for way in ways) - 1
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
@@ -158,18 +161,23 @@ def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
 
 
-def rolled(arm: int, roll_rad: float) -> FloatArray:
-    """Return the rotation by which an arm's hand rolls about its approach axis, shape (3, 3).
-
-    The arms are mirror images: the right one rolls the other way, so that both can do the same.
-    """
-    return np.asarray(about_x(np.array([roll_rad if arm == 0 else -roll_rad]))[0])
+def rolled(roll_rad: float) -> FloatArray:
+    """Return the rotation by which a hand rolls about its approach axis, shape (3, 3)."""
+    return np.asarray(about_x(np.array([roll_rad]))[0])
 
 
-def _way(arm: int, moments: Moments, lines: Lines, height_m: float, has_room: HasRoom, cloths: Cloths) -> _Way:
+def _way(
+    arm: int,
+    moments: Moments,
+    lines: Lines,
+    rolls_rad: FloatArray,
+    height_m: float,
+    has_room: HasRoom,
+    cloths: Cloths,
+) -> _Way:
     held = np.flatnonzero(moments.is_held[arm])
     positions = moments.positions[arm, held]
-    rotations = moments.rotations[arm, held] @ rolled(arm, lines.roll_rad)
+    rotations = moments.rotations[arm, held] @ rolled(rolls_rad[arm])
     upwards = np.array([0.0, 0.0, 1.0])
     coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
     leaving *= RETREAT_M / np.linalg.norm(leaving)

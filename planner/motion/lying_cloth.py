@@ -38,19 +38,15 @@ class LyingCloth:
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """Return at which joints of an empty arm, shape (n, 7), all of it is high enough above the cloth, shape (n,).
+        """Return at which joints of an empty arm all of it is high enough above the cloth, shape (n,).
 
         Args:
             arm: the arm.
             bases: the base's pose.
-            joints: the arm's joints (rad).
+            joints: the arm's joints (rad), a row each.
             is_certain: whether only those count that certainly are, which is quicker to tell.
         """
         return self._clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
-
-    def are_all_clear(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Return whether all arms are high enough in all of some configurations, shape (n, arms, 7)."""
-        return all(bool(self.arm_clear(arm, bases, joints[:, arm]).all()) for arm in range(joints.shape[1]))
 
     @cached_property
     def _clearance(self) -> Clearance:

@@ -15,14 +15,14 @@ def needed_s(joints: FloatArray, speeds_rad_s: FloatArray) -> FloatArray:
     """Return the least time from each joint configuration to the next (s).
 
     Args:
-        joints: shape (n, ..., 7), rad.
-        speeds_rad_s: the joints' top speeds, of a shape that broadcasts with `joints[0]`.
+        joints: shape (n, joints), rad.
+        speeds_rad_s: the joints' top speeds, shape (joints,).
 
     Returns:
         Shape (n - 1,).
     """
     steps = np.abs(np.diff(joints, axis=0)) / speeds_rad_s
-    return np.asarray(steps.max(axis=tuple(range(1, steps.ndim)), initial=0.0))
+    return np.asarray(steps.max(axis=1, initial=0.0))
 
 
 def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> FloatArray:

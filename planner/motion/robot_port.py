@@ -1,12 +1,12 @@
 """The protocol for what planning needs of a robot besides its reach; `planner.robots` implements it."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Protocol
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.primitives.reach import Reach
-from planner.robots.arm_pair_path import BothArms
+from planner.robots.arm_paths import Together
 from planner.robots.card import RobotCard
 from planner.robots.collision.contact import Contact
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
@@ -18,45 +18,39 @@ class Clearance(Protocol):
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """Return at which joints of one arm, shape (n, 7), it is high enough, shape (n,); see `Collisions.arm_free`."""
+        """Return at which joints of one arm it is high enough, shape (n,); see `Collisions.arm_free`."""
         ...
 
 
-class Collisions(Protocol):
+class Collisions(Together, Protocol):
     """The collisions of a robot with itself and the table.
 
-    Joints are in rad. Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, (n, 3).
+    Joints are in rad: of one arm, or a configuration, which is a row of the joints of all arms (see `JointLayout`).
+    Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, shape (n, 3).
     """
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Return whether none of some configurations, shape (n, arms, 7), touches anything."""
+        """Return whether none of some configurations touches anything."""
         ...
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """Return at which joints of one arm, shape (n, 7), it touches neither body nor table; shape (n,).
+        """Return at which joints of one arm it touches neither body nor table; shape (n,).
 
         With `is_certain` only those count that certainly touch nothing, which is quicker to tell.
         """
         ...
 
-    def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        """Return in which configurations, shape (n, arms, 7), no arm touches another; shape (n,).
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        """Return in which postures of some arms, in rising order, none of them touches another; shape (n,).
 
         For `is_certain` see `arm_free`.
         """
         ...
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """Return which pairs of left postures, shape (k, 7), and right ones, shape (l, 7), certainly do not touch.
-
-        In all postures of an arm its tool is in the same pose. The answers are of shape (k, l).
-        """
-        ...
-
-    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
-        """Return whether any left and any right posture certainly do not touch; see `postures_apart`."""
+    def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
+        """Return whether any postures of two arms certainly do not touch; see `postures_apart`."""
         ...
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
@@ -64,7 +58,7 @@ class Collisions(Protocol):
         ...
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        """Return the deepest contact in one configuration, shape (arms, 7); None if nothing touches."""
+        """Return the deepest contact in one configuration; None if nothing touches."""
         ...
 
 
@@ -76,65 +70,35 @@ class RobotPort(Hashable, Protocol):
         """The robot's description."""
         ...
 
-    def home(self, arm: int) -> FloatArray:
-        """Return the joints of an arm that is out of the way (rad)."""
-        ...
-
     def reach(self, torso_m: float, comfort_m: float) -> Reach:
         """Return the reach with the lift at a height, for a comfort radius (m)."""
-        ...
-
-    def joints_near(
-        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
-    ) -> FloatArray | None:
-        """Return the joints nearest to `near` that bring the tool to a pose of the base frame, or None."""
-        ...
-
-    def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
-        """Return which tool poses of the base frame, shapes (n, 3) and (n, 3, 3), an arm can take; shape (n,)."""
-        ...
-
-    def arm_path(
-        self,
-        arm: int,
-        path: ToolPath,
-        torso_m: float,
-        floor_m: float,
-        is_free: IsFree,
-    ) -> FloatArray | NoPath:
-        """Return the calmest collision-free joints that keep a tool on a path, shape (n, 7), or that there are none.
-
-        Args:
-            arm: the arm.
-            path: the tool path.
-            torso_m: the height of the lift (m).
-            floor_m: the height above which elbows should stay, base frame (m).
-            is_free: the test for collision-free joints.
-        """
         ...
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
     ) -> FloatArray | None:
-        """Return joints, shape (n, 7), that keep a tool on a path near to known ones; None if none are near enough."""
+        """Return joints that keep a tool on a path near to known ones, a row each; None if none are near enough."""
         ...
 
-    def arm_pair_path(
+    def arm_paths(
         self,
-        paths: tuple[ToolPath, ToolPath],
+        paths: Mapping[int, ToolPath],
         torso_m: float,
         floor_m: float,
-        are_free: tuple[IsFree, IsFree],
-        both_arms: BothArms,
+        are_free: Mapping[int, IsFree],
+        together: Together,
     ) -> FloatArray | NoPath:
-        """Return the calmest collision-free joints of two arms on their paths, shape (n, 2, 7), or that there are none.
+        """Return the calmest collision-free joints of arms on their tool paths, or that there are none.
 
         Args:
-            paths: the tool paths, of equal length.
+            paths: each arm's tool path, in rising order of the arms, of equal length.
             torso_m: the height of the lift (m).
             floor_m: the height above which elbows should stay, base frame (m).
-            are_free: for each arm the test for collision-free joints, whatever the other does.
-            both_arms: the test whether the arms are in each other's way.
+            are_free: for each of them the test for collision-free joints, whatever the others do.
+            together: the test whether arms are in each other's way.
+
+        Returns:
+            These arms' joints, one arm after the other, shape (n, joints).
         """
         ...
 
@@ -146,7 +110,7 @@ class RobotPort(Hashable, Protocol):
         torso_m: float,
         is_free: Callable[[FloatArray], BoolArray],
     ) -> FloatArray:
-        """Return samples of free joints, shape (k, 7), that bring a tool to a pose of the base frame."""
+        """Return samples of free joints that bring a tool to a pose of the base frame, a row each."""
         ...
 
     def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
@@ -158,5 +122,5 @@ class RobotPort(Hashable, Protocol):
         ...
 
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
-        """Return the tool's positions in the base frame at each of some joints, shape (n, 7) -> (n, 3), m."""
+        """Return the tool's positions in the base frame at each row of joints, shape (n, 3), m."""
         ...

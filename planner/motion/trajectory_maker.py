@@ -45,7 +45,7 @@ def trajectory(
     reel = _Reel(maker.transits, maker.collisions, maker.dwell_s)
     segments = tuple(reel.segments(acts, _standing(context)))
     track = reel.track
-    rows = np.array(track.joints).reshape(len(track.times_s), -1)
+    rows = np.array(track.joints)
     names = tuple(name for arm in card.arms for name in arm.joint_names)
     return Trajectory(
         duration_s,
@@ -95,7 +95,7 @@ class _Reel:
         self._transits = transits
         self._dwell_s = dwell_s
         self._hands = TransitPlanner(transits, collisions, dwell_s)
-        self.track = JointTrack.at_rest(transits.home)
+        self.track = JointTrack.at_rest(transits.home, len(transits.layout.arms))
         self._cues: list[TimedPhase] = []
         self._free: list[TimedPhase] = []
         self._now = 0.0
@@ -144,7 +144,7 @@ class _Reel:
 
     def _begin_holding(self, run: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
-        self.track = JointTrack.at_rest(run.carried.joints[run.carried.first])
+        self.track = JointTrack.at_rest(run.carried.joints[run.carried.first], len(self._transits.layout.arms))
         for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
             self.track.begin_closed(arm)
 

@@ -16,7 +16,6 @@ from planner.motion.joint_track import CLOSED_M, OPEN_M
 from planner.motion.leads import Cloths
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.moments import Moments, moments_of
-from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
 from planner.motion.transfer_timing import TransferTiming
@@ -36,7 +35,7 @@ _HALF = 0.5
 
 
 Lines = tuple[FloatArray | None, FloatArray | None]
-"""The lines away from grips and to grips that a path connects, each of shape (n, arms, 7); None at home."""
+"""The lines away from grips and to grips that a path connects, each of shape (n, joints); None at home."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,7 +99,6 @@ class TransferPlanner:
         scene = context.scene
         carrier, collisions = _carrier(machine, scene.table, scene.torso_m)
         self._context = context
-        self._speeds = np.array([arm.speeds_rad_s for arm in machine.card.arms])
         self._carrier = carrier
         self._stuck = _Stuck()
         self._can_be_there: dict[tuple[object, ...], bool] = {}
@@ -186,7 +184,7 @@ class TransferPlanner:
         if isinstance(carried, NoPath):
             self._stuck.note(candidate, carried)
             return None
-        least, first, last = needed_s(carried.joints, self._speeds), carried.first, carried.last
+        least, first, last = self.transits.needed_s(carried.joints), carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
         reach = self._reach(candidate.steps, carried, timing.borrowed_s)
         if reach is None:

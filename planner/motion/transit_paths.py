@@ -12,9 +12,10 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
+from planner.robots.joint_layout import JointLayout
 
 _LEADS = (0.25, 0.5, 0.75)
-"""The fractions of its path by which one arm is tried ahead of the other."""
+"""The fractions of their path by which some arms are tried ahead of the others."""
 
 STEP_RAD = 0.05
 """The largest angle that joints turn from one tested configuration to the next (rad)."""
@@ -23,34 +24,34 @@ STEP_RAD = 0.05
 Spared = tuple[FloatArray, FloatArray]
 """How far each arm may go low over cloth at the beginning of a path, and at its end (m), shape (arms,) each."""
 
-AT_GRIPS: Spared = (np.full(2, NEAR_GRIP_M), np.full(2, NEAR_GRIP_M))
-"""The allowance for paths that begin and end at grips."""
-
 
 class TransitPaths:
     """Finds paths for empty hands."""
 
     def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float) -> None:
         """Keep the robot, its collisions and the height of its lift (m)."""
-        arms = machine.card.arms
         self._machine, self._torso_m = machine, torso_m
         self._collisions = collisions
-        self._homes = np.array([machine.home(arm) for arm in range(len(arms))])
-        self._speeds = np.array([arm.speeds_rad_s for arm in arms])
-        self._turns = np.where([arm.is_continuous for arm in arms], 2.0 * np.pi, np.inf)
+        self.layout = JointLayout.of(machine.card)
 
     @property
     def home(self) -> FloatArray:
-        """All arms out of the way (rad), shape (arms, 7)."""
-        return self._homes
+        """All arms out of the way (rad), shape (joints,)."""
+        return self.layout.home
+
+    @property
+    def at_grips(self) -> Spared:
+        """The allowance for paths that begin and end at grips."""
+        near = np.full(len(self.layout.arms), NEAR_GRIP_M)
+        return near, near
 
     def needed_s(self, way: FloatArray) -> FloatArray:
         """Return the least time for each line of a path (s)."""
-        return needed_s(way, self._speeds)
+        return needed_s(way, self.layout.speeds_rad_s)
 
     def unwound(self, joints: FloatArray, near: FloatArray) -> FloatArray:
-        """Return a configuration, shape (arms, 7), its continuous joints within half a turn of another's."""
-        turns = np.where(np.isinf(self._turns), 0.0, np.round((near - joints) / (2.0 * np.pi)))
+        """Return a configuration with its continuous joints within half a turn of another's."""
+        turns = np.where(self.layout.is_continuous, np.round((near - joints) / (2.0 * np.pi)), 0.0)
         return np.asarray(joints + 2.0 * np.pi * turns)
 
     def way(
@@ -60,14 +61,14 @@ class TransitPaths:
 
         Args:
             base: the base's pose, table frame.
-            start: all arms' joints (rad), shape (arms, 7).
+            start: all arms' joints (rad), shape (joints,).
             goal: the same; its continuous joints may be turns away.
             cloth: the cloth on the table meanwhile.
             spared: how far hands may go low over it at both ends.
 
         Returns:
-            Configurations from start to goal, shape (n, arms, 7), between which straight lines are free; None if no
-            way was found.
+            Configurations from start to goal, shape (n, joints), between which straight lines are free; None if no way
+            was found.
         """
         goal = self.unwound(goal, start)
         straight, known = np.array([start, goal]), _Lines(base, self._collisions)
@@ -83,36 +84,33 @@ class TransitPaths:
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
     def are_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, spared: Spared) -> bool:
-        """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, arms, 7)."""
+        """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, joints)."""
         before, after = spared
-        for arm in range(joints.shape[1]):
+        for arm, span in enumerate(self.layout.spans):
             must = np.ones(len(joints), dtype=np.bool_)
             if before[arm] > 0.0 or after[arm] > 0.0:
-                gone = self._gone_m(arm, bases, joints[:, arm])
+                gone = self._gone_m(arm, bases, joints)
                 must = (gone >= before[arm]) & (gone[-1] - gone >= after[arm])
-            if not cloth.arm_clear(arm, bases[must], joints[must, arm]).all():
+            if not cloth.arm_clear(arm, bases[must], joints[must, span]).all():
                 return False
         return True
 
     def spared(self, tail: FloatArray | None, lead: FloatArray | None) -> Spared:
         """Return how far hands may go low after lines from their grips and before lines to them.
 
-        The lines are of shape (n, arms, 7) each.
+        The lines are of shape (n, joints) each.
         """
         here = np.zeros((1, 3))
         lengths = [
-            [
-                np.inf if line is None else float(self._gone_m(arm, here, line[:, arm])[-1])
-                for arm in range(len(self.home))
-            ]
+            [np.inf if line is None else float(self._gone_m(arm, here, line)[-1]) for arm in self.layout.arms]
             for line in (tail, lead)
         ]
         before, after = np.maximum(NEAR_GRIP_M - np.array(lengths), 0.0)
         return before, after
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
-        """Return the way of an arm's tool in the table's frame up to each of some joints, shape (n, 7), m."""
-        tools = self._machine.tool_places(arm, joints, self._torso_m)
+        """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""
+        tools = self._machine.tool_places(arm, joints[:, self.layout.spans[arm]], self._torso_m)
         cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
         x = bases[:, 0] + cos * tools[:, 0] - sin * tools[:, 1]
         y = bases[:, 1] + sin * tools[:, 0] + cos * tools[:, 1]
@@ -122,8 +120,9 @@ class TransitPaths:
     def _roundabout(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
         """Return paths that may be free where the straight one is not, the quickest first."""
         raised_start, raised_goal = self._raised(start), self._raised(goal)
-        mixed = [np.where(np.array(first)[:, None], goal, start) for first in product((False, True), repeat=len(start))]
-        home = self.unwound(self._homes, start)
+        choices = product((False, True), repeat=len(self.layout.arms))
+        mixed = [np.where(np.array(first)[self.layout.owners], goal, start) for first in choices]
+        home = self.unwound(self.home, start)
         places = [(raised_goal,), (raised_start,), (home,), (raised_start, raised_goal)]
         places += [(place,) for place in mixed[1:-1]]
         places += [(raised_start, place) for place in mixed[1:-1]]
@@ -135,9 +134,7 @@ class TransitPaths:
 
     def _raised(self, joints: FloatArray) -> FloatArray:
         """Return the arms lifted as at home, with shoulders and hands turned as they are."""
-        raised = joints.copy()
-        raised[:, [1, 3]] = self._homes[:, [1, 3]]
-        return raised
+        return np.where(self.layout.is_lifting, self.home, joints)
 
 
 class _Lines:
@@ -160,7 +157,7 @@ class _Lines:
 def _sampled(start: FloatArray, end: FloatArray) -> FloatArray:
     """Return the straight line between two configurations, step by step."""
     count = max(1, int(np.ceil(np.abs(end - start).max() / STEP_RAD)))
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None, None] * (end - start))
+    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
 
 
 def _staggered(start: FloatArray, goal: FloatArray, first: FloatArray, lead: float) -> tuple[FloatArray, FloatArray]:

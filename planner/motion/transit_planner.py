@@ -15,7 +15,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.joint_track import JointTrack
 from planner.motion.pacing import eased
 from planner.motion.robot_port import Collisions
-from planner.motion.transit_paths import AT_GRIPS, TransitPaths
+from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
@@ -39,7 +39,7 @@ class Keyframes(NamedTuple):
 
     Attributes:
         times_s: rising, shape (n,).
-        joints: all arms' joints at each time (rad), shape (n, arms, 7).
+        joints: all arms' joints at each time (rad), shape (n, joints).
     """
 
     times_s: FloatArray
@@ -51,7 +51,7 @@ class Line:
     """A straight line of the hands to grips or from them, as part of a transfer.
 
     Attributes:
-        joints: all arms' joints (rad), shape (n, arms, 7).
+        joints: all arms' joints (rad), shape (n, joints).
         least_s: the least time for each of its steps (s), shape (n - 1,).
     """
 
@@ -118,7 +118,7 @@ class TransitPlanner:
         bases = np.array([free.base_at(t) for t in moments])
         there = np.array([track.joints_at(t) for t in moments])
         is_free = self._collisions.are_all_free(bases, there)
-        return is_free and self._transits.are_clear(free.cloth, bases, there, AT_GRIPS)
+        return is_free and self._transits.are_clear(free.cloth, bases, there, self._transits.at_grips)
 
     def _waiting(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
         """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.
@@ -166,7 +166,7 @@ def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tu
     times, joints = [], []
     for (a, b), begin, need in zip(pairwise(way), np.cumsum(needed) - needed, needed, strict=True):
         times.append(start + pace * (begin + shares * need))
-        joints.append(a + eased(shares, easing)[:, None, None] * (b - a))
+        joints.append(a + eased(shares, easing)[:, None] * (b - a))
     return np.concatenate(times), np.concatenate(joints)
 
 

@@ -16,6 +16,7 @@ from planner.planning.problem import Problem
 from planner.primitives.drag_way import DragWays
 from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
 from planner.primitives.state import State
+from planner.robots.joint_layout import JointLayout
 from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
@@ -146,18 +147,17 @@ class _Tools:
 def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: float, tools: _Tools | None) -> None:
     """Require that at a time the arms are where they must be, no joint is too fast, and nothing touches."""
     card, scene = problem.robot.card, problem.context.scene
-    joints = path.arms.at(t_s).reshape(len(card.arms), -1)
-    speeds = np.abs(path.arms.velocities_at(t_s)).reshape(len(card.arms), -1)
-    for number, arm in enumerate(card.arms):
-        fastest = int(np.argmax(speeds[number] / np.array(arm.speeds_rad_s)))
-        if speeds[number, fastest] > _SPEED * arm.speeds_rad_s[fastest]:
-            told = f"at {t_s:.2f} s {arm.joint_names[fastest]} turns at {speeds[number, fastest]:.2f} rad/s"
-            raise RequestError("trajectory", f"{told}, more than its {arm.speeds_rad_s[fastest]:.2f} rad/s")
+    layout, names = JointLayout.of(card), [name for arm in card.arms for name in arm.joint_names]
+    joints, speeds, limits = path.arms.at(t_s), np.abs(path.arms.velocities_at(t_s)), layout.speeds_rad_s
+    fastest = int(np.argmax(speeds / limits))
+    if speeds[fastest] > _SPEED * limits[fastest]:
+        told = f"at {t_s:.2f} s {names[fastest]} turns at {speeds[fastest]:.2f} rad/s"
+        raise RequestError("trajectory", f"{told}, more than its {limits[fastest]:.2f} rad/s")
     base = segment.base_at(t_s)
     if not problem.robot.collisions(scene.table, path.torso_m).are_all_free(base, joints[None]):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
     for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
-        tool, _ = problem.robot.tool_pose(arm_number, joints[arm_number], path.torso_m)
+        tool, _ = problem.robot.tool_pose(arm_number, joints[layout.spans[arm_number]], path.torso_m)
         off_m = float(np.linalg.norm(_in_table(base, tool, scene.table.height_m) - place))
         if off_m > TOOL_M:
             told = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"

@@ -29,20 +29,20 @@ _NAPKIN = {
 _FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
 """Tool points that are out of reach, and at its edge, base frame (m)."""
 
-_LEFT_M, _RIGHT_M = (0.6, 0.2, 0.9), (0.6, -0.2, 0.9)
-"""Tool points at which the arms stay while they are led past each other, base frame (m)."""
+_BESIDE_M = ((0.6, 0.2, 0.9), (0.6, -0.2, 0.9))
+"""Tool points at which two arms stay while they are led past each other, base frame (m)."""
 
 
 class _InTheWay:
     """Arms that never pass each other, though each pose seems to leave room."""
 
-    def arms_apart(self, joints: FloatArray) -> BoolArray:
+    def arms_apart(self, _arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         """Return that the arms are apart at no joint values."""
         return np.zeros(len(joints), dtype=bool)
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+    def postures_apart(self, _arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
         """Return that all pairs of postures are apart."""
-        return np.ones((len(left), len(right)), dtype=bool)
+        return np.ones((len(first), len(second)), dtype=bool)
 
 
 @cache
@@ -67,8 +67,8 @@ def compile_kernels() -> None:
     travel(np.ones((1, 2), dtype=np.uint32), 2)
     DrivingBound(problem.context, problem.start)
     robot, torso_m = problem.robot, problem.context.scene.torso_m
-    left, right = (_staying(place) for place in (_LEFT_M, _RIGHT_M))
-    robot.arm_pair_path((left, right), torso_m, 0.0, (_anywhere, _anywhere), _InTheWay())
+    beside = {arm: _staying(place) for arm, place in zip(range(len(robot.card.arms)), _BESIDE_M, strict=False)}
+    robot.arm_paths(beside, torso_m, 0.0, dict.fromkeys(beside, _anywhere), _InTheWay())
     gc.freeze()  # compiled code is no garbage either
 
 

@@ -53,12 +53,14 @@ class ArmCard:
 
     Attributes:
         name: its name for people.
-        joint_names: its seven joints in the URDF, from the shoulder outwards.
+        joint_names: its joints in the URDF, from the shoulder outwards.
         speeds_rad_s: their top speeds (rad/s).
         is_continuous: which of them turn without end.
         tool_frame: the URDF frame between the fingertips, x along the approach axis.
         home: the joints when the arm is out of the way (rad).
         gripper: its gripper.
+        lifting: the joints that raise its elbow and hand: as at home they take an empty hand high above a table.
+        is_mirrored: whether it is built as the mirror image of an arm on the left: its hand then rolls the other way.
     """
 
     name: str
@@ -68,6 +70,8 @@ class ArmCard:
     tool_frame: str
     home: tuple[float, ...]
     gripper: GripperCard
+    lifting: tuple[str, ...] = ()
+    is_mirrored: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +111,11 @@ class RobotCard:
 
         Args:
             torso_m: how far the lift is raised (m).
-            arm_joints: the seven joints of each arm, from left to right.
+            arm_joints: the joints of each arm, from left to right.
             openings_m: how far each gripper is open (m).
 
         Raises:
-            ValueError: the numbers of arms or openings differ from the robot's arms, or an arm has not seven joints.
+            ValueError: the numbers of arms or openings differ from the robot's arms, or an arm has other joints.
         """
         values = {self.lift_joint: float(torso_m), **dict(self.resting)}
         for arm, joints, opening_m in zip(self.arms, arm_joints, openings_m, strict=True):

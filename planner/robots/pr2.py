@@ -1,7 +1,7 @@
 """The PR2: a robot loaded by name, with its card, its reach and its joints."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 
 import numpy as np
@@ -10,8 +10,8 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm import read_arm
-from planner.robots.arm_pair_path import BothArms, arm_pair_path
 from planner.robots.arm_path import ArmSearch
+from planner.robots.arm_paths import Together, arm_paths
 from planner.robots.card import RobotCard
 from planner.robots.collision.collisions import OPENING_M, Collisions
 from planner.robots.collision.robot_parts import RobotParts, robot_parts
@@ -121,57 +121,34 @@ class Pr2:
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
 
-    def arm_path(
-        self,
-        arm: int,
-        path: ToolPath,
-        torso_m: float,
-        floor_m: float,
-        is_free: IsFree,
-    ) -> FloatArray | NoPath:
-        """Return the calmest joints that keep an arm's tool on a path, or that there are none (see `ArmSearch`).
-
-        Args:
-            arm: the arm's index.
-            path: the tool's path.
-            torso_m: how far the torso is raised (m).
-            floor_m: the height over which elbows should preferably stay, base frame (m).
-            is_free: the check of which joints are collision-free.
-
-        Returns:
-            Joints within their limits (rad), shape (n, 7), forearm and wrist roll unwound.
-        """
-        return self._search(arm, path, torso_m, floor_m, is_free).found()
-
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
     ) -> FloatArray | None:
         """Return joints that keep an arm's tool on a path, near to known joints, shape (n, 7) (see `near_path`)."""
         return near_path(self._arms[arm], path, float(torso_m), is_free, known)
 
-    def arm_pair_path(
+    def arm_paths(
         self,
-        paths: tuple[ToolPath, ToolPath],
+        paths: Mapping[int, ToolPath],
         torso_m: float,
         floor_m: float,
-        are_free: tuple[IsFree, IsFree],
-        both_arms: BothArms,
+        are_free: Mapping[int, IsFree],
+        together: Together,
     ) -> FloatArray | NoPath:
-        """Return the calmest joints that keep both tools on their paths, or that there are none (see `arm_pair_path`).
+        """Return the calmest joints that keep arms' tools on their paths, or that there are none (see `arm_paths`).
 
         Args:
-            paths: the tools' paths, with equally many poses.
+            paths: each arm's tool path, in rising order of the arms, with equally many poses.
             torso_m: how far the torso is raised (m).
             floor_m: the height over which elbows should preferably stay, base frame (m).
-            are_free: for each arm the check of which joints are collision-free, whatever the other arm does.
-            both_arms: the check of whether the arms collide with each other.
+            are_free: for each of them the check of which joints are collision-free, whatever the others do.
+            together: the check of whether arms collide with each other.
 
         Returns:
-            Joints within their limits (rad), shape (n, 2, 7), forearm and wrist roll unwound.
+            Joints within their limits (rad), one arm after the other, shape (n, joints); rolls are unwound.
         """
-        each = enumerate(zip(paths, are_free, strict=True))
-        left, right = (self._search(arm, path, torso_m, floor_m, is_free) for arm, (path, is_free) in each)
-        return arm_pair_path(left, right, both_arms)
+        found = {arm: self._search(arm, path, torso_m, floor_m, are_free[arm]) for arm, path in paths.items()}
+        return arm_paths(found, together)
 
     def _search(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> ArmSearch:
         speeds = np.array(self._card.arms[arm].speeds_rad_s)

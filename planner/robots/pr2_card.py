@@ -10,6 +10,9 @@ from planner.robots.description import package_directory, urdf_path
 
 _LIFT = "torso_lift_joint"
 
+_LIFTING = (1, 3)
+"""Indices of the joints that raise elbow and hand: shoulder lift and elbow flex."""
+
 _HOME = (0.8, -0.2, 0.0, -1.6, math.pi, -1.4, 0.0)
 """Home joints of the left arm: raised beside the body, elbow bent upwards, the gripper pointing ahead (rad)."""
 
@@ -47,6 +50,8 @@ def _arm_card(model: pin.Model, name: str, side: float) -> ArmCard:
         tool_frame=f"{prefix}_gripper_tool_frame",
         home=tuple(q if side > 0 else q * float(mirror) for q, mirror in zip(_HOME, MIRROR, strict=True)),
         gripper=_gripper_card(model, prefix),
+        lifting=tuple(joint_names[joint] for joint in _LIFTING),
+        is_mirrored=side < 0,
     )
 
 

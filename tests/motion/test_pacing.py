@@ -29,11 +29,11 @@ def test_of_two_arms_the_slower_one_counts():
     joints = np.zeros((2, 2, 7))
     joints[1, 0, 2], joints[1, 1, 4] = 0.2, -0.6
     # 0.2 / 1 = 0.2 s for the left arm, 0.6 / 2 = 0.3 s for the right one.
-    assert needed_s(joints, np.array([[1.0] * 7, [2.0] * 7])) == pytest.approx([0.3])
+    assert needed_s(joints.reshape(2, 14), np.array([1.0] * 7 + [2.0] * 7)) == pytest.approx([0.3])
 
 
 def test_a_single_configuration_needs_no_time():
-    assert needed_s(np.zeros((1, 2, 7)), np.ones((2, 7))).tolist() == []
+    assert needed_s(np.zeros((1, 14)), np.ones(14)).tolist() == []
 
 
 def test_steps_that_are_no_shorter_than_they_must_be_keep_their_pace():

@@ -132,14 +132,14 @@ class BarredCollisions:
         is_open = np.array([not self._is_barred(arm, stand) for stand in stands], dtype=bool)
         return is_open & self._real.arm_free(arm, bases, joints, is_certain=is_certain)
 
-    def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        return self._real.arms_apart(joints, is_certain=is_certain)
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        return self._real.arms_apart(arms, joints, is_certain=is_certain)
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        return self._real.postures_apart(left, right)
+    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
+        return self._real.postures_apart(arms, first, second)
 
-    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
-        return self._real.are_some_apart(left, right)
+    def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
+        return self._real.are_some_apart(arms, first, second)
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
         return self._real.over_cloth(pieces, over_m)

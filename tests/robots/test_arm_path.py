@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
+from planner.geometry.table import Table
 from planner.robots.arm import MIRROR
 from planner.robots.pr2 import load_robot
 from planner.robots.tool_path import NoPath, ToolPath
@@ -55,7 +56,7 @@ def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
 
 
 def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | NoPath:
-    return ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free)
+    return ROBOT.arm_paths({arm: path}, TORSO_M, TABLE_M, {arm: is_free}, ROBOT.collisions(Table(), TORSO_M))
 
 
 def found_near(path: ToolPath, known: FloatArray, is_free=everywhere, arm: int = 0) -> FloatArray | None:

@@ -31,7 +31,7 @@ def test_arms_that_cross_collide():
     # Pan axes are .188 m left and right of the middle. Panned inwards by .6, an arm gets there .188 / sin(.6) = .33 m
     # from its axis, and so does the other: upper arms reach from .1 to .5 m.
     crossed, parted = both(-0.6, *STRETCHED), both(0.6, *STRETCHED)
-    assert COLLISIONS.arms_apart(np.array([crossed, parted])).tolist() == [False, True]
+    assert COLLISIONS.arms_apart((0, 1), np.array([crossed, parted])).tolist() == [False, True]
     assert COLLISIONS.arm_free(0, FAR, crossed[None, 0]).tolist() == [True]
     assert COLLISIONS.arm_free(1, FAR, crossed[None, 1]).tolist() == [True]
     assert COLLISIONS.free(FAR, np.array([crossed, parted])).tolist() == [False, True]
@@ -114,20 +114,20 @@ def test_postures_are_apart_as_they_are_pair_by_pair():
             ROBOT.free_postures(arm, place + side * aside, DOWN, TORSO_M, lambda joints: np.ones(len(joints), bool))
             for arm, side in ((0, 1), (1, -1))
         )
-        found = COLLISIONS.postures_apart(left, right)
+        found = COLLISIONS.postures_apart((0, 1), left, right)
         pairs = np.stack([left.repeat(len(right), 0), np.tile(right, (len(left), 1))], axis=1)
-        np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart(pairs, is_certain=True))
-        assert COLLISIONS.are_some_apart(left, right) == found.any()
+        np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart((0, 1), pairs, is_certain=True))
+        assert COLLISIONS.are_some_apart((0, 1), left, right) == found.any()
         apart, met = apart + int(found.sum()), met + int((~found).sum())
     assert min(apart, met) > 100
-    assert COLLISIONS.postures_apart(np.empty((0, 7)), HOME[:1]).shape == (0, 1)
-    assert not COLLISIONS.are_some_apart(np.empty((0, 7)), HOME[:1])
+    assert COLLISIONS.postures_apart((0, 1), np.empty((0, 7)), HOME[:1]).shape == (0, 1)
+    assert not COLLISIONS.are_some_apart((0, 1), np.empty((0, 7)), HOME[:1])
 
 
 def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not():
     postures = random_postures(300, 13)
     for base in (FRONT, FRONT.ahead(-0.4), FAR):
-        parts = COLLISIONS.arms_apart(postures)
+        parts = COLLISIONS.arms_apart((0, 1), postures)
         for arm in (0, 1):
             parts &= COLLISIONS.arm_free(arm, base, postures[:, arm])
         np.testing.assert_array_equal(COLLISIONS.free(base, postures), parts & COLLISIONS.body_free(base))

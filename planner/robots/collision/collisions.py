@@ -43,7 +43,7 @@ class Collisions:
     """Collision checks at one table, with the torso at one height. Threads may share it.
 
     Bases are poses of the robot's base in the table frame: one for all postures, or for each its x (m), y (m) and yaw
-    (rad), shape (n, 3). Joints are in rad, arms from left to right.
+    (rad), shape (n, 3). Joints are in rad; those of both arms are one row, the left arm's first, shape (n, 14).
     """
 
     def __init__(
@@ -91,12 +91,12 @@ class Collisions:
         return Clearance(self._robot, self._level, pieces, over_m, self._height_m, self._bodies.torso_m)
 
     def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """Return in which postures, shape (n, 2, 7), nothing collides, shape (n,)."""
-        return self._bodies.are_free(self._all, bases, joints, _BOTH)
+        """Return in which postures of both arms nothing collides, shape (n,)."""
+        return self._bodies.are_free(self._all, bases, _by_arm(joints), _BOTH)
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Return whether nothing collides in any posture, shape (n, 2, 7); faster than `free` where something does."""
-        return next(self._bodies.touching(self._all, bases, joints, _BOTH), None) is None
+        """Return whether nothing collides in any posture of both arms; faster than `free` where something does."""
+        return next(self._bodies.touching(self._all, bases, _by_arm(joints), _BOTH), None) is None
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
@@ -112,20 +112,26 @@ class Collisions:
         named = joints if arm == 0 else joints * MIRROR
         return self._bodies.are_free(self._of_arm[0], stands, named[:, None], _LEFT, is_certain)
 
-    def arms_apart(self, joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        """Return in which postures, shape (n, 2, 7), the arms are clear of each other, shape (n,); see `arm_free`."""
-        return self._bodies.are_free(self._of_arms, _ORIGIN, joints, _BOTH, is_certain)
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
+        """Return in which postures of some arms these are clear of each other, shape (n,); see `arm_free`.
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+        An arm alone is.
+        """
+        if len(arms) < len(_BOTH):
+            return np.ones(len(joints), dtype=np.bool_)
+        return self._bodies.are_free(self._of_arms, _ORIGIN, _by_arm(joints), _BOTH, is_certain)
+
+    def postures_apart(self, _arms: tuple[int, int], left: FloatArray, right: FloatArray) -> BoolArray:
         """Return which postures of the left arm are certainly apart from which of the right, shape (k, l).
 
         Args:
+            _arms: the left and the right arm; there are no others.
             left: joints of the left arm, shape (k, 7), with the tool in the same pose in all of them.
             right: joints of the right arm, shape (l, 7), with the tool in the same pose in all of them.
         """
         return self._postures_apart(left, right, is_one_enough=False)
 
-    def are_some_apart(self, left: FloatArray, right: FloatArray) -> bool:
+    def are_some_apart(self, _arms: tuple[int, int], left: FloatArray, right: FloatArray) -> bool:
         """Return whether some postures of the left and right arm are certainly apart; see `postures_apart`."""
         return bool(self._postures_apart(left, right, is_one_enough=True).any())
 
@@ -134,11 +140,11 @@ class Collisions:
         return bool(self._bodies.are_free(self._of_body, base_in_table, np.empty((1, 0, 7)), _NEITHER)[0])
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        """Return the deepest contact in one posture, shape (2, 7); None if nothing collides."""
+        """Return the deepest contact in one posture of both arms; None if nothing collides."""
         base, start = rows(base_in_table), np.zeros(1, dtype=np.int64)
         found: list[Contact] = []
         while True:
-            (pair,), (poses,) = self._bodies.first_close(self._all, base, joints[None], _BOTH, start)
+            (pair,), (poses,) = self._bodies.first_close(self._all, base, _by_arm(joints), _BOTH, start)
             if pair < 0:
                 return max(found, key=lambda contact: contact.depth_m, default=None)
             if (depth_m := self._bodies.depth_m(self._all, int(pair), poses)) >= 0.0:
@@ -151,6 +157,11 @@ class Collisions:
         return postures_apart(
             bodies.arm, bodies.torso_m, bodies.parts, left, right, pairs, self._margin_m, is_one_enough
         )
+
+
+def _by_arm(joints: FloatArray) -> FloatArray:
+    """Return postures of both arms arm by arm, shape (n, 2, 7)."""
+    return joints.reshape(-1, len(_BOTH), len(MIRROR))
 
 
 def _arm_pairs(arm: int, tables: range) -> Iterator[tuple[int, int]]:

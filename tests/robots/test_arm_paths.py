@@ -27,13 +27,20 @@ def is_free(arm: int) -> IsFree:
 
 
 def along(paths: tuple[ToolPath, ToolPath], both_arms=COLLISIONS) -> FloatArray | NoPath:
-    return ROBOT.arm_pair_path(paths, TORSO_M, TABLE_M, (is_free(0), is_free(1)), both_arms)
+    are_free = {arm: is_free(arm) for arm in (0, 1)}
+    return by_arm(ROBOT.arm_paths(dict(enumerate(paths)), TORSO_M, TABLE_M, are_free, both_arms))
+
+
+def by_arm(found: FloatArray | NoPath) -> FloatArray | NoPath:
+    """Joints arm by arm, shape (n, 2, 7)."""
+    return found if isinstance(found, NoPath) else found.reshape(-1, 2, 7)
 
 
 def alone(paths: tuple[ToolPath, ToolPath]) -> FloatArray:
     """How each arm would go if the other were not there."""
-    each = (ROBOT.arm_path(arm, path, TORSO_M, TABLE_M, is_free(arm)) for arm, path in enumerate(paths))
-    return np.stack([*each], axis=1)
+    each = enumerate(paths)
+    found = [ROBOT.arm_paths({arm: path}, TORSO_M, TABLE_M, {arm: is_free(arm)}, COLLISIONS) for arm, path in each]
+    return np.stack(found, axis=1)
 
 
 def require_followed(paths: tuple[ToolPath, ToolPath], joints: FloatArray) -> None:
@@ -53,10 +60,10 @@ class Between:
     def __init__(self, is_apart) -> None:
         self._is_apart = is_apart
 
-    def arms_apart(self, joints: FloatArray) -> BoolArray:
-        return np.array([self._is_apart(left, right) for left, right in joints], dtype=bool)
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
+        return np.array([self._is_apart(left, right) for left, right in joints.reshape(-1, 2, 7)], dtype=bool)
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
+    def postures_apart(self, arms: tuple[int, int], left: FloatArray, right: FloatArray) -> BoolArray:
         return np.array([[self._is_apart(a, b) for b in right] for a in left], dtype=bool)
 
 
@@ -76,7 +83,7 @@ def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: floa
         line((0.62 + gap_m, 0.25, 0.9), (0.62 + gap_m, -0.1, 0.9), 0.0),
         line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0),
     )
-    assert not COLLISIONS.arms_apart(alone(paths)).all(), "else nothing is to be found"
+    assert not COLLISIONS.arms_apart((0, 1), alone(paths)).all(), "else nothing is to be found"
     require_followed(paths, along(paths))
 
 

@@ -1,10 +1,13 @@
-"""Joints for two arms whose tools follow a path each: continuous, within limits, free of collision.
+"""Joints for arms whose tools follow a path each: continuous, within limits, free of collision.
 
-Each arm's path is first found on its own (`planner.robots.arm_path`). Where the arms collide,
+Each arm's path is first found on its own (`planner.robots.arm_path`). Where two arms collide,
 `planner.robots.joint_chain_pair` searches for both at once. It starts by allowing every pair of samples; where the
 chains found collide, the pairs of those poses are checked, at a few of the poses first, and the search is repeated.
+Of three arms and more that collide, one pair after the other is led apart.
 """
 
+from collections.abc import Mapping
+from itertools import combinations
 from typing import Protocol
 
 import numpy as np
@@ -22,49 +25,63 @@ _ASKED_OF = (4, 2, 1)
 """Strides over the poses to be checked: few are checked first, the others only if that changes nothing."""
 
 
-class BothArms(Protocol):
-    """A check of whether the arms collide with each other."""
+class Together(Protocol):
+    """A check of whether arms collide with each other. Joints are in rad."""
 
-    def arms_apart(self, joints: FloatArray) -> BoolArray:
-        """Return in which postures, shape (m, 2, 7), the arms do not touch, shape (m,)."""
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
+        """Return in which of some arms' postures these do not touch, shape (m,).
+
+        A posture is one row: the joints of these arms, one arm after the other.
+        """
         ...
 
-    def postures_apart(self, left: FloatArray, right: FloatArray) -> BoolArray:
-        """Return which postures of the left arm, (k, 7), are certainly clear of which of the right, (l, 7): (k, l).
+    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
+        """Return which of k postures of the first arm are certainly clear of which of l of the second, shape (k, l).
 
         In all postures of an arm its tool is in the same pose.
         """
         ...
 
 
-def arm_pair_path(left: ArmSearch, right: ArmSearch, both_arms: BothArms) -> FloatArray | NoPath:
-    """Return the calmest joints that keep both tools on their paths, which have equally many poses.
+def arm_paths(searches: Mapping[int, ArmSearch], together: Together) -> FloatArray | NoPath:
+    """Return the calmest joints that keep all tools on their paths, which have equally many poses.
 
     Args:
-        left: the search for the left arm's path.
-        right: the search for the right arm's path.
-        both_arms: the check of whether the arms collide with each other.
+        searches: the search for each arm's path, in rising order of the arms.
+        together: the check of whether arms collide with each other.
 
     Returns:
-        Joints (rad), shape (n, 2, 7), forearm and wrist roll unwound; or that there are none.
+        Joints (rad), one arm after the other, shape (n, joints), those that turn without end unwound; or that there
+        are none.
     """
-    alone = [left.found(), right.found()]
-    joints = [found for found in alone if not isinstance(found, NoPath)]
+    alone = {arm: search.found() for arm, search in searches.items()}
+    joints = {arm: found for arm, found in alone.items() if not isinstance(found, NoPath)}
     if len(joints) < len(alone):
-        return min((found for found in alone if isinstance(found, NoPath)), key=lambda none: len(none.blocked))
-    both = np.stack(joints, axis=1)
-    return both if both_arms.arms_apart(both).all() else _PairSearch((left, right), both_arms).found()
+        return min((found for found in alone.values() if isinstance(found, NoPath)), key=lambda none: len(none.blocked))
+    for pair in combinations(searches, 2):
+        if not together.arms_apart(pair, np.hstack([joints[arm] for arm in pair])).all():
+            first, second = (searches[arm] for arm in pair)
+            found = _PairSearch(pair, (first, second), together).found()
+            if isinstance(found, NoPath):
+                return found
+            joints |= zip(pair, np.split(found, [joints[pair[0]].shape[1]], axis=1), strict=True)
+    every = np.hstack([*joints.values()])
+    if len(joints) > 2 and not together.arms_apart(tuple(joints), every).all():
+        return NoPath(np.empty(0, dtype=np.int64), is_core=False)
+    return every
 
 
 class _PairSearch:
     """The search for the paths of two arms that collide on their separate paths."""
 
-    def __init__(self, arms: tuple[ArmSearch, ArmSearch], both_arms: BothArms) -> None:
+    def __init__(self, pair: tuple[int, int], arms: tuple[ArmSearch, ArmSearch], together: Together) -> None:
+        self._pair = pair
         self._arms = arms
-        self._both_arms = both_arms
+        self._together = together
         self._links = arms[0].links
-        self._samples = np.stack([arm.samples for arm in arms])
-        self._speeds = np.stack([arm.speeds for arm in arms])
+        widest = max(len(arm.speeds) for arm in arms)
+        self._samples = np.stack([_widened(arm.samples, widest, 0.0) for arm in arms])
+        self._speeds = np.stack([_widened(arm.speeds, widest, 1.0) for arm in arms])
         self._spans = np.stack([arm.spans for arm in arms])
         count, size = arms[0].costs.shape
         self._is_allowed = np.ones((count, size, size), dtype=np.bool_)
@@ -93,15 +110,18 @@ class _PairSearch:
         return cheapest_chain_pair(samples, costs, self._is_allowed[part], self._speeds, spans)
 
     def _followed(self, guides: list[FloatArray]) -> tuple[FloatArray, NDArray[np.int64]]:
-        """Return both arms' joints along the whole path, shape (n, 2, 7), and the poses at which they are not valid."""
+        """Return both arms' joints along the whole path, shape (n, joints), and the poses at which they are invalid."""
         pairs = list(zip(self._arms, guides, strict=True))
-        at_links = np.stack([arm.joints(guide) for arm, guide in pairs], axis=1)
+        at_links = np.hstack([arm.joints(guide) for arm, guide in pairs])
         are_free = np.all([arm.are_free(guide) for arm, guide in pairs], axis=0)
-        if not (are_free := are_free & self._both_arms.arms_apart(at_links)).all():
+        if not (are_free := are_free & self._are_apart(at_links)).all():
             return at_links, self._links[~are_free]
         joints, bad = zip(*(arm.followed(guide) for arm, guide in pairs), strict=True)
-        both = np.stack(joints, axis=1)
-        return both, np.concatenate(bad) if any(map(len, bad)) else np.flatnonzero(~self._both_arms.arms_apart(both))
+        both = np.hstack(joints)
+        return both, np.concatenate(bad) if any(map(len, bad)) else np.flatnonzero(~self._are_apart(both))
+
+    def _are_apart(self, joints: FloatArray) -> BoolArray:
+        return self._together.arms_apart(self._pair, joints)
 
     def _strike(self, chains: NDArray[np.int64], bad: NDArray[np.int64]) -> bool:
         """Check the pairs beside invalid poses until a chosen pair is rejected; return false if a link has none left.
@@ -125,17 +145,17 @@ class _PairSearch:
             self._is_asked[link] = True
             (rows, left), (columns, right) = (arm.able(link) for arm in self._arms)
             allowed = np.zeros_like(self._is_allowed[link])
-            allowed[np.ix_(rows, columns)] = self._both_arms.postures_apart(left, right)
+            allowed[np.ix_(rows, columns)] = self._together.postures_apart(self._pair, left, right)
             self._is_allowed[link] = allowed
         return bool(self._is_allowed[link].any())
 
     def _smoothed(self, guides: list[FloatArray], joints: FloatArray) -> FloatArray:
         """Return the paths with the pans' corners rounded, or unchanged where that makes the arms collide."""
-        each = [
-            arm.smoothed(guide, joints[:, k]) for k, (arm, guide) in enumerate(zip(self._arms, guides, strict=True))
-        ]
-        smooth = np.stack(each, axis=1)
-        return smooth if self._both_arms.arms_apart(smooth).all() else joints
+        parts = np.split(joints, [len(self._arms[0].speeds)], axis=1)
+        smooth = np.hstack(
+            [arm.smoothed(guide, part) for arm, guide, part in zip(self._arms, guides, parts, strict=True)]
+        )
+        return smooth if self._are_apart(smooth).all() else joints
 
     def _none(self) -> NoPath:
         first, last = zip(*(arm.core for arm in self._arms), strict=True)
@@ -144,3 +164,9 @@ class _PairSearch:
         core = slice(inside[0], inside[-1] + 1)
         is_core = is_blocked.any() or not (self._has_dropped or self._chains(core).size)
         return NoPath(self._links[inside[is_blocked]] - min(first), bool(is_core))
+
+
+def _widened(rows: FloatArray, width: int, fill: float) -> FloatArray:
+    """Return rows with more columns: joints that an arm does not have cost no time."""
+    more = np.full((*rows.shape[:-1], width - rows.shape[-1]), fill)
+    return np.concatenate([rows, more], axis=-1)
