@@ -1,7 +1,7 @@
-"""The shapes of garments, scenes and answers, for the description of the interface at /docs.
+"""Response models of garments, scenes and plans, which describe the interface at /docs.
 
-The planner makes and checks these values; nothing is validated here. The types of the page's JavaScript are made of
-them, so tests hold what is sent against them, field by field.
+The planner makes and checks these values; nothing is validated here. The types of the page's JavaScript are
+generated from them, so tests compare what is sent with them, field by field.
 """
 
 from typing import Annotated, Literal
@@ -18,7 +18,7 @@ Point3 = tuple[float, float, float]
 
 
 class Health(BaseModel):
-    """How the server is, and which version; `problem` only where something is wrong."""
+    """The server's state and version; `problem` is there only when something is wrong."""
 
     status: Literal["ok", "degraded"]
     version: str
@@ -26,7 +26,7 @@ class Health(BaseModel):
 
 
 class GarmentFold(BaseModel):
-    """A fold of a garment; what lies to the left of start -> end moves."""
+    """A fold of a garment; the cloth to the left of start -> end moves."""
 
     name: str
     kind: Literal["blue", "red"]
@@ -36,7 +36,7 @@ class GarmentFold(BaseModel):
 
 
 class GarmentAnswer(BaseModel):
-    """A garment as it is drawn, every field filled in; it may be one that cannot be."""
+    """A garment as it is drawn, every field filled in; it may break the rules for garments."""
 
     name: str
     title: str
@@ -71,7 +71,7 @@ class DagAnswer(BaseModel):
 
 
 class StepPart(BaseModel):
-    """What every primitive has: its time in the plan, where it leaves the base, and what the arms do."""
+    """The fields of every primitive: its time in the plan, where it leaves the base, and the arms' grips."""
 
     start_s: float
     duration_s: float
@@ -80,7 +80,7 @@ class StepPart(BaseModel):
 
 
 class FoldPart(StepPart):
-    """A fold, and whether the hands hold on after it."""
+    """A fold, and whether the hands keep their grip after it."""
 
     kind: Literal["fold"]
     fold: int
@@ -88,7 +88,7 @@ class FoldPart(StepPart):
 
 
 class DragPart(StepPart):
-    """A drag towards the robot (m), and whether the hands hold on after it."""
+    """A drag towards the robot (m), and whether the hands keep their grip after it."""
 
     kind: Literal["drag"]
     distance_m: float
@@ -96,7 +96,7 @@ class DragPart(StepPart):
 
 
 class MovePart(StepPart):
-    """A drive from one station to another, by way of poses of the base (m, rad)."""
+    """A drive from one station to another, with the poses of the base in between (m, rad)."""
 
     kind: Literal["move"]
     start: str = Field(alias="from")
@@ -115,7 +115,7 @@ class DagPart(BaseModel):
 
 
 class Says(BaseModel):
-    """A message as data: its code, and the named numbers of that code."""
+    """A message as data: its code and the named numbers that belong to the code."""
 
     model_config = ConfigDict(extra="allow")
 
@@ -123,7 +123,7 @@ class Says(BaseModel):
 
 
 class Change(BaseModel):
-    """The fields of a plan request that a suggestion changes; the others stay."""
+    """The fields of a plan request that a suggestion changes; all others stay."""
 
     garment: GarmentAnswer | None = None
     placement: Pose2 | None = None
@@ -133,19 +133,19 @@ class Change(BaseModel):
 
 
 class ApproachAnswer(BaseModel):
-    """How a hand is turned: where its fingers point, in the frame of the base, and how far below the horizontal."""
+    """A hand's orientation: the direction of its fingers in the base frame, and its pitch below the horizontal."""
 
     heading_rad: float
     pitch_rad: float
 
 
 class ReasonAnswer(BaseModel):
-    """Why there is no plan.
+    """A reason why there is no plan.
 
-    Points and directions are in the table frame (m), `approach` in that of the base. `point` is where it is with the
-    cloth dragged by `offset_m`; `short_by_m` is but a lower bound where `is_at_least` is true. Reasons of one `set`
-    must all be mended, `change` does it, and then there is what the set `gives`: a plan, at least the fold, or cloth
-    that stays where it lies at the start.
+    Points and directions are in the table frame (m), `approach` in that of the base. `point` is given with the
+    cloth dragged by `offset_m`; `short_by_m` is only a lower bound where `is_at_least` is true. Reasons of one `set`
+    must all be fixed together, and `change` does so. `gives` says what that achieves: a plan, at least the fold, or
+    cloth that stays where it lies at the start.
     """
 
     fold: int | None
@@ -174,7 +174,7 @@ class ReasonAnswer(BaseModel):
 
 
 class PlanAnswer(BaseModel):
-    """A plan, or why there is none."""
+    """A plan, or the reasons why there is none."""
 
     id: str
     status: Literal["solved", "infeasible", "budget_exceeded"]
@@ -188,7 +188,7 @@ class PlanAnswer(BaseModel):
 
 
 class SampleAnswer(BaseModel):
-    """The robot at one time."""
+    """The robot at one moment."""
 
     t_s: float
     primitive: int
@@ -199,7 +199,7 @@ class SampleAnswer(BaseModel):
 
 
 class TimelineAnswer(BaseModel):
-    """A plan's timeline, sampled."""
+    """A plan's timeline, sampled at an even rate."""
 
     rate_hz: float
     samples: list[SampleAnswer]

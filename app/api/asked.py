@@ -1,4 +1,4 @@
-"""Turns what a request names or contains into the planner's values; fields are named as in the request."""
+"""Convert the fields of a request into the planner's values; errors name the fields as in the request."""
 
 import time
 from collections.abc import Iterator
@@ -18,22 +18,22 @@ from planner.task.task import Task
 from planner.task.world_state import WorldState
 
 SHORTEST_S = 0.01
-"""The least time that a search is given, though it should have begun earlier (s)."""
+"""The least time that a search is given, even when its deadline is nearer (s)."""
 
 
 def workspace_of(request: Request) -> Workspace:
-    """The server's workspace."""
+    """Return the server's workspace."""
     workspace: Workspace = request.app.state.workspace
     return workspace
 
 
 def asked_garment(workspace: Workspace, garment: str | Garment) -> Garment:
-    """Return the garment of a request's field `garment`: by name, or given whole; raises `UnknownGarmentError`."""
+    """Return the garment of a request's field `garment`, by name or in full; raises `UnknownGarmentError`."""
     return workspace.garments.garment(garment) if isinstance(garment, str) else garment
 
 
 class TimeLimit:
-    """The time that a request gives a search, which runs from its arrival on."""
+    """The time limit of a request; it runs from the request's arrival."""
 
     def __init__(self, limit_s: float) -> None:
         """Start the clock."""
@@ -42,12 +42,12 @@ class TimeLimit:
 
     @property
     def left_s(self) -> float:
-        """What is left of it (s)."""
+        """The time that is left (s)."""
         return max(SHORTEST_S, self.limit_s - (time.monotonic() - self._arrived_s))
 
 
 def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> Task:
-    """Return the task of a plan request, for a search that begins now; raises what is wrong with the request."""
+    """Return the task of a plan request, for a search that begins now; raises an error for the first wrong field."""
     task = Task.of(
         asked_garment(workspace, wanted.garment),
         wanted.scene,
@@ -64,7 +64,7 @@ def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> T
 
 
 def _asked_start(task: Task, wanted: StartField) -> WorldState:
-    """Return the state that a request starts from; what it leaves out is as in a task."""
+    """Return the state from which a request plans; fields left out have the task's defaults."""
     return WorldState(
         wanted.folds_done,
         wanted.placement or task.start.placement,
@@ -75,7 +75,7 @@ def _asked_start(task: Task, wanted: StartField) -> WorldState:
 
 
 def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
-    """Return where the base stands: at a station, or where its pose says."""
+    """Return the base's place: at a station, or at a given pose."""
     x_m, y_m, yaw_rad = wanted.x_m, wanted.y_m, wanted.yaw_rad
     if wanted.station is None:
         if x_m is None or y_m is None or yaw_rad is None:
@@ -92,7 +92,7 @@ def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
 
 @contextmanager
 def within_request() -> Iterator[None]:
-    """Have errors of garment, folds and scene name the field as it is in the request."""
+    """Rename the fields in errors of garment, folds and scene to those of the request."""
     try:
         yield
     except (FoldError, GarmentError) as error:

@@ -1,7 +1,7 @@
-"""Reads JSON bodies strictly, and says what is wrong with one that is no JSON.
+"""Strict reading of JSON bodies, with errors that say what is wrong.
 
-FastAPI would read them itself, but with a parser that takes NaN and Infinity, stumbles over deep nesting, and
-has no limit; so the routes that take a body come here.
+FastAPI's own parser accepts NaN and Infinity, fails on deep nesting, and has no size limit; so every route with a
+body uses this one.
 """
 
 from typing import Any, Generic, TypeVar
@@ -21,21 +21,21 @@ Body = TypeVar("Body")
 
 
 class JsonBody(Generic[Body]):
-    """A dependency: the value that a request's body holds, read strictly by its type.
+    """A dependency that returns the value of a request's body, read strictly by its type.
 
     Attributes:
-        may_be_empty: whether a body that is empty counts as an object without fields.
-        example: one that is answered, for the description.
+        may_be_empty: whether an empty body counts as an object without fields.
+        example: a valid body, for the description.
     """
 
     def __init__(self, kind: type[Body], example: dict[str, Any], *, may_be_empty: bool = False) -> None:
-        """Read bodies of a type."""
+        """Read bodies of this type."""
         self.may_be_empty, self.example = may_be_empty, example
         self._kind: Any = kind
         self._form: JsonForm[Body] = JsonForm(kind)
 
     async def __call__(self, request: Request) -> Body:
-        """Return the value; raises what `read_object` does, and the `FieldError` of the first wrong field."""
+        """Return the value; raises as `read_object` does, and the `FieldError` of the first wrong field."""
         data = await read_object(request, may_be_empty=self.may_be_empty)
         return await run_in_threadpool(self._form.read, data)
 
@@ -45,11 +45,11 @@ class JsonBody(Generic[Body]):
 
 
 async def read_object(request: Request, *, may_be_empty: bool = False, most: int = LARGEST_BODY) -> dict[str, Any]:
-    """The body as a JSON object.
+    """Return the body as a JSON object.
 
     Raises:
-        TooLargeError: it has more than so many bytes, by default `LARGEST_BODY`.
-        RequestError: it is not called JSON, is no JSON, or no object.
+        TooLargeError: the body is larger than allowed, by default `LARGEST_BODY` bytes.
+        RequestError: the content type is not JSON, or the body is no JSON or no object.
     """
     body = await read_bytes(request, most)
     if may_be_empty and not body:
@@ -62,7 +62,7 @@ async def read_object(request: Request, *, may_be_empty: bool = False, most: int
 
 
 def parsed(text: bytes | str) -> Any:  # noqa: ANN401
-    """JSON, strictly: UTF-8, no NaN, no Infinity, nesting below 200; raises `RequestError`."""
+    """Parse strict JSON: UTF-8, no NaN, no Infinity, nesting below 200; raises `RequestError`."""
     try:
         return from_json(text, allow_inf_nan=False)
     except ValueError as error:
@@ -78,7 +78,7 @@ def _require_json_type(content_type: str | None) -> None:
 
 
 async def read_bytes(request: Request, most: int) -> bytes:
-    """The body as it is; raises `TooLargeError` if it has more bytes than that."""
+    """Return the raw body; raises `TooLargeError` if it has more bytes than allowed."""
     declared = request.headers.get("content-length", "0")
     if declared.isascii() and declared.isdigit() and int(declared[:20]) > most:
         raise _too_large(most)

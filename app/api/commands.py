@@ -1,4 +1,4 @@
-"""The page's commands to a document, by websocket or by POST."""
+"""The page's commands to a document, sent by websocket or by POST."""
 
 from dataclasses import replace
 from typing import Any
@@ -30,7 +30,7 @@ from planner.strict_model import first_error
 
 
 def command_of(data: Any) -> Command:  # noqa: ANN401
-    """The command that some JSON is; raises `RequestError`."""
+    """Return the command that JSON describes; raises `RequestError`."""
     try:
         return COMMANDS.validate_python(data)
     except ValidationError as error:
@@ -38,7 +38,7 @@ def command_of(data: Any) -> Command:  # noqa: ANN401
 
 
 def obey(command: Command, workspace: Workspace, document: Document) -> None:
-    """Do what a command says."""
+    """Carry out a command."""
     match command:
         case Play():
             document.play()
@@ -67,7 +67,7 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
 def put_garment(
     document: Document, garment: Garment, label: str | None = None, base_version: int | None = None
 ) -> DocumentState:
-    """Another garment into the same scene, as one step; raises `StaleVersionError`."""
+    """Put another garment into the scene, as one step; raises `StaleVersionError`."""
     now = document.state.drawing
     drawing = replace(
         drawing_of(garment, now.scene), start_station=now.start_station, comfort_radius_m=now.comfort_radius_m

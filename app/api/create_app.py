@@ -1,4 +1,4 @@
-"""Puts the server together: REST, page, stages, guard. Nothing is built before this is called."""
+"""Assembly of the server: REST, page, stages, guard. Nothing is built at import."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -32,7 +32,7 @@ from app.workspace import Workspace
 
 
 def create_app(settings: Settings) -> FastAPI:
-    """The server for these settings; documents are opened when it starts to serve."""
+    """Return the server for these settings; documents are opened when it starts to serve."""
     workspace = Workspace(settings)
 
     @asynccontextmanager

@@ -1,4 +1,4 @@
-"""What /docs says about the routes, where FastAPI cannot read it from a signature."""
+"""Additions to the description at /docs that FastAPI cannot read from signatures."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -15,13 +15,13 @@ _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
 
 def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """The errors that a route may answer with."""
+    """Return the descriptions of the errors that a route may answer with."""
     content = {MEDIA_TYPE: {"schema": _PROBLEM}}
     return {status: {"description": "A problem (RFC 9457)", "content": content} for status in statuses}
 
 
 class DescribedRoute(APIRoute):
-    """A route whose description has the body that its dependency reads."""
+    """A route whose description includes the body that its dependency reads."""
 
     def __init__(self, *args: Any, **options: Any) -> None:  # noqa: ANN401
         """Add the body's schema and its example to the description."""
@@ -31,7 +31,7 @@ class DescribedRoute(APIRoute):
 
 
 def _bodies(dependant: Dependant) -> Iterator[JsonBody[Any]]:
-    """Yield what reads the body among the dependencies of a route, and among theirs."""
+    """Yield the dependencies of a route that read its body, nested ones too."""
     for dependency in dependant.dependencies:
         if isinstance(dependency.call, JsonBody):
             yield dependency.call
@@ -52,7 +52,7 @@ def whole_schema(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
-    """A schema in which the model's own definitions stand where they are referred to.
+    """Return a schema with the model's own definitions put in place of references to them.
 
     Discriminators are left out: their mappings would still point at the definitions, and the variants tell themselves
     apart by their constants.
@@ -68,7 +68,7 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
 
 
 def describe(app: FastAPI, *models: type[BaseModel]) -> None:
-    """Put the shapes of what no route's signature names into the description: problems, what the websocket carries."""
+    """Add the schemas that no route's signature names to the description: problems and websocket messages."""
     plain = app.openapi
 
     def openapi() -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The shapes of answers about documents, for the description of the interface at /docs."""
+"""Response models of documents, which describe the interface at /docs."""
 
 from typing import Literal
 
@@ -13,7 +13,7 @@ Ring = list[Point]
 
 
 class EndAnswer(BaseModel):
-    """An end of a fold: where it is (m), and what it is tied to."""
+    """An end of a fold: its position (m), and what it is tied to."""
 
     point: Point
     on: CornerTieModel | EdgeTieModel | CreaseTieModel | ChordTieModel | None
@@ -27,7 +27,7 @@ class CornerAnswer(BaseModel):
 
 
 class FoldAnswer(BaseModel):
-    """A fold of a drawing; `twin` is the one on the other side that goes along."""
+    """A fold of a drawing; `twin` is the mirrored fold that moves along with it."""
 
     id: str
     name: str
@@ -64,7 +64,7 @@ class DocumentEntryAnswer(BaseModel):
 
 
 class SolvedFold(BaseModel):
-    """Whether a fold is legal, and where it is on the cloth as it is when its turn comes (m)."""
+    """Whether a fold is legal, and its line on the cloth as it lies when its turn comes (m)."""
 
     fold: str
     status: Literal["legal", "illegal", "unchecked"]
@@ -73,7 +73,7 @@ class SolvedFold(BaseModel):
 
 
 class StepAnswer(BaseModel):
-    """The cloth before a legal fold (after the last: what is left), and what the fold does (m)."""
+    """The cloth before a legal fold, or after the last, and what the fold moves (m)."""
 
     silhouette: list[Ring]
     flap: list[Ring]
@@ -82,7 +82,7 @@ class StepAnswer(BaseModel):
 
 
 class DrawingProblem(BaseModel):
-    """One thing for which there is no plan, and where it can be shown (m)."""
+    """A problem that keeps the drawing from being planned, and where the board shows it (m)."""
 
     code: str
     field: str
@@ -101,7 +101,7 @@ class HistoryAnswer(BaseModel):
 
 
 class DocumentAnswer(BaseModel):
-    """A document: what is drawn, what it comes to, what is wrong with it, what can be undone."""
+    """A document: its drawing, the solved folds, the problems, and the history."""
 
     kind: Literal["document"]
     id: str
@@ -116,7 +116,7 @@ class DocumentAnswer(BaseModel):
 
 
 class PlaybackAnswer(BaseModel):
-    """The clock; `version` is the one whose plan is played."""
+    """The playback clock; `version` is the one whose plan is played."""
 
     kind: Literal["playback"]
     version: int | None
@@ -127,7 +127,7 @@ class PlaybackAnswer(BaseModel):
 
 
 class CreaseAnswer(BaseModel):
-    """A fold that could be drawn: its ends, what moves, and where that lands (m)."""
+    """A fold that could be drawn: its ends, the cloth that moves, and where it lands (m)."""
 
     start: EndAnswer
     end: EndAnswer
@@ -155,7 +155,7 @@ class StepsAnswer(BaseModel):
 
 
 class MendAnswer(BaseModel):
-    """A change that takes a problem of a drawing away: what is done, and the drawing afterwards."""
+    """A change that removes a problem of a drawing: its label, and the drawing afterwards."""
 
     label: str
     says: Says
@@ -163,7 +163,7 @@ class MendAnswer(BaseModel):
 
 
 class MendsAnswer(BaseModel):
-    """What would help where there is a problem."""
+    """The quick fixes of a drawing's first problem."""
 
     version: int
     mends: list[MendAnswer]

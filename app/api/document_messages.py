@@ -22,18 +22,18 @@ def _drawing(value: Any) -> Any:  # noqa: ANN401
 
 
 class NewDocument(StrictModel):
-    """Asks for a new document: on a garment, as a copy of another document, or blank."""
+    """A request for a new document: for a garment, as a copy of another document, or blank."""
 
     garment: GarmentField | None = None
     copy_of: str | None = None
 
 
 class EditRequest(StrictModel):
-    """A change of the drawing that was made to a version.
+    """A change of the drawing, made to a version.
 
-    A preview makes no step, a commit makes one, a cancel (which needs no drawing) takes the previews back. Commits with
-    the same key `coalesce` that follow at once are one step. A change with another key `gesture` first makes a gesture
-    that is still open a step of its own.
+    A preview adds no step to the history, a commit adds one, a cancel (which needs no drawing) undoes the previews.
+    Successive commits with the same key `coalesce` are one step. A change with another key `gesture` first commits a
+    gesture that is still open.
     """
 
     base_version: Version
@@ -45,7 +45,7 @@ class EditRequest(StrictModel):
 
 
 class GarmentRequest(StrictModel):
-    """Another garment in place of the one that is drawn."""
+    """A request to put another garment in place of the one that is drawn."""
 
     garment: GarmentField
     label: Label | None = None
@@ -53,27 +53,27 @@ class GarmentRequest(StrictModel):
 
 
 class TravelRequest(StrictModel):
-    """Undo or redo, perhaps only at a version."""
+    """A request to undo or redo, optionally only at a given version."""
 
     base_version: Version | None = None
 
 
 class Grab(StrictModel):
-    """A point of the cloth, and where it is to land (m)."""
+    """A point of the cloth, and where it lands (m)."""
 
     start: PlanePoint = Field(alias="from")
     to: PlanePoint
 
 
 class Line(StrictModel):
-    """A line, anywhere (m)."""
+    """A line anywhere on the board (m)."""
 
     start: PlanePoint
     end: PlanePoint
 
 
 class CreaseRequest(StrictModel):
-    """Asks where a fold would be, after so many folds: by grab and drop, or along a line."""
+    """A request for the position of a new fold, after some number of folds: by grab and drop, or along a line."""
 
     after: Annotated[int, Field(ge=0)] | None = None
     kind: Literal["blue", "red"] = "blue"

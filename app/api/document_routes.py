@@ -1,4 +1,4 @@
-"""Documents: the list, one, its drawing with undo and redo, its playback, and where a fold would be."""
+"""Routes of documents: the list, each one with its history and playback, and new folds."""
 
 from collections.abc import Callable
 from dataclasses import asdict
@@ -52,7 +52,7 @@ NewDocumentBody = Annotated[NewDocument, Depends(JsonBody(NewDocument, {"garment
 TravelRequestBody = Annotated[TravelRequest, Depends(JsonBody(TravelRequest, {"base_version": 1}, may_be_empty=True))]
 
 PAGE, PAGE_MAX = 100, 500
-"""Documents on a page of the list: as long as nobody asks for another number, and at most."""
+"""Documents on a page of the list: by default, and at most."""
 
 Limit = Annotated[int, Query(ge=1, le=PAGE_MAX, description="documents on the page")]
 After = Annotated[str, Query(max_length=100, description="where the page before ended, as its `Link` has it")]
@@ -64,9 +64,9 @@ _CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **p
 async def list_documents(
     request: Request, response: Response, limit: Limit = PAGE, after: After | None = None
 ) -> list[dict[str, Any]]:
-    """The documents, the one changed last first; those whose file cannot be read at the end.
+    """Return the documents, the latest changed first; those whose file cannot be read come last.
 
-    Where there are more than `limit`, the header `Link` leads to the next ones: `<?limit=...&after=...>; rel="next"`.
+    If there are more than `limit`, the header `Link` leads to the next ones: `<?limit=...&after=...>; rel="next"`.
     """
     documents = workspace_of(request).documents
     page = await run_in_threadpool(documents.page, _place(after), limit)
@@ -82,7 +82,7 @@ async def list_documents(
     responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 507)},
 )
 async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
-    """A new document; its address is in `Location`."""
+    """Create a document; its address is in `Location`."""
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
     message = await run_in_threadpool(document_message, opened.id, opened.document.state)
     location = f"{request.scope.get('root_path', '')}/d/{opened.id}"
@@ -91,7 +91,7 @@ async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResp
 
 @router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422)})
 async def read_document(request: Request, document_id: str) -> JSONResponse:
-    """What is drawn, and what it comes to."""
+    """Return the drawing of a document, its solution and its problems."""
     opened = await _opened(request, document_id)
     return JSONResponse(await run_in_threadpool(document_message, document_id, opened.document.state))
 
@@ -105,7 +105,7 @@ async def remove_document(request: Request, document_id: str) -> Response:
 
 @router.put("/{document_id}/drawing", responses=_CHANGED)
 async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
-    """Change the drawing; 409, with the current `state`, when it was changed by somebody else meanwhile."""
+    """Change the drawing; answers 409, with the current `state`, if somebody else has changed it meanwhile."""
     edit = _edit(wanted)
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.edit, edit))
@@ -113,7 +113,7 @@ async def put_drawing(request: Request, document_id: str, wanted: EditRequestBod
 
 @router.put("/{document_id}/garment", responses=_CHANGED)
 async def put_other_garment(request: Request, document_id: str, wanted: GarmentRequestBody) -> Response:
-    """Another garment in place of the one that is drawn, as one step."""
+    """Put another garment in place of the one that is drawn, as one step."""
     opened = await _opened(request, document_id)
 
     def put() -> DocumentState:
@@ -125,14 +125,14 @@ async def put_other_garment(request: Request, document_id: str, wanted: GarmentR
 
 @router.post("/{document_id}/undo", responses=_CHANGED)
 async def undo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
-    """Take the last step back; without one nothing happens."""
+    """Undo the last step; without one nothing happens."""
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.undo, wanted.base_version))
 
 
 @router.post("/{document_id}/redo", responses=_CHANGED)
 async def redo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
-    """Take the step again that was undone last; without one nothing happens."""
+    """Redo the step undone last; without one nothing happens."""
     opened = await _opened(request, document_id)
     return await _changed(opened, partial(opened.document.redo, wanted.base_version))
 
@@ -142,7 +142,7 @@ async def redo(request: Request, document_id: str, wanted: TravelRequestBody) ->
     responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422)},
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
-    """A command as on the websocket: play, pause, seek, speed, theme, choose."""
+    """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
     opened = await _opened(request, document_id)
     await run_in_threadpool(obey, command, workspace_of(request), opened.document)
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
@@ -153,7 +153,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
     responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 503)},
 )
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
-    """Where a fold would be that takes a point of the cloth to another place, or that runs along a line."""
+    """Return the fold that takes a point of the cloth to another place, or that runs along a line."""
     opened = await _opened(request, document_id)
     placed = await quick_answer(request, _placed, opened, wanted)
     return JSONResponse(placed.to_dict())
@@ -161,7 +161,7 @@ async def post_crease(request: Request, document_id: str, wanted: CreaseRequestB
 
 @router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 503)})
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
-    """The layers before each legal fold and after the last, bottom to top."""
+    """Return the layers before each legal fold and after the last, bottom to top."""
     opened = await _opened(request, document_id)
     state = opened.document.state
     return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
@@ -169,7 +169,7 @@ async def read_steps(request: Request, document_id: str) -> JSONResponse:
 
 @router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(403, 404, 409, 422, 503)})
 async def read_mends(request: Request, document_id: str) -> JSONResponse:
-    """What would take the first of a drawing's problems away, the best first; none where there are no problems."""
+    """Return the quick fixes of the drawing's first problem, best first; none if it has no problems."""
     opened = await _opened(request, document_id)
     state = opened.document.state
     found = await quick_answer(request, mends, state.draft)
@@ -177,7 +177,7 @@ async def read_mends(request: Request, document_id: str) -> JSONResponse:
 
 
 def _place(after: str | None) -> tuple[str, str] | None:
-    """Return the place in the list that a query names."""
+    """Return the position in the list that a query names."""
     if after is None:
         return None
     changed_at, _, document_id = after.rpartition("/")
@@ -189,7 +189,7 @@ async def _opened(request: Request, document_id: str) -> OpenDocument:
 
 
 async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) -> Response:
-    """The state that a change leads to, or the current one when the change came too late."""
+    """Return the state that a change leads to, or the current state if the change came too late."""
     try:
         state = await run_in_threadpool(change)
     except StaleVersionError as error:

@@ -1,6 +1,6 @@
-"""Turns what nobody expected into a problem, and logs it: once, and with the request that it befell.
+"""Answers to unexpected errors: as a problem, logged once, with the request that failed.
 
-FastAPI's own handler for this answers, and then raises the error again for the server, which logs it a second time.
+FastAPI's own handler raises the error again after it has answered, so the server would log it a second time.
 """
 
 import logging
@@ -13,14 +13,14 @@ _log = logging.getLogger(__name__)
 
 
 class FailuresAsProblems:
-    """Middleware round the routes."""
+    """Middleware that answers unexpected errors of the routes as problems."""
 
     def __init__(self, app: ASGIApp) -> None:
         """Wrap the routes."""
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on; an answer that has begun when it fails is broken off."""
+        """Call the routes; if they fail after the answer has begun, break it off."""
         has_begun = False
 
         async def send_noted(message: Message) -> None:

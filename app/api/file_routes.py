@@ -1,4 +1,4 @@
-"""Files: a garment out of one that somebody has, and all that can be made of a document."""
+"""Routes of files: importing a garment, and exporting a document."""
 
 from functools import partial
 from typing import Annotated, Any, Literal
@@ -44,11 +44,11 @@ Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=Fals
 
 
 class ImportAnswer(BaseModel):
-    """A garment out of a file, and what is to be said about it.
+    """An imported garment, and notes about the import.
 
-    `creases` says on which cloth the fold lines of a drawing were read; null where that makes no difference. `sizes`
-    says how wide and how high a drawing would be in other units (m). `says` has the numbers of the notes, by name, null
-    for a note without.
+    `creases` says on which cloth the fold lines of a drawing were read; null if that makes no difference. `sizes`
+    gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
+    for a note without numbers.
     """
 
     format: Literal["json", "svg", "dxf"]
@@ -60,7 +60,7 @@ class ImportAnswer(BaseModel):
 
 
 class FileEntry(BaseModel):
-    """A file that a document can be made into; `reason` says why it is not available now, `says` with its numbers."""
+    """A kind of file that a document exports to; `reason` says why it is unavailable, `says` has the numbers."""
 
     what: str
     title: str
@@ -80,13 +80,13 @@ class FileEntry(BaseModel):
 async def post_import(
     request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0, creases: Lines = None
 ) -> Response:
-    """The garment in a file that is sent as it is: a garment or plan file, SVG or DXF, told by the ending of its name.
+    """Import a garment from a file in the body: a garment or plan file, SVG or DXF, by the ending of its name.
 
-    Of a plan file the garment is taken, placed as at the plan's start.
+    A plan file gives its garment, placed as at the plan's start.
 
-    Where the file does not say how long a unit is, or says what cannot be, the problem is about the field `units` and
-    has `sizes`: how large the garment would be in each. Fold lines are read on that cloth on which more of them are
-    legal, unless `creases` says which.
+    If the file has no unit of length, or an impossible one, the problem is about the field `units` and has `sizes`:
+    the size of the garment in each unit. Unless `creases` says otherwise, fold lines are read on the cloth, flat or
+    folded, on which more of them are legal.
     """
     data = await read_bytes(request, largest(filename))
     work = partial(_read, filename, data, units, scale, creases)
@@ -99,7 +99,7 @@ async def post_import(
 
 @router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422)})
 async def list_files(request: Request, document_id: str) -> JSONResponse:
-    """All files that a document can be made into, and whether they are available now."""
+    """Return all kinds of files that a document can be exported as, and whether each is available now."""
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     state = opened.document.state
     return JSONResponse([export.to_dict(state) for export in EXPORTS])
@@ -111,9 +111,9 @@ async def list_files(request: Request, document_id: str) -> JSONResponse:
     responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422, 503)},
 )
 async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
-    """A document as a file, to be saved; `rate_hz` is how many frames a second a recording has.
+    """Return a document as a file to save; `rate_hz` is the frame rate of a recording.
 
-    A file that cannot be made of the document as it is now is answered with 409 and the reason.
+    Answers 409 with the reason if the document cannot be exported so now.
     """
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     export, state = find_export(what), opened.document.state

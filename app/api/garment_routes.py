@@ -1,4 +1,4 @@
-"""Garments: the list, one, and saving one's own."""
+"""Routes of garments: the list, one, and saving one's own."""
 
 from dataclasses import asdict
 from typing import Annotated, Any
@@ -27,14 +27,14 @@ GarmentBody = Annotated[Garment, Depends(JsonBody(WholeGarment, _TOWEL))]
 
 @router.get("", response_model=list[GarmentEntry])
 async def list_garments(request: Request) -> list[dict[str, Any]]:
-    """All garments, the shipped ones first."""
+    """Return all garments, the shipped ones first."""
     entries = await run_in_threadpool(workspace_of(request).garments.entries)
     return [asdict(entry) for entry in entries]
 
 
 @router.get("/{name}", responses={200: {"model": Garment}, **problems(404)})
 async def read_garment(request: Request, name: str) -> JSONResponse:
-    """A garment file with every field filled in."""
+    """Return a garment file with every field filled in."""
     garment = await run_in_threadpool(workspace_of(request).garments.garment, name)
     return JSONResponse(garment.to_dict())
 
@@ -44,7 +44,7 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
     responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)},
 )
 async def save_garment(request: Request, name: str, garment: GarmentBody) -> JSONResponse:
-    """Save or replace a garment of one's own: 201 when it is new, 200 when it was there."""
+    """Save or replace a garment of one's own: 201 if it is new, 200 if it existed."""
     shelf = workspace_of(request).garments
     if garment.name != name:
         raise GarmentError("name", f"is {garment.name!r}, but the address says {name!r}")

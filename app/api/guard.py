@@ -1,4 +1,4 @@
-"""Answers our own pages only.
+"""Refusal of requests from other pages.
 
 Any page in a browser on this machine can send requests to a loopback port, and under a name that resolves to
 127.0.0.1 it is even of "the same origin". So the `Host` must be one of our own names, and an `Origin`, when
@@ -25,7 +25,7 @@ _FOREIGN_NAME = (MISDIRECTED, "The header Host names none of this server's own n
 _FOREIGN_ORIGIN = (FORBIDDEN, "The header Origin names a page of another server.")
 _FOREIGN_SITE = (FORBIDDEN, "The header Sec-Fetch-Site says that a page of another server asks.")
 _OWN_SITES = frozenset({"same-origin", "none"})
-"""`none`: the reader's own doing, as with an address that is typed."""
+"""Values of `Sec-Fetch-Site` that are accepted; `none` is the user's own doing, such as a typed address."""
 
 _NOT_PAGES = ("/api/", "/viser/")
 _POLICY_VIOLATION = 1008
@@ -40,10 +40,10 @@ _HARDENING = {
 
 
 class OwnNamesOnly:
-    """Middleware round everything, for HTTP and websockets alike."""
+    """Middleware that refuses foreign requests, for HTTP and websockets alike."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
-        """Let through what is addressed to the host that is served, a loopback name or the proxy, at this port."""
+        """Accept requests to the host that is served, a loopback name or the proxy, at this port."""
         own = own_names(settings.host, settings.port)
         proxy = [] if settings.origin is None else [settings.origin.lower()]
         self._app = app
@@ -52,7 +52,7 @@ class OwnNamesOnly:
         self._is_anywhere = _is_wildcard(settings.host)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on or refuse."""
+        """Pass a request on, or refuse it."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
@@ -65,7 +65,7 @@ class OwnNamesOnly:
             await ProblemResponse(*refusal)(scope, receive, send)
 
     def _refusal(self, scope: Scope, headers: Headers) -> tuple[int, str] | None:
-        """Return status and sentence for what is not to be answered."""
+        """Return status and sentence of a refusal; None for a request to be answered."""
         hosts = headers.getlist("host")
         if len(hosts) != 1 or not self._is_own_name(hosts[0].lower()):
             return _FOREIGN_NAME
@@ -105,7 +105,7 @@ def _is_link(scope: Scope, headers: Headers) -> bool:
 
 
 def _is_wildcard(host: str) -> bool:
-    """Return whether a host means all addresses of this machine."""
+    """Return whether a host name stands for all addresses of this machine."""
     try:
         return ipaddress.ip_address(host).is_unspecified
     except ValueError:
@@ -113,7 +113,7 @@ def _is_wildcard(host: str) -> bool:
 
 
 def _is_address(host: str) -> bool:
-    """Return whether a `Host` is an address, not a name: only names can be made to resolve to us by others."""
+    """Return whether a `Host` is an address: only names can be made to resolve to this machine by others."""
     try:
         ipaddress.ip_address(urlsplit(f"//{host}").hostname or "")
     except ValueError:

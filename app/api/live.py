@@ -1,8 +1,8 @@
-"""The page's websocket: the document's state goes out, commands come in.
+"""The page's websocket: state of the document out, commands in.
 
 Out: a ``document`` message at the start and whenever the drawing or its history changes, a ``plan`` message whenever
-the answer to it does, a ``playback`` message whenever the clock is touched and ten times a second while it runs. In:
-commands (`app.api.messages`); one that is not understood is answered with a ``problem`` and changes nothing.
+its plan changes, a ``playback`` message whenever the clock is set, and ten times a second while it runs. In: commands
+(`app.api.messages`); an unknown command is answered with a ``problem`` and changes nothing.
 """
 
 import asyncio
@@ -30,7 +30,7 @@ _TICK_S = 0.1
 
 @router.websocket("/api/documents/{document_id}/live")
 async def live(websocket: WebSocket, document_id: str) -> None:
-    """Keep a page up to date and do what it says, until it goes."""
+    """Send a page the document's changes and carry out its commands, until it disconnects."""
     workspace: Workspace = websocket.app.state.workspace
     try:
         opened = await run_in_threadpool(workspace.opened, document_id)
@@ -74,7 +74,7 @@ async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
 
 
 class _Telling:
-    """What one page knows."""
+    """The state that one page has been sent."""
 
     def __init__(self, opened: OpenDocument) -> None:
         self._opened = opened
@@ -83,7 +83,7 @@ class _Telling:
         self._playback: object = None
 
     def news(self, state: DocumentState) -> list[str]:
-        """The messages that it needs, as JSON."""
+        """Return the messages that bring the page up to date, as JSON."""
         told = []
         document = (state.version, state.draft)
         if document != self._document:
@@ -119,11 +119,11 @@ async def _close(websocket: WebSocket, is_removed: asyncio.Event) -> None:
 
 
 def _waking(event: asyncio.Event) -> Callable[[], None]:
-    """What sets an event of this loop from any thread."""
+    """Return a function that sets an event of this loop from any thread."""
     loop = asyncio.get_running_loop()
 
     def wake() -> None:
-        with contextlib.suppress(RuntimeError):  # the loop has ended
+        with contextlib.suppress(RuntimeError):  # the loop has ended: nobody waits for the event
             loop.call_soon_threadsafe(event.set)
 
     return wake

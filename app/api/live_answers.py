@@ -1,4 +1,4 @@
-"""The shapes of what is sent over a document's websocket, either way, for the description of the interface."""
+"""Models of the messages over a document's websocket, both ways, for the description of the interface."""
 
 from typing import Literal
 
@@ -11,10 +11,10 @@ from planner.task.world_state import WorldState
 
 
 class PlanOnShow(PlanAnswer):
-    """A plan, and what it belongs to.
+    """A plan that the page shows, with the version it belongs to.
 
-    `version` is the document's, `is_stale` whether that has gone on since, `is_final` whether no quicker one is looked
-    for any more, `at_least_s` what any plan takes: null if that is known to be this one's cost.
+    `version` is the document's, `is_stale` whether the document has changed since, `is_final` whether the search for a
+    quicker plan has ended, `at_least_s` a lower bound on the cost of any plan: null if this one is known to be optimal.
     """
 
     version: int
@@ -24,7 +24,7 @@ class PlanOnShow(PlanAnswer):
 
 
 class PlanBefore(BaseModel):
-    """The figures of the plan before."""
+    """The figures of the previous plan."""
 
     version: int
     status: Literal["solved", "infeasible", "budget_exceeded"]
@@ -32,7 +32,7 @@ class PlanBefore(BaseModel):
 
 
 class FoldCheck(BaseModel):
-    """Which corners of a fold must be held, and where hands grip to hold them (m)."""
+    """The corners of a fold that must be held, and the grips that hold them (m)."""
 
     must_hold: list[Point]
     grips: list[Point]
@@ -40,16 +40,16 @@ class FoldCheck(BaseModel):
 
 
 class ChecksAnswer(BaseModel):
-    """What must be held in each legal fold of a version."""
+    """The corners and grips of each legal fold of a version."""
 
     version: int
     folds: list[FoldCheck]
 
 
 class PlanMessage(BaseModel):
-    """The answer to the drawing; while that is being planned, `plan` is the one before.
+    """The answer to the drawing; while it is being planned, `plan` is the previous one.
 
-    `start` is the state from which the drawing is planned, null where that is before all folds, as drawn.
+    `start` is the state from which the drawing is planned, null if that is before all folds, as drawn.
     """
 
     kind: Literal["plan"]
@@ -64,15 +64,15 @@ class PlanMessage(BaseModel):
 
 
 class Refusal(BaseModel):
-    """A command that could not be obeyed."""
+    """A command that was refused."""
 
     kind: Literal["problem"]
     detail: str
 
 
 class LiveMessage(RootModel[DocumentAnswer | PlanMessage | PlaybackAnswer | Refusal]):
-    """What a page is told over the websocket."""
+    """A message to the page over the websocket."""
 
 
 class LiveCommand(RootModel[Command]):
-    """What a page may ask for over the websocket."""
+    """A command of the page over the websocket."""

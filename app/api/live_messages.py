@@ -1,4 +1,4 @@
-"""What pages are told about a document: three messages, each when what it is about has changed."""
+"""The three messages that tell pages about a document, each sent when its subject has changed."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from planner.task.plan import Statistics
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
-    """What is drawn, what it comes to, what is wrong with it, what can be undone."""
+    """Return the drawing, its solution, its problems and its history."""
     solution, history, gesture = state.solution, state.draft.history, state.draft.gesture
     return {
         "kind": "document",
@@ -27,7 +27,7 @@ def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
 
 
 def plan_message(state: DocumentState) -> dict[str, Any]:
-    """The answer to the drawing; while that is being worked out, the one before."""
+    """Return the answer to the drawing; while it is being planned, the previous one."""
     is_shown = state.answer is not None and not state.solution.problems
     return {
         "kind": "plan",
@@ -43,7 +43,7 @@ def plan_message(state: DocumentState) -> dict[str, Any]:
 
 
 def playback_message(state: DocumentState, t_s: float) -> dict[str, Any]:
-    """The clock, and the version whose plan is played."""
+    """Return the clock, and the version whose plan is played."""
     playback = state.playback
     return {
         "kind": "playback",
@@ -56,12 +56,12 @@ def playback_message(state: DocumentState, t_s: float) -> dict[str, Any]:
 
 
 def problem_message(error: FoldingError) -> dict[str, Any]:
-    """A command that could not be obeyed."""
+    """Return the refusal of a command."""
     return {"kind": "problem", "detail": str(error)}
 
 
 def status_word(state: DocumentState) -> str:
-    """``illegal``, ``failed``, ``planning``, or the plan's own status."""
+    """Return ``illegal``, ``failed``, ``planning``, or the plan's own status."""
     if state.solution.problems:
         return "illegal"
     if state.failure is not None:
@@ -70,7 +70,7 @@ def status_word(state: DocumentState) -> str:
 
 
 def status_text(state: DocumentState) -> str:
-    """The status as a person reads it."""
+    """Return the status as a sentence."""
     if state.solution.problems:
         return f"No plan: {state.solution.problems[0].text}"
     if state.failure is not None:
@@ -90,7 +90,7 @@ def status_text(state: DocumentState) -> str:
 
 
 def _out_of_time(statistics: Statistics) -> str:
-    """How far a search came, and what would let it come further."""
+    """Return a sentence on how far a search came, and what would take it further."""
     ways, bound_s = statistics.ways, statistics.bound_s
     known = "" if bound_s is None else f"; any plan takes at least {bound_s:.1f} s"
     return (

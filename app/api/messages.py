@@ -1,4 +1,4 @@
-"""What clients send: the bodies of requests, and the page's commands."""
+"""The bodies of requests, and the page's commands."""
 
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
@@ -30,13 +30,13 @@ TimeLimit = Annotated[float, Interval(ge=TIME_LIMIT_S[0], le=TIME_LIMIT_S[1])]
 
 
 class DagRequest(StrictModel):
-    """Asks which fold waits for which."""
+    """A request for the Fold-DAG of a garment."""
 
     garment: GarmentField
 
 
 class BaseField(StrictModel):
-    """Where the base stands: at a station, backed off from it, or by its pose in the table frame (m, rad)."""
+    """Where the base stands: at a station, backed off from it, or at a pose in the table frame (m, rad)."""
 
     station: str | None = None
     back_off_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0
@@ -46,7 +46,7 @@ class BaseField(StrictModel):
 
 
 class StartField(StrictModel):
-    """The state of the world at the start; what is left out is as it is before all folds."""
+    """The state of the world at the start; fields left out are as before all folds."""
 
     folds_done: Annotated[tuple[int, ...], Field(max_length=FOLDS_MAX)] = ()
     placement: GivenPose | None = None
@@ -57,7 +57,7 @@ class StartField(StrictModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanRequest(Limits):
-    """Asks for a plan; only `garment` is required."""
+    """A request for a plan; only `garment` is required."""
 
     garment: GarmentField
     start: StartField | None = None
@@ -69,7 +69,7 @@ class PlanRequest(Limits):
 
 
 class PlacesRequest(StrictModel):
-    """Asks what the plan costs wherever a garment could be laid."""
+    """A request for the cost of the plan at every placement of the garment."""
 
     step_m: Annotated[float, Field(ge=0.02, le=1.0)] = 0.1
     time_limit_s: TimeLimit = 10.0
@@ -77,7 +77,7 @@ class PlacesRequest(StrictModel):
 
 
 class PlacementsRequest(PlacesRequest):
-    """Asks that of a garment on the default table."""
+    """A request for the cost of the plan at every placement of a garment on the default table."""
 
     garment: GarmentField
 
@@ -102,40 +102,40 @@ class Seek(StrictModel):
 
 
 class SetSpeed(StrictModel):
-    """Let time run at another speed."""
+    """Set the speed of playback."""
 
     do: Literal["speed"]
     speed: Annotated[float, Field(ge=SPEED_MIN, le=SPEED_MAX)]
 
 
 class SetTheme(StrictModel):
-    """Show the stage on a dark ground or on a light one."""
+    """Set the stage's theme, dark or light."""
 
     do: Literal["theme"]
     dark: bool
 
 
 class Choose(StrictModel):
-    """Take another garment."""
+    """Replace the garment by another."""
 
     do: Literal["choose"]
     garment: str
 
 
 class Stop(StrictModel):
-    """Stop planning; the next edit is planned again."""
+    """Stop planning; the next edit starts it again."""
 
     do: Literal["stop"]
 
 
 class PlanAgain(StrictModel):
-    """Plan what has no answer because planning was stopped or has failed."""
+    """Plan again what has no answer because planning was stopped or has failed."""
 
     do: Literal["plan"]
 
 
 class LookLonger(StrictModel):
-    """Do more work for a plan, or a quicker one, where the search ended before it came to its end."""
+    """Continue a search that ran out of work, for a plan or for a quicker one."""
 
     do: Literal["look_longer"]
 

@@ -1,4 +1,4 @@
-"""Methods of HTTP: `HEAD` wherever there is `GET`, and which ones a path knows."""
+"""HTTP methods: `HEAD` wherever there is `GET`, and the methods that a path allows."""
 
 from fastapi import Request
 from starlette.routing import Match, Mount
@@ -15,7 +15,7 @@ class HeadAsGet:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on."""
+        """Call the routes, and drop the body of an answer to `HEAD`."""
         if scope["type"] != "http" or scope["method"] != "HEAD":
             await self._app(scope, receive, send)
             return
@@ -33,8 +33,8 @@ def allowed_methods(request: Request) -> str:
 
 
 def _is_allowed(request: Request, method: str) -> bool:
-    """Return whether a route takes this method; folders of files are only read."""
-    root_path = request.scope.get("app_root_path", request.scope.get("root_path", ""))  # a folder has its own
+    """Return whether a route allows this method; folders of files are only read."""
+    root_path = request.scope.get("app_root_path", request.scope.get("root_path", ""))  # set by mounted folders
     scope = {**request.scope, "method": method, "root_path": root_path}
     matching = [route for route in request.app.router.routes if route.matches(scope)[0] is Match.FULL]
     return any(method == "GET" or not isinstance(route, Mount) for route in matching)

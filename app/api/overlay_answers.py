@@ -1,4 +1,4 @@
-"""The shapes of overlays, for the description of the interface at /docs."""
+"""Response models of overlays, which describe the interface at /docs."""
 
 from pydantic import BaseModel
 
@@ -25,7 +25,7 @@ class RobotAnswer(BaseModel):
 
 
 class ReachAnswer(BaseModel):
-    """Where an arm can take cloth that lies on the table, with comfort and without (m)."""
+    """Where an arm can take cloth that lies on the table, within the comfort radius and without it (m)."""
 
     arm: str
     comfort_m: float
@@ -34,7 +34,7 @@ class ReachAnswer(BaseModel):
 
 
 class LimitAnswer(BaseModel):
-    """The line beyond which the cloth may hang over an edge of the table (m)."""
+    """The line to which the cloth may hang over an edge of the table (m)."""
 
     edge: str
     line: tuple[Point, Point]
@@ -43,7 +43,7 @@ class LimitAnswer(BaseModel):
 
 
 class SlipAnswer(BaseModel):
-    """What hangs over the table's edges, and how much may (m^2, layers counted)."""
+    """The cloth that hangs over the table's edges, and how much may (m^2, layers counted)."""
 
     friction: float
     pull_m2: float
@@ -62,7 +62,7 @@ class StandAnswer(BaseModel):
 
 
 class BaseWayAnswer(BaseModel):
-    """The base's way, and how many of its points have been passed (m)."""
+    """The base's path, and how many of its points have been passed (m)."""
 
     way: list[Point]
     stands: list[StandAnswer]
@@ -70,7 +70,7 @@ class BaseWayAnswer(BaseModel):
 
 
 class PathGripAnswer(BaseModel):
-    """The path of one hand: seen from above, and in space with the height over the table (m)."""
+    """The path of one hand, seen from above and in space, with the height over the table (m)."""
 
     arm: str
     pick: Point
@@ -80,7 +80,7 @@ class PathGripAnswer(BaseModel):
 
 
 class PathsAnswer(BaseModel):
-    """The paths of a primitive, in the article frame as it lies when that begins."""
+    """The hands' paths of a primitive, in the article frame as the article lies when the primitive begins."""
 
     primitive: int
     kind: str
@@ -89,9 +89,10 @@ class PathsAnswer(BaseModel):
 
 
 class ShortfallAnswer(BaseModel):
-    """Round a point out of reach: what that hand, turned as it must be, cannot have at that height (m, rad).
+    """The part of the surroundings of a point out of reach that the hand, in its orientation, cannot reach (m, rad).
 
-    `beyond` is of a disc of `radius_m`, `edge` the lines at which it ends; heading and pitch are in the base frame.
+    `beyond` is a part of a disc of `radius_m` at the point's height, `edge` the lines at which it ends; heading and
+    pitch are in the base frame.
     """
 
     fold: int | None
@@ -108,7 +109,7 @@ class ShortfallAnswer(BaseModel):
 
 
 class OverlaysAnswer(BaseModel):
-    """Overlays at one moment, in the article frame as it lies then."""
+    """The overlays at one moment, in the article frame as the article lies then."""
 
     version: int
     plan_version: int | None
@@ -127,7 +128,7 @@ class OverlaysAnswer(BaseModel):
 
 
 class PlaceAnswer(BaseModel):
-    """A placement, by how far it moves the article (article frame, m), and what the plan then costs (s)."""
+    """A placement, as a displacement of the article (article frame, m), and the cost of the plan there (s)."""
 
     move: Point
     placement: Pose2
@@ -135,7 +136,7 @@ class PlaceAnswer(BaseModel):
 
 
 class PlacesAnswer(BaseModel):
-    """The map of placements for a document; not complete when time ran out first."""
+    """The map of placements of a document; not complete when time ran out first."""
 
     version: int
     step_m: float

@@ -1,4 +1,4 @@
-"""Overlays: what the board can show to say why a plan is as it is, and the map of placements under the cloth."""
+"""Routes of overlays, which show on the board why a plan is as it is, and of the map of placements."""
 
 from dataclasses import replace
 from functools import partial
@@ -46,9 +46,9 @@ async def read_overlays(
     back_off_m: BackOff = 0.0,
     show: Shown = None,
 ) -> Response:
-    """Reach, slip limits, the base's way and the paths of the hands at a time of the plan or at a station.
+    """Return reach, slip limits, the base's way and the paths of the hands at a time of the plan or at a station.
 
-    Without either, at the document's own time; without a plan, at the station where the robot starts.
+    By default they are those at the document's own time; without a plan, at the station where the robot starts.
     """
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     shown = _shown(show)
@@ -67,7 +67,7 @@ async def read_overlays(
     responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 503)},
 )
 async def post_places(request: Request, document_id: str, wanted: PlacesRequestBody) -> Response:
-    """Plan the document's garment wherever it could be laid, not turned, and return what that costs."""
+    """Plan the document's garment wherever it could be laid, not turned, and return the costs."""
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
     state = opened.document.state
     if state.task is None:
@@ -119,6 +119,6 @@ def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, shoul
 
 
 def _place(cell: Cell, here: Pose2) -> dict[str, Any]:
-    """A cell as the article sees it from where it lies now."""
+    """Return a cell as a displacement of the article from where it lies now."""
     x, y = here.to_inner(np.array([cell.placement.x_m, cell.placement.y_m]))
     return {"move": [float(x), float(y)], "placement": cell.placement.to_dict(), "cost_s": cell.cost_s}

@@ -1,4 +1,4 @@
-"""The page at `/d/{document}` and its files; `/` leads to the document opened last."""
+"""Routes of the page, `/d/{document}`, and its files; `/` redirects to the document opened last."""
 
 from http import HTTPStatus
 
@@ -19,20 +19,20 @@ _FRESH = {"cache-control": "no-cache"}
 
 @router.get("/")
 async def read_first_page(request: Request) -> Response:
-    """The document that was opened last, or a new one."""
+    """Redirect to the document opened last, or to a new one."""
     document_id = await run_in_threadpool(workspace_of(request).first)
     return RedirectResponse(f"{request.scope.get('root_path', '')}/d/{document_id}", headers=_FRESH)
 
 
 @router.get("/d/{document_id}")
 async def read_page(request: Request, document_id: str) -> Response:
-    """The designer on a document; one that is not there is told of on the page."""
+    """Return the designer on a document; the page itself reports a missing one."""
     status = await run_in_threadpool(_remembered, workspace_of(request), document_id)
     return FileResponse(static_dir() / "index.html", status_code=status, headers=_FRESH)
 
 
 def _remembered(workspace: Workspace, document_id: str) -> int:
-    """Remember the document as the one opened last; the page's status."""
+    """Remember the document as the one opened last, and return the page's status."""
     try:
         workspace.opened(document_id)
     except FoldingError:
@@ -42,10 +42,10 @@ def _remembered(workspace: Workspace, document_id: str) -> int:
 
 
 class FreshFiles(StaticFiles):
-    """Files that a browser asks about again each time: after an update it shall not mix old and new."""
+    """Static files that a browser revalidates each time, so that an update never mixes old and new files."""
 
     def file_response(self, *args: object, **kwargs: object) -> Response:
-        """As usual, and not to be kept without asking."""
+        """Return the usual answer, with the instruction not to reuse it unasked."""
         response: Response = super().file_response(*args, **kwargs)  # type: ignore[arg-type]
         response.headers.update(_FRESH)
         return response

@@ -1,4 +1,4 @@
-"""Plans: asking for one, reading it again, its timeline; and the Fold-DAG alone."""
+"""Routes of plans: making one, reading it again, its timeline; and the Fold-DAG alone."""
 
 import json
 from functools import partial
@@ -41,7 +41,7 @@ SampleRate = Annotated[float, Query(ge=1.0, le=200.0, allow_inf_nan=False)]
 
 @router.post("/dag", responses={200: {"model": DagAnswer}, **problems(404, 413, 422, 503)})
 async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
-    """Which fold waits for which, and the layers after all of them."""
+    """Return the Fold-DAG, and the layers after all folds."""
     return JSONResponse(await quick_answer(request, _dag, workspace_of(request), wanted))
 
 
@@ -50,9 +50,9 @@ async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
     responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)},
 )
 async def post_plan(request: Request, wanted: PlanRequestBody) -> JSONResponse:
-    """Plan; "there is no plan" is an answer, too.
+    """Plan a garment; "there is no plan" is an answer, too.
 
-    The limit runs from the arrival of the request. One whose time is up before its turn comes is answered with 503.
+    The time limit runs from the arrival of the request. Answers 503 if it passes before the request's turn comes.
     """
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_plan, workspace, wanted, limit)
@@ -65,9 +65,9 @@ async def post_plan(request: Request, wanted: PlanRequestBody) -> JSONResponse:
     responses={200: {"model": PlanAnswer}, **problems(413, 422, 503)},
 )
 async def post_plan_file(request: Request) -> JSONResponse:
-    """Take back a plan file: it is replayed, and kept under an id of its own.
+    """Import a plan file: replay it and keep it under a new id.
 
-    A plan that does not replay is refused; the problem names the step at which it fails.
+    Refuses a plan that does not replay; the problem names the step at which it fails.
     """
     data = await read_object(request, most=LARGEST_PLAN_FILE)
     workspace = workspace_of(request)
@@ -79,7 +79,7 @@ async def post_plan_file(request: Request) -> JSONResponse:
     responses={200: {"model": PlanAnswer, "content": {PLAN_FILE_TYPE: {}}}, **problems(404)},
 )
 async def read_plan(request: Request, plan_id: str) -> Response:
-    """A plan made before; as a plan file, its task and trajectory included, where that is what `Accept` asks for."""
+    """Return a plan made before; with task and trajectory, as a plan file, if `Accept` asks for that."""
     plan = workspace_of(request).plans.plan(plan_id)
     if PLAN_FILE_TYPE in request.headers.get("accept", ""):
         return await _plan_file(plan)
@@ -92,7 +92,7 @@ async def read_plan(request: Request, plan_id: str) -> Response:
     responses={200: {"content": {PLAN_FILE_TYPE: {}}}, **problems(404)},
 )
 async def read_plan_file(request: Request, plan_id: str) -> Response:
-    """A plan made before as a plan file: with its task and its trajectory."""
+    """Return a plan made before as a plan file: with its task and its trajectory."""
     return await _plan_file(workspace_of(request).plans.plan(plan_id))
 
 
@@ -101,7 +101,7 @@ async def read_plan_file(request: Request, plan_id: str) -> Response:
     responses={200: {"model": TimelineAnswer}, **problems(404, 409, 422, 503)},
 )
 async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30.0) -> Response:
-    """A solved plan's timeline, sampled from 0 to its end."""
+    """Return a solved plan's timeline, sampled from 0 to its end."""
     workspace = workspace_of(request)
     plan = workspace.plans.plan(plan_id)
     if plan.status != "solved":
@@ -111,12 +111,12 @@ async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30
 
 
 def plan_answer(plan_id: str, plan: Plan) -> dict[str, Any]:
-    """A plan as the interface has it."""
+    """Return a plan in its REST form."""
     return {"id": plan_id, **plan.answer()}
 
 
 async def _plan_file(plan: Plan) -> Response:
-    """Answer with a plan as a file to be saved."""
+    """Return a plan as a file to save."""
     text = await run_in_threadpool(lambda: json.dumps(plan.to_dict()))
     name = f'attachment; filename="{plan.garment.name}.plan.json"'
     return Response(text, media_type=PLAN_FILE_TYPE, headers={"Content-Disposition": name, "Vary": "Accept"})
@@ -142,7 +142,7 @@ def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_st
 
 
 def _timeline(plan: Plan, rate_hz: float, should_stop: ShouldStop) -> bytes:
-    """The timeline as JSON, sample by sample: another thread gets its turn in between."""
+    """Yield the timeline as JSON, sample by sample, so that other threads get their turn in between."""
     samples = []
     for frame in Timeline.of(plan).samples(rate_hz):
         samples.append(json.dumps(frame.to_dict()))

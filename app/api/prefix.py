@@ -1,4 +1,4 @@
-"""Serves below a prefix, as behind a proxy that shows several servers at one address.
+"""Serving below a prefix, as behind a proxy that shows several servers at one address.
 
 Pages and scripts name everything relative to themselves, so they need not know the prefix. Redirects, `Location` and
 the description of the interface do: ASGI calls the prefix `root_path`. It comes from the settings, or from the proxy
@@ -16,15 +16,15 @@ _HEADER = b"x-forwarded-prefix"
 
 
 class BelowPrefix:
-    """Middleware that tells the routes below which prefix they are."""
+    """Middleware that tells the routes the prefix below which they are served."""
 
     def __init__(self, app: ASGIApp, prefix: str) -> None:
-        """Serve below this prefix what comes without the proxy's header."""
+        """Serve below this prefix whatever comes without the proxy's header."""
         self._app = app
         self._prefix = prefix
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on, with `root_path` and the whole path in the scope."""
+        """Call the routes with `root_path` and the whole path in the scope."""
         prefix = self._prefix if scope["type"] == "lifespan" else _told(scope["headers"], self._prefix)
         if not prefix:
             await self._app(scope, receive, send)
@@ -35,7 +35,7 @@ class BelowPrefix:
 
 
 def _told(headers: Iterable[tuple[bytes, bytes]], otherwise: str) -> str:
-    """Return the prefix that the proxy tells, unless it is none: it must not lead to another host."""
+    """Return the prefix of the proxy's header, or none if it would lead to another host."""
     for name, value in headers:
         prefix = value.decode("latin-1").strip().rstrip("/")
         if name == _HEADER and PREFIX_PATTERN.fullmatch(prefix):

@@ -1,4 +1,4 @@
-"""Every error as `application/problem+json` (RFC 9457): title, status, sentence, fields; never a trace."""
+"""Errors as `application/problem+json` (RFC 9457): title, status, sentence, fields; never a trace."""
 
 import http
 import json
@@ -37,7 +37,7 @@ _log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
 
 CLIENT_GONE = 499
-"""For the log alone, as other servers have it: nobody reads the answer."""
+"""Status in the log, as of other servers, for a client that has gone away: nobody reads the answer."""
 
 _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
@@ -58,7 +58,7 @@ _REQUEST_PARTS = ("body", "query", "path", "header")
 
 
 class FieldProblem(BaseModel):
-    """One field of the input and what is wrong with it; `says` has the numbers of the message, by name."""
+    """A field of the input and its error; `says` has the numbers of the message, by name."""
 
     field: str
     message: str
@@ -75,7 +75,7 @@ class Problem(BaseModel):
 
 
 class ProblemResponse(Response):
-    """A problem on its way out."""
+    """The response that carries a problem."""
 
     media_type = MEDIA_TYPE
 
@@ -87,7 +87,7 @@ class ProblemResponse(Response):
         headers: dict[str, str] | None = None,
         members: Mapping[str, Any] | None = None,
     ) -> None:
-        """The title is the status in words; `errors` only when there are some; `members` are further ones."""
+        """Make the title from the status; `errors` is left out if empty; `members` are further fields."""
         problem: dict[str, Any] = {"title": _title(status), "status": status, "detail": detail}
         if errors:
             problem["errors"] = list(errors)
@@ -100,11 +100,11 @@ class TooLargeError(FoldingError):
 
 
 class ClientGoneError(FoldingError):
-    """Whoever asked has hung up."""
+    """The client has closed the connection."""
 
 
 def install_problems(app: FastAPI) -> None:
-    """Have every exception answered as a problem."""
+    """Answer every exception with a problem."""
     handlers: dict[type[Exception], Callable[[Request, Any], Awaitable[Response]]] = {
         HTTPException: _http_problem,
         RequestValidationError: _validation_problem,
@@ -157,7 +157,7 @@ async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) ->
 
 
 async def _system_problem(request: Request, error: OSError) -> Response:
-    """What the system refuses is told as such; an `OSError` of a library's own making is a bug like any other."""
+    """Answer a refusal of the operating system; raise an `OSError` of a library's own making again, as a bug."""
     if error.errno is None:
         raise error
     _log.error("%s %s failed", request.method, request.url.path, exc_info=error)

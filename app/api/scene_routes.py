@@ -1,4 +1,4 @@
-"""The server's health and the default scene."""
+"""Routes of the server's health and of the default scene."""
 
 from importlib.metadata import PackageNotFoundError, version
 
@@ -14,9 +14,9 @@ router = APIRouter(prefix="/api")
 
 @router.get("/health", response_model=Health, response_model_exclude_none=True)
 async def read_health(request: Request) -> Health:
-    """Whether all is well with the server, and which version it is.
+    """Return the server's state and version.
 
-    It is `degraded` where nothing can be saved; `problem` says why.
+    The state is `degraded` if nothing can be saved; `problem` says why.
     """
     problem = await run_in_threadpool(workspace_of(request).folder.problem)
     return Health(status="degraded" if problem else "ok", version=own_version(), problem=problem)
@@ -24,12 +24,12 @@ async def read_health(request: Request) -> Health:
 
 @router.get("/scene")
 async def read_scene() -> Scene:
-    """The default scene."""
+    """Return the default scene."""
     return Scene()
 
 
 def own_version() -> str:
-    """Pleat's version, as it is installed."""
+    """Return Pleat's version, as it is installed."""
     try:
         return version("pleat")
     except PackageNotFoundError:

@@ -1,8 +1,8 @@
-"""The way to a stage: its page and websocket under `/viser/{document}`, passed on to its own viser server.
+"""The proxy to stages: page and websocket under `/viser/{document}`, passed on to the document's viser server.
 
 The page is one file, the same for all stages. It works out where its websocket is from its own address less the
-trailing slash, so page and websocket differ by that slash alone. A page that has its stage drawn by the processor asks
-for it under `/viser/{document}/by-software`.
+trailing slash, so page and websocket differ by that slash alone. A page whose stage the processor draws asks for it
+under `/viser/{document}/by-software`.
 """
 
 import asyncio
@@ -31,7 +31,7 @@ _NOT_FOUND = 4404
 @router.get("/{name}/")
 @router.get("/{name}/by-software/")
 async def read_stage_page(request: Request, name: str) -> Response:
-    """The page that shows a stage."""
+    """Return the page that shows a stage."""
     await run_in_threadpool(workspace_of(request).opened, name)
     return HTMLResponse(stage_page(), headers={"cache-control": "no-cache"})
 
@@ -39,7 +39,7 @@ async def read_stage_page(request: Request, name: str) -> Response:
 @router.get("/{name}")
 @router.get("/{name}/by-software")
 async def redirect_to_stage_page(request: Request, name: str) -> Response:
-    """The page's address has a slash at the end."""
+    """Redirect to the page's address, which has a slash at the end."""
     await run_in_threadpool(workspace_of(request).opened, name)
     return RedirectResponse(request.url.path + "/")
 
@@ -47,14 +47,14 @@ async def redirect_to_stage_page(request: Request, name: str) -> Response:
 @router.websocket("/{name}")
 @router.websocket("/{name}/")
 async def connect_stage(websocket: WebSocket, name: str) -> None:
-    """Pass messages on, both ways, until either side is done."""
+    """Pass messages on, both ways, until either side closes."""
     await _connect(websocket, name, is_by_software=False)
 
 
 @router.websocket("/{name}/by-software")
 @router.websocket("/{name}/by-software/")
 async def connect_stage_by_software(websocket: WebSocket, name: str) -> None:
-    """The same for a page whose processor draws the stage."""
+    """Pass messages on as `connect_stage` does, for a page whose processor draws the stage."""
     await _connect(websocket, name, is_by_software=True)
 
 
@@ -86,7 +86,7 @@ def _dial(stage: Stage, subprotocols: list[str]) -> connect:
 
 
 async def _pass_on(outer: WebSocket, inner: ClientConnection) -> None:
-    """Both directions at once; each sends one message before it takes the next, so neither side floods."""
+    """Pass messages on in both directions, each sent before the next is taken, so that neither side is flooded."""
     ways = [asyncio.create_task(_inwards(outer, inner)), asyncio.create_task(_outwards(outer, inner))]
     try:
         await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)

@@ -1,4 +1,4 @@
-"""Suggestions as they are found, and the map of placements."""
+"""Routes of suggestions, sent as they are found, and of the map of placements."""
 
 import asyncio
 import time
@@ -37,7 +37,7 @@ PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment
 
 
 class SuggestionEvent(BaseModel):
-    """The data of an event `suggestion`; the last, `done`, has `count`, `elapsed_s` and `complete`."""
+    """The data of an event `suggestion`; the last event, `done`, has `count`, `elapsed_s` and `complete`."""
 
     kind: Literal["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"]
     is_assumption: bool
@@ -50,7 +50,7 @@ class SuggestionEvent(BaseModel):
 
 
 class CellAnswer(BaseModel):
-    """A placement of the article frame (m), and what the plan then costs (s); null: there is none."""
+    """A placement of the article frame (m), and the cost of the plan there (s); null: there is no plan."""
 
     x_m: float
     y_m: float
@@ -74,10 +74,10 @@ class PlacementsAnswer(BaseModel):
 
 
 class SuggestionSearch:
-    """A search for one client: begun before the answer starts, so that a bad request is still told as such."""
+    """A search for one client, begun before the answer starts so that a bad request is answered as an error."""
 
     def __init__(self, workspace: Workspace, wanted: PlanRequest) -> None:
-        """Nothing is planned yet."""
+        """Prepare the search; plan nothing yet."""
         self._workspace = workspace
         self._wanted = wanted
         self._limit = TimeLimit(wanted.time_limit_s)
@@ -88,7 +88,7 @@ class SuggestionSearch:
         self._job: Job[bool] | None = None
 
     async def begin(self, request: Request) -> None:
-        """Have the request itself planned; raises what is wrong with it."""
+        """Plan the request itself; raises an error for a bad request."""
         pool = self._workspace.lanes.searches
         self._job = pool.start(self._search)
         self._job.future.add_done_callback(self._ended)
@@ -99,7 +99,7 @@ class SuggestionSearch:
             raise
 
     async def events(self) -> AsyncIterator[ServerSentEvent]:
-        """Yield the suggestions as they are found; when nobody reads them any more, the search is stopped."""
+        """Yield the suggestions as they are found; stop the search when the client disconnects."""
         assert self._job is not None
         count = 0
         try:
@@ -132,7 +132,7 @@ class SuggestionSearch:
         self._tell(None)
 
     def _tell(self, found: searches.Suggested | None) -> None:
-        with suppress(RuntimeError):  # the loop has gone
+        with suppress(RuntimeError):  # the loop has ended: nobody reads the events
             self._loop.call_soon_threadsafe(self._told.put_nowait, found)
 
     def _done(self, count: int, *, is_complete: bool) -> ServerSentEvent:
@@ -142,7 +142,7 @@ class SuggestionSearch:
 
 
 async def _begun(request: Request, wanted: PlanRequestBody) -> SuggestionSearch:
-    """The search that a request asks for, its request found good."""
+    """Return the search of a request that has been checked."""
     search = SuggestionSearch(workspace_of(request), wanted)
     await search.begin(request)
     return search
@@ -156,10 +156,10 @@ async def _begun(request: Request, wanted: PlanRequestBody) -> SuggestionSearch:
 async def post_suggestions(
     search: Annotated[SuggestionSearch, Depends(_begun)],
 ) -> AsyncIterator[ServerSentEvent]:
-    """The smallest changes that give a plan, each with the plan that proves it, as server-sent events.
+    """Find the smallest changes that give a plan, each with its plan, and return them as server-sent events.
 
-    An event `suggestion` for each as it is found, then `done`, which says whether all changes were tried in the time. A
-    change replaces fields of the request. Where there is a plan already, a better placement is all that is suggested.
+    Each event `suggestion` has one change as it is found; `done` then says whether all changes were tried in the time.
+    A change replaces fields of the request. If there is a plan already, only a better placement is suggested.
     """
     async for event in search.events():
         yield event
@@ -170,7 +170,7 @@ async def post_suggestions(
     responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)},
 )
 async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JSONResponse:
-    """Plan a garment wherever it could be laid on the default table, not turned, and return what that costs."""
+    """Plan a garment wherever it could be laid on the default table, not turned, and return the costs."""
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_placements, workspace, wanted, limit)
     return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))

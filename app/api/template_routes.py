@@ -1,4 +1,4 @@
-"""Templates: the kinds of garments that can be made from a few measures."""
+"""Routes of templates: kinds of garments that are made from a few measures."""
 
 from typing import Annotated, Any
 
@@ -20,7 +20,7 @@ router = APIRouter(prefix="/api/templates", tags=["templates"], route_class=Desc
 
 
 class MeasureAnswer(BaseModel):
-    """A measure that a template asks for (m)."""
+    """A measure of a template (m)."""
 
     name: str
     label: str
@@ -31,7 +31,7 @@ class MeasureAnswer(BaseModel):
 
 
 class FoldLineAnswer(BaseModel):
-    """A fold; what lies to the left of start -> end moves."""
+    """A fold; the cloth to the left of start -> end moves."""
 
     kind: str
     start: Point
@@ -39,7 +39,7 @@ class FoldLineAnswer(BaseModel):
 
 
 class TemplateAnswer(BaseModel):
-    """A template, and what it makes of its defaults (m)."""
+    """A template, and the garment that it makes of its defaults (m)."""
 
     name: str
     title: str
@@ -50,7 +50,7 @@ class TemplateAnswer(BaseModel):
 
 
 class MadeAnswer(BaseModel):
-    """What a template has made, and of which measures (m)."""
+    """The garment that a template has made, and its measures (m)."""
 
     garment: GarmentAnswer
     measures: dict[str, float]
@@ -58,7 +58,7 @@ class MadeAnswer(BaseModel):
 
 
 class MadeRequest(StrictModel):
-    """Measures (m), those left out in proportion to these or at their defaults, and what to call the garment."""
+    """Measures (m) and a name; measures left out are scaled in proportion to the others or have their defaults."""
 
     measures: dict[str, float] = Field(default_factory=dict)
     title: Annotated[str, Field(max_length=TITLE_MAX)] | None = None
@@ -69,7 +69,7 @@ MadeRequestBody = Annotated[MadeRequest, Depends(JsonBody(MadeRequest, {"title":
 
 @router.get("", response_model=list[TemplateAnswer])
 async def list_templates() -> list[dict[str, Any]]:
-    """All templates, in the order in which to show them."""
+    """Return all templates, in the order in which to show them."""
     return await run_in_threadpool(lambda: [template.to_dict() for template in TEMPLATES])
 
 
@@ -78,7 +78,7 @@ async def list_templates() -> list[dict[str, Any]]:
     responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
 )
 async def post_template(request: Request, name: str, wanted: MadeRequestBody) -> JSONResponse:
-    """The garment that a template makes of these measures, with its folds."""
+    """Return the garment that a template makes of these measures, with its folds."""
     template = find_template(name)
     if template is None:
         raise HTTPException(404)

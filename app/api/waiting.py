@@ -1,4 +1,4 @@
-"""Waits for work elsewhere as long as somebody waits for the answer."""
+"""Waiting for work in other processes, as long as a client waits for the answer."""
 
 import asyncio
 from collections.abc import Callable
@@ -16,7 +16,7 @@ P = ParamSpec("P")
 
 
 async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: P.args, **options: P.kwargs) -> Answer:
-    """Return what a piece of short work comes to, for which all long work steps aside."""
+    """Return the result of a short job, for which all long jobs yield."""
     lanes = workspace_of(request).lanes
 
     def do(_: ShouldStop) -> Answer:
@@ -29,20 +29,20 @@ async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: 
 async def answer_of(
     request: Request, pool: JobPool, work: Callable[[ShouldStop], Answer], begins_within_s: float | None = None
 ) -> Answer:
-    """Return what some work comes to; when the client goes away first, it is stopped.
+    """Return the result of a job; stop it if the client disconnects first.
 
     The request's body must have been read.
 
     Args:
-        request: who asks.
-        pool: who does it.
-        work: what is to be done.
-        begins_within_s: how long it may wait for its turn (s); None: as long as the client does.
+        request: the client's request.
+        pool: the workers.
+        work: the job.
+        begins_within_s: how long the job may wait for its turn (s); None: as long as the client does.
 
     Raises:
         BusyError: the queue is full, or the wait was too long.
         ClientGoneError: the client has gone away.
-        Exception: what the work raises.
+        Exception: whatever the job raises.
     """
     job = pool.start(work)
     try:
@@ -54,7 +54,7 @@ async def answer_of(
 async def until(
     request: Request, pool: JobPool, job: Job[Any], awaited: Future[Answer], begins_within_s: float | None
 ) -> Answer:
-    """Return what is awaited of a job; arguments and errors are those of `answer_of`."""
+    """Return the awaited value of a job; arguments and errors are those of `answer_of`."""
     answer = asyncio.wrap_future(awaited)
     answer.add_done_callback(_heed)
     gone = asyncio.ensure_future(_disconnect(request))
@@ -72,7 +72,7 @@ async def until(
 
 
 def _heed(answer: asyncio.Future[Any]) -> None:
-    """Take note of an error that nobody waits for any more: asyncio would log it."""
+    """Retrieve an error that nobody waits for any more: asyncio would log it otherwise."""
     if not answer.cancelled():
         answer.exception()
 
