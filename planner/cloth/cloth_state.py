@@ -9,7 +9,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 
 LAYERS_MAX = 2000
-"""A stack of more layers is refused."""
+"""The most layers that a stack may have."""
 
 _SPREAD_OUT_KEPT = 16
 
@@ -19,8 +19,8 @@ class ClothState:
 
     Attributes:
         layers: from bottom to top.
-        moved: how many of the top layers the last fold moved; 0 before the first fold.
-        slivers: the areas of what folding has dropped so far because it was too small to count as cloth (m^2).
+        moved: the number of top layers that the last fold moved; 0 before the first fold.
+        slivers: the areas of the pieces that folding has dropped so far as too small to count as cloth (m^2).
     """
 
     def __init__(self, layers: Sequence[Layer], moved: int = 0, slivers: Sequence[float] = ()) -> None:
@@ -32,12 +32,12 @@ class ClothState:
 
     @staticmethod
     def spread_out(pattern: Region) -> "ClothState":
-        """The cloth as it lies at the start: one layer, front face up. The latest are remembered."""
+        """Return the cloth as it lies at the start: one layer, front face up. The latest results are cached."""
         return spread_out(pattern.to_bytes())
 
     @cached_property
     def silhouette(self) -> Region:
-        """What the whole stack covers, article frame."""
+        """The region that the whole stack covers, article frame."""
         return Region.union(layer.region for layer in self.layers)
 
     @property
@@ -53,5 +53,5 @@ class ClothState:
 
 @lru_cache(_SPREAD_OUT_KEPT)
 def spread_out(pattern: bytes) -> ClothState:
-    """One layer of a pattern given as `Region.to_bytes` does; see `ClothState.spread_out`."""
+    """Return one layer of a pattern given in the form of `Region.to_bytes`; see `ClothState.spread_out`."""
     return ClothState([Layer(Region.from_bytes(pattern), Isometry())])

@@ -1,6 +1,6 @@
-"""Whether cloth left alone on the table stays as it is: a g-state (paper, section 4).
+"""The test for a g-state (paper, section 4): cloth that stays as it is when left alone on the table.
 
-Everything is asked in the article frame: moving the table's rectangle there is one cheap operation, moving a
+All computations are in the article frame: moving the table's rectangle there is one cheap operation, moving a
 stack of layers to the table is not.
 """
 
@@ -23,15 +23,15 @@ from planner.message import Message
 
 @dataclass(frozen=True, slots=True)
 class Unrest:
-    """Why cloth would not stay as it is.
+    """The reason why cloth would not stay as it is.
 
     Attributes:
         code: "not_a_g_state" or "slips".
         says: what would move, with the numbers.
-        severity: how far from rest it is: how far the cloth would have to be moved (m), 1 where that is not known;
-            of what slips, what the friction coefficient lacks.
-        point: where, article frame (m); None where it is no one place.
-        needed_friction: of what slips the friction coefficient that would hold it.
+        severity: the distance from rest: how far the cloth would have to be moved (m), 1 if that is unknown; for cloth
+            that slips, how much the friction coefficient falls short.
+        point: where it would move, article frame (m); None if that is no single place.
+        needed_friction: for cloth that slips, the friction coefficient that would hold it.
     """
 
     code: str
@@ -52,7 +52,7 @@ class TableInArticle:
 
     Attributes:
         table: the table.
-        corners: where its corners are, counter-clockwise, shape (4, 2), m.
+        corners: its corners, counter-clockwise, shape (4, 2), m.
     """
 
     table: Table
@@ -60,7 +60,7 @@ class TableInArticle:
 
     @staticmethod
     def seen_from(placement: Pose2, table: Table) -> "TableInArticle":
-        """The table top as an article with this placement sees it."""
+        """Return the table top as seen from an article with this placement."""
         return TableInArticle(table, placement.to_inner(np.array(table.corners)))
 
     @cached_property
@@ -70,16 +70,16 @@ class TableInArticle:
 
     @cached_property
     def edges(self) -> tuple[Segment, ...]:
-        """Its four edges counter-clockwise; outwards is to the right of each."""
+        """The four edges counter-clockwise; the outside is to the right of each."""
         points: list[Point2] = [(x, y) for x, y in self.corners.tolist()]
         return tuple(Segment(points[i], points[(i + 1) % 4]) for i in range(4))
 
     def contains(self, region: Region) -> bool:
-        """Whether a region lies on the table altogether, to the tolerance."""
+        """Return whether a region lies on the table altogether, to the tolerance."""
         return bool(np.all(self.inside(region.coordinates) >= -LENGTH_M))
 
     def inside(self, points: FloatArray) -> FloatArray:
-        """How far inside each edge's line points are, shape (n, 2) -> (n, 4), m; negative beyond it."""
+        """Return how far inside each edge's line points are, shape (n, 2) -> (n, 4), m; negative beyond it."""
         return np.asarray(points @ self._inwards - self._reach)
 
     @cached_property
@@ -96,7 +96,7 @@ EDGE_NAMES = ("right", "far", "left", "near")
 
 
 def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angle_rad: float) -> Unrest | None:
-    """Why the cloth, left alone, would move; None if it is in a g-state.
+    """Return why the cloth, left alone, would move; None if it is in a g-state.
 
     Args:
         cloth: the stack.
@@ -120,7 +120,7 @@ def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angl
 
 @dataclass(frozen=True, slots=True)
 class _Hanging:
-    """A part of a layer beyond the table: the layer's number, the part, the number of the edge it hangs from."""
+    """A part of a layer beyond the table: the layer's index, the part, the index of the edge it hangs from."""
 
     layer: int
     part: Region
@@ -128,7 +128,7 @@ class _Hanging:
 
 
 def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInArticle) -> Iterator[_Hanging]:
-    """The hanging parts of each layer; `beyond` is what of the silhouette lies beyond the table."""
+    """Return the hanging parts of each layer; `beyond` is the part of the silhouette beyond the table."""
     for number, layer in enumerate(cloth.layers):
         if not top.contains(layer.region):
             off = beyond if len(cloth.layers) == 1 else layer.region.difference(top.region)
@@ -155,12 +155,12 @@ def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle) -> U
 
 
 def _touches(part: Region, edge: Segment) -> bool:
-    """Whether a part beyond the table has a stretch of its boundary on an edge."""
+    """Return whether a part beyond the table has a stretch of its boundary on an edge."""
     return bool(_contact(part, edge))
 
 
 def _contact(part: Region, edge: Segment) -> tuple[Segment, ...]:
-    """The stretches of a table edge from which a part beyond it hangs."""
+    """Return the stretches of a table edge from which a part beyond it hangs."""
     points = part.coordinates
     on_edge = edge.distances(points) <= LENGTH_M
     both = on_edge[:-1] & on_edge[1:]
@@ -173,7 +173,7 @@ def _contact(part: Region, edge: Segment) -> tuple[Segment, ...]:
 
 
 def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad: float) -> Unrest | None:
-    """The first hanging part of a layer that nothing immobilises (Theorem 1; Figure 4, right)."""
+    """Return the first hanging part of a layer that nothing immobilises (Theorem 1; Figure 4, right)."""
     for hung in hanging:
         edge = top.edges[hung.edge]
         loose = must_hold(hung.part, edge.left, _contact(hung.part, edge), support_angle_rad)
@@ -200,16 +200,16 @@ def needed_friction(cloth: ClothState, top: TableInArticle) -> float:
 
 
 def is_held(pull_m2: float, lying_m2: float, friction: float) -> bool:
-    """Whether friction on the cloth that lies (m^2, layers counted) holds a pull (m^2) against it.
+    """Return whether friction on the cloth that lies (m^2, layers counted) holds a pull (m^2) against it.
 
-    A pull that is less than a sliver of cloth weighs counts as none: sums of areas that balance differ in the last
-    digits, which no friction would have to hold.
+    A pull below the weight of a sliver of cloth counts as none: sums of areas that balance differ by rounding, which
+    friction need not hold.
     """
     return pull_m2 <= max(friction * lying_m2 * (1.0 + LENGTH_M), AREA_M2)
 
 
 def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, friction: float) -> Unrest | None:
-    """The friction law: the net pull of all hanging parts against what the weight on the table holds."""
+    """Return why the cloth slips: its net pull over the edges exceeds the friction of the cloth that lies."""
     hanging = _hanging_areas(parts, top)
     pull, lying = _pull(hanging, top), _lying(cloth, hanging)
     if is_held(pull, lying, friction):
@@ -227,15 +227,15 @@ def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, frictio
 
 
 def _hanging_areas(parts: list[_Hanging], top: TableInArticle) -> list[float]:
-    """What hangs over each edge, layers counted (m^2)."""
+    """Return the area that hangs over each edge, layers counted (m^2)."""
     return [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
 
 
 def _pull(hanging: list[float], top: TableInArticle) -> float:
-    """The net pull of what hangs over the edges (m^2)."""
+    """Return the net pull of the cloth that hangs over the edges (m^2)."""
     return float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
 
 
 def _lying(cloth: ClothState, hanging: list[float]) -> float:
-    """What lies on the table, layers counted (m^2)."""
+    """Return the area that lies on the table, layers counted (m^2)."""
     return max(sum(layer.region.area for layer in cloth.layers) - sum(hanging), 0.0)

@@ -1,4 +1,4 @@
-"""A garment as it is drawn: an outline, what it weighs, the folds that are wanted, where it lies."""
+"""A garment as it is drawn: its outline, its weight, the folds, and where it lies."""
 
 import math
 import re
@@ -31,14 +31,14 @@ Title = Annotated[str, Field(json_schema_extra={"maxLength": TITLE_MAX})]
 
 @dataclass(frozen=True, slots=True)
 class DrawnFold:
-    """A fold as the user draws it: a directed line; what lies to its left is folded over it.
+    """A fold as the user draws it: a directed line; the cloth to its left is folded over it.
 
     Attributes:
-        name: what the user calls it.
+        name: the name that the user gave it.
         kind: "blue" folds every layer, "red" only those that the fold before it moved.
-        start: first end in the article frame (m), on the boundary of the silhouette as it is then.
+        start: first end in the article frame (m), on the boundary of the silhouette at the time of the fold.
         end: second end (m).
-        grip_radius_m: how far round itself one grip holds the cloth (m).
+        grip_radius_m: the radius within which one grip holds the cloth (m).
     """
 
     __pydantic_config__ = STRICT
@@ -50,7 +50,7 @@ class DrawnFold:
     grip_radius_m: Annotated[Positive, NULL_IS_DEFAULT] = DEFAULT_GRIP_RADIUS_M
 
     def __post_init__(self) -> None:
-        """Refuse what is no fold; raises `GarmentError`."""
+        """Check the fields; raises `GarmentError`."""
         if self.kind not in ("blue", "red"):
             raise GarmentError("kind", f"{self.kind!r} is neither 'blue' nor 'red'")
         if len(self.name) > TITLE_MAX:
@@ -74,11 +74,11 @@ class Garment:
 
     Attributes:
         name: its name, also the file's.
-        title: what people call it.
+        title: its name for people.
         outline: the pattern's corners in the article frame (m), the first not repeated.
         areal_density_kg_m2: the cloth's mass per area.
-        folds: the wanted folds in the user's order.
-        grip_radius_m: how far round itself one grip holds the cloth, unless a fold says otherwise (m).
+        folds: the folds in the user's order.
+        grip_radius_m: the radius within which one grip holds the cloth, unless a fold has its own (m).
         placement: the article frame in the table frame.
     """
 
@@ -95,7 +95,7 @@ class Garment:
     ]
 
     def __post_init__(self) -> None:
-        """Refuse what is no garment; raises `GarmentError` naming the field and the number."""
+        """Check the fields; raises `GarmentError` with the field and the number."""
         if not NAME_PATTERN.fullmatch(self.name):
             raise GarmentError("name", f"{self.name!r} does not match {NAME_PATTERN.pattern}")
         if len(self.title) > TITLE_MAX:
@@ -109,7 +109,7 @@ class Garment:
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Garment":
-        """Return the garment in the contents of a garment file, what is left out filled in.
+        """Return the garment in the contents of a garment file; fields left out have their defaults.
 
         Raises:
             GarmentError: names the field, and says what is wrong with which number.
@@ -134,7 +134,7 @@ class Garment:
 
 
 def centred_placement(outline: tuple[Point2, ...]) -> Pose2:
-    """The placement that puts the outline's bounding box on the middle of the table, top away."""
+    """Return the placement that puts the outline's bounding box on the middle of the table, top away."""
     xs, ys = [x for x, _ in outline], [y for _, y in outline]
     middle_x, middle_y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
     return Pose2(-middle_y, middle_x, DEFAULT_YAW_RAD)

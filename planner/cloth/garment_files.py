@@ -1,4 +1,4 @@
-"""Garment files: those that are shipped, and any other."""
+"""Reading of garment files, shipped ones and others."""
 
 import json
 from pathlib import Path
@@ -8,19 +8,19 @@ from planner.errors import GarmentError, GarmentFileError, UnknownGarmentError
 
 
 def shipped_folder() -> Path:
-    """The folder of the shipped garments: beside the packages in a checkout, inside `planner` when installed."""
+    """Return the folder of the shipped garments: beside the packages in a checkout, inside `planner` when installed."""
     package = Path(__file__).parents[1]
     installed = package / "garments"
     return installed if installed.is_dir() else package.parent / "garments"
 
 
 def shipped_garment_names() -> list[str]:
-    """The names of the shipped garments, in alphabetical order."""
+    """Return the names of the shipped garments, in alphabetical order."""
     return sorted(path.stem for path in shipped_folder().glob("*.json"))
 
 
 def load_garment(source: str | Path) -> Garment:
-    """A shipped garment by name, or a garment file by path.
+    """Return a shipped garment by name, or the garment in a file by path.
 
     Raises:
         UnknownGarmentError: a name (no dot, no slash) that is not shipped.
@@ -36,7 +36,7 @@ def load_garment(source: str | Path) -> Garment:
 
 
 def read_json(path: Path) -> object:
-    """The JSON in a file; raises `GarmentFileError` if it is missing or no JSON."""
+    """Return the JSON in a file; raises `GarmentFileError` if it is missing or no JSON."""
     try:
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
     except OSError as error:

@@ -1,8 +1,8 @@
-"""Where a grip may be: the vertices that must be held, and the boundary near the centres of circles round some of them.
+"""Candidates for grips: the vertices that must be held, and points of the boundary that serve several of them.
 
-A grip holds all vertices within its radius, so for a few of them it is best near the centre of the smallest circle
-round them; two or three determine that circle. Where several points of the boundary are equally near to a centre all of
-them are candidates, or a mirrored garment would plan differently.
+A grip holds all vertices within its radius, so the best grip for a few of them is near the centre of the smallest
+circle round them; two or three vertices determine that circle. If several points of the boundary are equally near to
+a centre, all of them are candidates; otherwise a mirrored garment would be planned differently.
 """
 
 import numpy as np
@@ -14,16 +14,16 @@ from planner.geometry.smallest_circle import pair_centres, triple_centres
 from planner.geometry.tolerance import LENGTH_M
 
 _CIRCLED_MAX = 64
-"""Of more vertices only so many, evenly spread, have circles put round them: there are ten million threes of 400."""
+"""The most vertices round which circles are put; of more, this many are picked evenly: 400 have ten million triples."""
 
 
 def grip_candidates(piece: Region, vertices: FloatArray, baseline: tuple[Segment, ...] = ()) -> FloatArray:
-    """The places for grips that hold vertices of a piece of cloth.
+    """Return candidates for grips that hold vertices of a piece of cloth.
 
     Args:
         piece: the cloth whose boundary is gripped.
-        vertices: what must be held, shape (n, 2), m, at least one.
-        baseline: the part of the boundary that stays where it is: a hand there lifts nothing.
+        vertices: the vertices that must be held, shape (n, 2), m, at least one.
+        baseline: the part of the boundary that stays in place: a hand there lifts nothing.
 
     Returns:
         Shape (m, 2), m: the vertices first; no place twice.
@@ -38,14 +38,14 @@ def grip_candidates(piece: Region, vertices: FloatArray, baseline: tuple[Segment
 
 
 def distinct_rows(points: FloatArray) -> FloatArray:
-    """Points, shape (n, 2), with repetitions left out, in their order."""
+    """Return points, shape (n, 2), without repetitions, in their order."""
     x, y = np.round(points / LENGTH_M).astype(np.int64).T
     _, first = np.unique((x << 32) + y, return_index=True)
     return np.asarray(points[np.sort(first)])
 
 
 def _evenly(vertices: FloatArray) -> FloatArray:
-    """All vertices, or the most that are allowed, chosen alike from either end."""
+    """Return all vertices, or the most that are allowed, chosen alike from either end."""
     count = len(vertices)
     if count <= _CIRCLED_MAX:
         return vertices

@@ -1,13 +1,13 @@
-"""Where to grip: as few places as hold every vertex that must be held (paper, section 8).
+"""Choice of grips: the fewest places that hold every vertex that must be held (paper, section 8).
 
 One grip holds every such vertex within its radius. Candidates are the vertices themselves and the points of the
-boundary nearest to the centre of the smallest circle round each two and each three of them. Of the smallest
+boundary nearest to the centre of the smallest circle round each two and each three of them. Among the smallest
 covers the best is the one whose largest distance from a vertex to its grip is smallest, then the second
-largest, and so on; covers that tie are all kept, or a mirrored garment would plan differently.
+largest, and so on; covers that tie are all kept, otherwise a mirrored garment would be planned differently.
 
-To rank all pairs of candidates is hopeless for a round cloth, which has thousands. But the first rank decides nearly
-everything, and it can be had without the others: the smallest radius with which some pair covers all. Only the pairs
-that do with it are ranked.
+A round cloth has thousands of candidates, too many to rank all their pairs. But the largest distance decides nearly
+always, and its best value can be found alone: the smallest radius with which some pair covers all vertices. Only the
+pairs that cover all with that radius are ranked.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
 
 _RANKED_AT_ONCE = 64
-"""The pairs of so many candidates are ranked as they are."""
+"""Up to this many candidates, all pairs are ranked directly."""
 
 _WORD = 64
 """Bits of a word."""
@@ -52,21 +52,21 @@ class GripCovers:
 
     @property
     def count(self) -> int | None:
-        """The number of grips needed; None when more than were allowed."""
+        """The number of grips needed; None if that is more than were allowed."""
         return len(self.covers[0]) if self.covers else None
 
 
 def grip_covers(
     piece: Region, vertices: FloatArray, radius_m: float, at_most: int, baseline: tuple[Segment, ...] = ()
 ) -> GripCovers:
-    """The best sets of at most so many grips that hold all vertices.
+    """Return the best sets of at most `at_most` grips that hold all vertices.
 
     Args:
         piece: the cloth whose boundary is gripped.
-        vertices: what must be held, shape (n, 2), m.
-        radius_m: how far round itself one grip holds (m), inclusive.
+        vertices: the vertices that must be held, shape (n, 2), m.
+        radius_m: the radius within which one grip holds (m), inclusive.
         at_most: the number of grippers.
-        baseline: the part of the boundary that stays where it is.
+        baseline: the part of the boundary that stays in place.
     """
     points = tuple((float(x), float(y)) for x, y in vertices)
     if not points:
@@ -78,7 +78,7 @@ def grip_covers(
 
 
 def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
-    """Of the given candidates, shape (m, 2), the best covers of the vertices, ties included."""
+    """Return the best covers of the vertices among the given candidates, shape (m, 2), ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
     useful = (distances <= radius_m + LENGTH_M).any(axis=1)
     candidates, distances = candidates[useful], distances[useful]
@@ -91,7 +91,7 @@ def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, a
 
 
 def _needs_more(vertices: FloatArray, radius_m: float, at_most: int) -> bool:
-    """Whether more than `at_most` vertices lie so far apart that no grip holds two of them (greedy)."""
+    """Return whether more than `at_most` vertices lie so far apart that no grip holds two of them (greedy)."""
     left = vertices
     for _ in range(at_most):
         if not len(left):
@@ -101,12 +101,12 @@ def _needs_more(vertices: FloatArray, radius_m: float, at_most: int) -> bool:
 
 
 def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArray:
-    """The sets of `count` candidates that hold every vertex, shape (n, count); of pairs those that may be best.
+    """Return the sets of `count` candidates that hold every vertex, shape (n, count); of pairs the best alone.
 
     Args:
         distances: of candidates to vertices, shape (m, k), m.
-        radius_m: how far a grip holds (m), inclusive.
-        count: how many grips.
+        radius_m: the radius within which a grip holds (m), inclusive.
+        count: the number of grips.
     """
     if count == 1:
         return np.flatnonzero((distances <= radius_m).all(axis=1))[:, None]
@@ -120,10 +120,10 @@ def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArr
 
 
 def _least_radius(distances: FloatArray, radius_m: float) -> float:
-    """The smallest radius with which a pair of candidates holds every vertex; -1 if the given one does not suffice.
+    """Return the smallest radius with which a pair of candidates holds every vertex; -1 if the given one is too small.
 
-    One of the pair holds the vertex that fewest can hold. Each of those is asked only for partners that do better than
-    the best pair so far, and there are soon hardly any.
+    One of the pair must hold the vertex that the fewest candidates can hold. For each of those only partners that
+    improve on the best pair so far are considered, and soon hardly any are left.
     """
     is_held = distances <= radius_m
     hardest = is_held.sum(axis=0).argmin()
@@ -137,7 +137,7 @@ def _least_radius(distances: FloatArray, radius_m: float) -> float:
 
 
 def _covering_pairs(holds: BoolArray) -> IntArray:
-    """All pairs of candidates that between them hold every vertex, shape (n, 2); the first holds vertex 0."""
+    """Return all pairs of candidates that together hold every vertex, shape (n, 2); the first holds vertex 0."""
     pairs, lacks = [np.empty((0, 2), dtype=np.int64)], _lacking(holds)
     for one in np.flatnonzero(holds[:, 0]):
         partners = _partners(lacks, one)
@@ -146,7 +146,7 @@ def _covering_pairs(holds: BoolArray) -> IntArray:
 
 
 def _lacking(holds: BoolArray) -> NDArray[np.uint64]:
-    """The vertices that each candidate does not hold, as bits, shape (m, words)."""
+    """Return the vertices that each candidate does not hold, as bits, shape (m, words)."""
     count, vertices = holds.shape
     padded = np.zeros((count, -(-vertices // _WORD) * _WORD), dtype=bool)
     padded[:, :vertices] = ~holds
@@ -154,12 +154,12 @@ def _lacking(holds: BoolArray) -> NDArray[np.uint64]:
 
 
 def _partners(lacks: NDArray[np.uint64], one: np.int64) -> IntArray:
-    """The candidates that hold all that a given one lacks."""
+    """Return the candidates that hold all vertices that a given one does not."""
     return np.flatnonzero(~(lacks & lacks[one]).any(axis=1))
 
 
 def _is_first(ranks: FloatArray) -> BoolArray:
-    """Which rows are smallest, compared column by column to the tolerance."""
+    """Return which rows are smallest, compared column by column to the tolerance."""
     best = np.ones(len(ranks), dtype=bool)
     for column in ranks.T:
         best &= column <= column[best].min() + LENGTH_M
@@ -167,7 +167,7 @@ def _is_first(ranks: FloatArray) -> BoolArray:
 
 
 def _distinct(covers: FloatArray) -> tuple[Cover, ...]:
-    """Covers, shape (n, count, 2), as sets of points: those that differ only in order are one."""
+    """Return covers, shape (n, count, 2), without those that differ from another only in order."""
     seen: dict[tuple[tuple[int, int], ...], Cover] = {}
     for cover in covers:
         points = sorted((float(x), float(y)) for x, y in cover)

@@ -1,4 +1,4 @@
-"""A layer: one piece of the pattern, and where folding has carried it."""
+"""A layer: one piece of the pattern, and the isometry by which folding has carried it."""
 
 from functools import cached_property
 from typing import Any
@@ -13,8 +13,8 @@ from planner.geometry.split import cut_like
 class Layer:
     """A connected piece of cloth lying flat in a stack; never changed after it is made.
 
-    The piece is kept in the pattern's own coordinates together with the isometry that carried it, so that every
-    point can be traced to the pattern and folding to and fro leaves no error behind.
+    The piece is stored in the pattern's own coordinates with the isometry that carried it, so that every point can be
+    traced to the pattern and folding to and fro accumulates no error.
 
     Attributes:
         pattern_piece: the piece as it lay in the pattern.
@@ -27,31 +27,31 @@ class Layer:
 
     @cached_property
     def region(self) -> Region:
-        """Where the layer lies, article frame."""
+        """The region that the layer covers, article frame."""
         return self.pattern_piece.moved(self.isometry)
 
     @property
     def face(self) -> str:
-        """Which face of the cloth looks up: "front" or "back"."""
+        """The face of the cloth that looks up: "front" or "back"."""
         return "back" if self.isometry.is_mirrored else "front"
 
     @property
     def area(self) -> float:
-        """Its area (m^2), as in the pattern: where it lies it is rounded to the grid."""
+        """Its area (m^2), taken in the pattern: the folded region is rounded to the grid."""
         return self.pattern_piece.area
 
     @property
     def ring(self) -> FloatArray:
-        """The boundary of where it lies, article frame, counter-clockwise, shape (n, 2), m; nothing is rounded."""
+        """The boundary of the folded layer, article frame, counter-clockwise, shape (n, 2), m; nothing is rounded."""
         ring = self.isometry.apply(self.pattern_piece.whole_ring)
         return ring[::-1] if self.isometry.is_mirrored else ring
 
     def reflected(self, line: Segment) -> "Layer":
-        """The layer folded over a line of the article frame."""
+        """Return the layer folded over a line of the article frame."""
         return Layer(self.pattern_piece, Isometry.reflection(line).after(self.isometry))
 
     def cut(self, line: Segment, moving: Region) -> tuple[tuple["Layer", ...], tuple["Layer", ...], tuple[float, ...]]:
-        """The layer's parts inside the moving part of the silhouette, its other parts, the areas of slivers (m^2).
+        """Return the layer's parts inside the moving part, its other parts, and the areas of slivers (m^2).
 
         Args:
             line: the fold line, article frame.
@@ -69,9 +69,9 @@ class Layer:
         )
 
     def to_pattern(self, point: Point2) -> Point2:
-        """Where a point of the layer, article frame, was in the pattern (m)."""
+        """Return the position in the pattern of a point of the layer, article frame (m)."""
         return self.isometry.inverse.apply_point(point)
 
     def to_dict(self) -> dict[str, Any]:
-        """The layer as JSON: its polygon in the article frame and the face that looks up."""
+        """Return the layer as JSON: its polygon in the article frame and the face that looks up."""
         return {"polygon": [[float(x), float(y)] for x, y in self.ring], "face": self.face}

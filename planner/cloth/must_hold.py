@@ -1,9 +1,8 @@
-"""Which vertices of a piece of cloth must be held (paper, Theorems 1 and 2).
+"""The vertices of a piece of cloth that must be held (paper, Theorems 1 and 2).
 
-Cloth that hangs stays as it is when every vertex that is also a vertex of the convex hull is held, lies on
-the baseline, or has cloth straight above it. Cloth that is dragged keeps its shape under the same rule, "up"
-being the direction of the drag; cloth that is being folded hangs from the grips, "up" leading away from
-the fold line.
+Hanging cloth stays as it is when every vertex that is also a vertex of the convex hull is held, lies on
+the baseline, or has cloth straight above it. Cloth that is dragged keeps its shape under the same rule, with "up" as
+the direction of the drag; cloth that is being folded hangs from the grips, and "up" leads away from the fold line.
 """
 
 import math
@@ -18,12 +17,12 @@ from planner.geometry.tolerance import LENGTH_M
 
 
 def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float) -> FloatArray:
-    """The vertices of a piece of cloth that must be held.
+    """Return the vertices of a piece of cloth that must be held.
 
     Args:
-        piece: the cloth; if it has several parts, the hull is that of all; of a sliver nothing must be held.
+        piece: the cloth; if it has several parts, the hull is that of all; a sliver need not be held.
         up: the unit vector against which the cloth pulls.
-        baseline: where the piece is held already; vertices on it need no grip.
+        baseline: the lines along which the piece is held already; vertices on them need no grip.
         support_angle_rad: a vertex counts as supported when any direction within this angle of `up` leads
             into the cloth (rad); a direction along an edge leads into it.
 
@@ -44,9 +43,9 @@ def _not_supported(ring: FloatArray, up: Point2, baseline: tuple[Segment, ...], 
 
 
 def _is_on(ring: FloatArray, segment: Segment) -> BoolArray:
-    """Whether each vertex lies on a baseline, or is the tip of a wedge a hair wide that leaves one of its ends.
+    """Return whether each vertex lies on a baseline, or is the tip of a hair-thin wedge that leaves one of its ends.
 
-    Such a tip arises where a fold's line meets the boundary at a sharp angle; how long it is depends on rounding alone.
+    Such a tip arises where a fold's line meets the boundary at a sharp angle; its length depends on rounding alone.
     """
     is_on = segment.distances(ring) <= LENGTH_M
     beyond = ~is_on & (np.abs(segment.left_distances(ring)) <= LENGTH_M)
@@ -64,7 +63,7 @@ def _is_on_hull(points: FloatArray, hull: FloatArray) -> BoolArray:
 
 
 def _is_supported(ring: FloatArray, up: Point2, support_angle_rad: float) -> BoolArray:
-    """Whether some direction within the support angle of `up` leads into the ring at each vertex.
+    """Return whether some direction within the support angle of `up` leads into the ring at each vertex.
 
     At a vertex the cloth fills the directions from the edge that leaves it, counter-clockwise, to the edge
     that arrives. Directions are compared by how far the neighbouring vertex is from them.
@@ -81,7 +80,7 @@ def _is_supported(ring: FloatArray, up: Point2, support_angle_rad: float) -> Boo
 
 
 def _angle_from(up: Point2, vectors: FloatArray) -> FloatArray:
-    """Angles of vectors from `up`, counter-clockwise, in (-pi, pi]."""
+    """Return the angles of vectors from `up`, counter-clockwise, in (-pi, pi]."""
     x, y = vectors.T
     ux, uy = up
     return np.asarray(np.arctan2(ux * y - uy * x, ux * x + uy * y))

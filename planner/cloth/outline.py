@@ -1,4 +1,4 @@
-"""Whether a ring of points can be the outline of a garment."""
+"""Checks of a ring of points that is to be the outline of a garment."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -50,7 +50,7 @@ def _require_no_crossing(outline: Sequence[Point2]) -> None:
 
 
 def edge_too_short(edge: int, following: int, length_m: float) -> Message:
-    """What there is to say of an edge that is shorter than an outline may have (m)."""
+    """Return the message about an edge that is shorter than an outline may have (m)."""
     return Message(
         "edge_too_short",
         f"edge {edge} from point {edge} to point {following} is {length_m * 1000:.3f} mm long, "
@@ -60,15 +60,15 @@ def edge_too_short(edge: int, following: int, length_m: float) -> Message:
 
 
 def edges_cross(first: int, second: int, at: Point2) -> Message:
-    """What there is to say of two edges that cross at a point (m)."""
+    """Return the message about two edges that cross at a point (m)."""
     text = f"edges {first} and {second} cross at ({at[0]:.3f}, {at[1]:.3f}) m"
     return Message("edges_cross", text, {"edges": [first, second], "at": list(at)})
 
 
 def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:
-    """Every pair of edges that cross, touch, or (neighbours) run back over one another, ascending, and where (m).
+    """Yield every pair of edges that cross, touch, or (neighbours) run back over one another, ascending, and where (m).
 
-    Edge i runs from corner i to the next; none may be of no length.
+    Edge i runs from corner i to the next; no edge may have length 0.
     """
     count = len(outline)
     edges = [Segment(outline[i], outline[(i + 1) % count]) for i in range(count)]
@@ -80,7 +80,7 @@ def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:
 
 
 def _pairs_near_crossing(starts: FloatArray) -> list[tuple[int, int]]:
-    """Pairs of edges, ascending, of which neither lies clearly to one side of the other's line: only these can meet."""
+    """Return the pairs of edges, ascending, of which neither is clearly to one side of the other: others never meet."""
     ends = np.roll(starts, -1, axis=0)
     along = ends - starts
     left = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
@@ -91,7 +91,7 @@ def _pairs_near_crossing(starts: FloatArray) -> list[tuple[int, int]]:
 
 
 def _fold_back(edges: list[Segment], i: int, j: int) -> Point2 | None:
-    """Where neighbouring edges run back over one another: their common point, or None."""
+    """Return the point where neighbouring edges begin to run back over one another, or None."""
     first, second = (edges[j], edges[i]) if i == 0 and j == len(edges) - 1 and j > 1 else (edges[i], edges[j])
     (ax, ay), (bx, by) = first.direction, second.direction
     is_reversed = ax * bx + ay * by < 0.0 and abs(ax * by - ay * bx) <= ANGLE_RAD

@@ -1,1 +1,1 @@
-"""The values: what is asked, what is answered, and the numbers of the world between them."""
+"""The values that planning takes and returns: tasks, plans, trajectories, scenes and reasons."""

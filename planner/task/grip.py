@@ -1,4 +1,4 @@
-"""A grip in a plan, and the base's place: what every primitive reports."""
+"""A grip in a plan, and the base's place: parts of every primitive's report."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,13 +8,13 @@ from planner.geometry.pose import Point2, Point3, Pose2
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """Where one arm's tool frame goes, table frame (m).
+    """The path of one arm's tool frame, table frame (m).
 
     Attributes:
         arm: the arm's name.
-        pick: where the cloth is taken, or held from the start.
+        pick: the point where the arm takes the cloth, or holds it from the start.
         apex: the highest point of a fold's path; None in a drag.
-        place: where the path ends.
+        place: the end of the path.
     """
 
     arm: str
@@ -23,19 +23,19 @@ class Grip:
     place: Point3
 
     def to_dict(self) -> dict[str, Any]:
-        """The grip as JSON."""
+        """Return the grip as JSON."""
         apex = None if self.apex is None else list(self.apex)
         return {"arm": self.arm, "pick": list(self.pick), "apex": apex, "place": list(self.place)}
 
 
 @dataclass(frozen=True, slots=True)
 class Holding:
-    """What one arm holds in a step, and why.
+    """The grip of one arm in a step, and the vertices it holds.
 
     Attributes:
         arm: the arm's name.
-        point: where it grips, article frame as the cloth lies before the step (m).
-        vertices: the vertices that must be held and that this grip holds, same frame (m).
+        point: the grip's position, article frame as the cloth lies before the step (m).
+        vertices: the vertices that this grip holds of those that must be held, same frame (m).
     """
 
     arm: str
@@ -45,10 +45,10 @@ class Holding:
 
 @dataclass(frozen=True, slots=True)
 class BaseStop:
-    """Where the base stands, in the table frame.
+    """The base's place in the table frame.
 
     Attributes:
-        station: the station's name; None where it stands at none.
+        station: the station's name; None if it stands at none.
         back_off_m: how far it has backed off from the station, along its own -x (m).
         x_m: the base's x (m).
         y_m: its y (m).
@@ -63,13 +63,13 @@ class BaseStop:
 
     @staticmethod
     def at(station: str | None, station_pose: Pose2, back_off_m: float = 0.0) -> "BaseStop":
-        """Return the place of a base that has backed off from a station's pose."""
+        """Return the place of a base that stands back from a station's pose."""
         pose = station_pose.ahead(-back_off_m)
         return BaseStop(station, back_off_m, pose.x_m, pose.y_m, pose.yaw_rad)
 
     @property
     def pose(self) -> Pose2:
-        """The base in the table frame."""
+        """The base's pose in the table frame."""
         return Pose2(self.x_m, self.y_m, self.yaw_rad)
 
     def to_dict(self) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 A primitive is cut into phases. In a phase the base goes straight from one pose to another or turns in place, each hand
 is free or follows points at an even pace in one orientation, and the cloth is carried along, folded a part of the way,
-or lies still. Whoever plays a plan turns phases into cloth surfaces without knowing which primitive they came from.
+or lies still. Playback turns phases into cloth surfaces without knowing which primitive they came from.
 """
 
 import math
@@ -16,7 +16,7 @@ from planner.geometry.table_top import TableTop
 
 
 def _read_top(data: object) -> TableTop:
-    """Read a top's lowest and highest x and y; null stands for infinity."""
+    """Read the lowest and highest x and y of a table top; null stands for infinity."""
     match data:
         case [[x0, y0], [x1, y1]]:
             return TableTop((_or(x0, -math.inf), _or(y0, -math.inf)), (_or(x1, math.inf), _or(y1, math.inf)))
@@ -44,16 +44,15 @@ WrittenTop = Annotated[TableTop, PlainValidator(_read_top), PlainSerializer(_wri
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """What one hand does in a phase.
+    """The motion of one hand in a phase.
 
     Attributes:
         approach: the tool's orientation in the base frame, held through the phase.
         points: the tool's path in the table frame (m), one or more points, passed at an even pace.
         is_closed: whether the fingers hold cloth.
         is_reaching: the hand travels to the (only) point from wherever it is, by way of points
-            above where it was and above where it goes.
-        rolls_rad: how far the tool has rolled about its approach axis at each point, since the primitive began;
-            empty: not at all.
+            above its position and above its goal.
+        rolls_rad: the tool's roll about its approach axis at each point since the primitive began; empty: none.
     """
 
     approach: Approach
@@ -65,16 +64,16 @@ class Hand:
 
 @dataclass(frozen=True, slots=True)
 class ClothMotion:
-    """What the cloth does in a phase.
+    """The motion of the cloth in a phase.
 
     Attributes:
         done: the folds finished before, as a bit mask.
         start: the article's placement at the start of the phase (article frame in table frame).
-        end: the same at its end; in between it is interpolated.
+        end: the placement at its end; in between it is interpolated.
         fold: the fold in progress, or None.
-        sweep: how far that fold is at the start and the end of the phase: 0 flat, 1 standing over
+        sweep: the progress of that fold at the start and the end of the phase: 0 flat, 1 standing over
             the fold line (the apex), 2 laid down.
-        top: the top over which cloth does not hang; open where it is held out beyond an edge.
+        top: the table top beyond which cloth hangs; open at an edge over which the cloth is held out.
     """
 
     done: int
@@ -93,9 +92,9 @@ class Phase:
         duration_s: its length (s), not negative.
         base: the base's pose at the start and the end, table frame.
         hands: one entry for each arm from left to right; None: the hand is free and goes home.
-        cloth: what the cloth does.
-        motion: which of its primitive's arm motions it is a part of: such phases share their time as the joints
-            need it; None: the base drives or nothing moves, and no part may be quicker than that.
+        cloth: the motion of the cloth.
+        motion: the index of the primitive's arm motion that it is a part of: phases of one arm motion share its time
+            as the joints need it; None: the base drives or nothing moves, and the phase keeps its duration.
     """
 
     duration_s: float

@@ -30,14 +30,14 @@ class PlanStep:
 
     Attributes:
         kind: the primitive's name: "fold", "drag" or "move".
-        start_s: when it starts (s).
-        duration_s: how long it takes (s): what the cost model says, or longer where the joints are slower.
-        details: what only its kind has, as JSON: which fold, how far, from where to where.
+        start_s: the time of its start (s).
+        duration_s: its duration (s): the cost model's, or longer if the joints are slower.
+        details: the fields of its kind alone, as JSON: the fold, the distance, the stations.
         base: where it leaves the base.
-        grips: where the tools go, from the leftmost arm to the rightmost.
-        before: the world when it starts.
-        after: the world when it ends.
-        holdings: what each arm holds, and which vertices had to be held.
+        grips: the paths of the tools, from the leftmost arm to the rightmost.
+        before: the world at its start.
+        after: the world at its end.
+        holdings: the grip of each arm, and the vertices it holds.
     """
 
     __pydantic_config__ = STRICT
@@ -54,7 +54,7 @@ class PlanStep:
 
     @property
     def end_s(self) -> float:
-        """When it ends (s)."""
+        """The time of its end (s)."""
         return self.start_s + self.duration_s
 
     @property
@@ -63,7 +63,7 @@ class PlanStep:
         return self.details.get("fold")
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the step as REST tells it."""
+        """Return the step in its REST form."""
         return {
             "kind": self.kind,
             "start_s": self.start_s,
@@ -76,18 +76,19 @@ class PlanStep:
 
 @dataclass(frozen=True, slots=True)
 class Statistics:
-    """What the search did (paper, Table 1).
+    """Figures of the search (paper, Table 1).
 
     Attributes:
         expanded: states expanded.
         explored: successors pushed.
-        ik_queries: queries put to the exact inverse kinematics, comfort points counted.
+        ik_queries: queries of the exact inverse kinematics, including those for comfort points.
         ik_time_s: time spent in them (s).
-        search_time_s: time of the whole search (s), joint paths aside.
+        search_time_s: time of the whole search (s), without joint paths.
         joint_time_s: time spent on joint paths (s).
-        bound_s: no plan costs less, whatever the joints can do (s); None when no plan was found for no lack of time.
-        ways: ways to go on that were looked at; the work of the search, on every machine the same.
-        is_cut_short: whether it ended for want of work, time or states; else to search on would find nothing else.
+        bound_s: a lower bound on the cost of any plan, whatever the joints can do (s); None when the search ended
+            without a plan and had time left.
+        ways: candidate steps that were examined; the work of the search, equal on every machine.
+        is_cut_short: whether it ended for lack of work, time or states; if not, a longer search finds nothing else.
     """
 
     __pydantic_config__ = STRICT
@@ -103,7 +104,7 @@ class Statistics:
     is_cut_short: bool = False
 
     def after(self, before: "Statistics") -> "Statistics":
-        """Return those of a search that went on from another's plan: both together, with this one's bound."""
+        """Return the sum of these and another search's figures, from which this one went on, with this one's bound."""
         return Statistics(
             before.expanded + self.expanded,
             before.explored + self.explored,
@@ -123,15 +124,15 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Plan:
-    """A plan, or why there is none.
+    """A plan, or the reasons why there is none.
 
     Attributes:
-        task: what was asked.
+        task: the task.
         status: "solved", "infeasible" (a proof that these primitives cannot do it if `is_proven`) or "budget_exceeded".
-        steps: what to do, in order; empty unless solved.
-        trajectory: what robot and cloth do at every moment; None unless solved.
+        steps: the steps in order; empty unless solved.
+        trajectory: the motion of robot and cloth; None unless solved.
         reasons: why there is no plan; empty unless infeasible.
-        statistics: what the search did.
+        statistics: the figures of the search.
         is_exhaustive: whether nothing was rejected after some tries that more tries might have made possible.
     """
 
@@ -144,12 +145,12 @@ class Plan:
     is_exhaustive: bool
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the fields alone: what was worked out from them is worked out again elsewhere."""
+        """Return the fields without the cached values computed from them."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def primitives(self) -> tuple[PlanStep, ...]:
-        """The steps, by the name that REST gives them."""
+        """The steps, under their name in REST."""
         return self.steps
 
     @property
@@ -171,7 +172,7 @@ class Plan:
 
     @property
     def bound_s(self) -> float | None:
-        """What no plan takes less than (s); None when infeasible."""
+        """A lower bound on the cost of any plan (s); None when infeasible."""
         return self.statistics.bound_s
 
     @property
@@ -206,7 +207,7 @@ class Plan:
 
     @property
     def is_proven(self) -> bool:
-        """Whether it is known that nothing is quicker, or that there is no plan at all."""
+        """Whether it is proven that no plan is quicker, or that there is no plan at all."""
         if self.cost_s is None or self.bound_s is None:
             return self.status == "infeasible" and self.is_exhaustive
         return self.cost_s <= self.bound_s + TIME_S
@@ -222,7 +223,7 @@ class Plan:
         return self.task.start if step < 0 else self.steps[step].after
 
     def answer(self) -> dict[str, Any]:
-        """Return the plan as REST answers it: without its task and its trajectory."""
+        """Return the plan in its REST form: without its task and its trajectory."""
         return {
             "status": self.status,
             "cost_s": self.cost_s,
@@ -235,7 +236,7 @@ class Plan:
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the plan as JSON, all of it: what REST answers, and what `from_dict` reads."""
+        """Return the whole plan as JSON: the REST form, and what `from_dict` reads."""
         return {
             "pleat_plan": VERSION,
             "task": self.task.to_dict(),
@@ -250,8 +251,8 @@ class Plan:
         """Return the plan that JSON holds, equal to the one that was written.
 
         Raises:
-            FieldError: names the field, and says what is wrong; so it does where what follows from the rest, as the
-                cost, is not what it should be.
+            FieldError: names the field, and says what is wrong; also for a field, such as the cost, that follows from
+                others and does not agree with them.
         """
         require_version(data, "pleat_plan", VERSION, _FIELDS)
         is_exhaustive = data["is_exhaustive"]
@@ -268,12 +269,12 @@ class Plan:
         )
         plan.require_whole()
         for name, wanted in plan.answer().items():
-            if name != "final_layers" and data[name] != wanted:  # their last digits depend on the geometry library
+            if name != "final_layers" and data[name] != wanted:  # last digits vary by geometry library
                 raise RequestError(name, "is not what follows from task and steps")
         return plan
 
     def require_whole(self) -> None:
-        """Raise `RequestError` unless its steps follow one another from the task's start, and it has a trajectory."""
+        """Raise `RequestError` unless the steps follow one another from the task's start, and there is a trajectory."""
         state, now = self.task.start, 0.0
         for number, step in enumerate(self.steps):
             if step.before != state:

@@ -1,4 +1,4 @@
-"""Plan files (``*.plan.json``): a plan with its task and its trajectory, to be shown, exported or gone on from."""
+"""Plan files (``*.plan.json``): a plan with its task and its trajectory, to be shown, exported or continued."""
 
 import json
 from pathlib import Path
@@ -10,7 +10,7 @@ from planner.task.plan import Plan
 
 ENDING = ".plan.json"
 VERSION_FIELD = "pleat_plan"
-"""By this field, the version, a plan file is told from a garment file."""
+"""The field of the version, which distinguishes a plan file from a garment file."""
 
 
 def write_plan(plan: Plan, path: Path) -> None:
@@ -23,7 +23,7 @@ def read_plan(path: Path) -> Plan:
 
     Raises:
         GarmentFileError: the file is missing or no JSON.
-        FieldError: it is no plan file; names the field.
+        FieldError: the file is no plan file; names the field.
     """
     data = read_json(path)
     if not isinstance(data, dict):

@@ -11,7 +11,7 @@ from planner.message import Message
 
 
 class Code(StrEnum):
-    """The constraint that stopped a fold."""
+    """The constraint that rules out a fold."""
 
     TOO_MANY_GRIPS = "too_many_grips"
     OUT_OF_REACH = "out_of_reach"
@@ -26,37 +26,38 @@ class Code(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """One reason, about one fold or about the whole.
+    """A reason why there is no plan, about one fold or about the whole.
 
     Attributes:
         fold: the fold's index, or None.
-        code: which constraint.
+        code: the constraint.
         says: a sentence with the numbers, and these as data.
-        cause: for what is out of reach: too far, too near, a joint's limit, comfort only, the robot's own body; for a
-            collision what an arm cannot help touching: the table, its own body, the other arm.
+        cause: for a point out of reach: too far, too near, a joint's limit, the comfort radius only, the robot's own
+            body; for a collision what the arm touches: the table, its own body, the other arm.
         joint: the joint that limits, where one does.
-        point: where: of what is out of reach or collides the tool point, else a point of the cloth; table frame (m).
-        short_by_m: by how much: how far the point, the line or the cloth would have to be displaced, how much wider a
-            grip radius or the gap between two grips would have to be, how deep two parts are in each other (m).
-        is_at_least: whether `short_by_m` is but a number that it is at least: nothing nearer that was tried helps.
-        towards: for what is out of reach the unit direction in which the point would have to be displaced, table frame.
-        arm: for what is out of reach the arm that came closest; for a collision the arm that collides.
-        station: for what is out of reach the station from which it came closest.
-        back_off_m: and how far the base had backed off from there (m).
-        approach: for what is out of reach how that hand is turned there, base frame; `short_by_m` is measured in it.
-        offset_m: how far the cloth had been dragged from where it starts, (x, y) in the table frame (m): less this,
-            `point` is where it would be with the cloth where it starts. None where it does not matter how it lies.
-        shift_m: how far the cloth must be moved, or for what is out of reach the station or the table the other way,
-            so that the set is mended (m); None where that does not do.
+        point: the tool point that is out of reach or collides, otherwise a point of the cloth; table frame (m).
+        short_by_m: the shortfall: how far the point, the line or the cloth would have to be displaced, how much wider
+            a grip radius or the gap between two grips would have to be, how deep two parts are in each other (m).
+        is_at_least: whether `short_by_m` is only a lower bound: nothing nearer that was tried helps.
+        towards: for a point out of reach, the unit direction in which it would have to be displaced, table frame.
+        arm: for a point out of reach, the arm that came closest; for a collision the arm that collides.
+        station: for a point out of reach, the station from which the arm came closest.
+        back_off_m: the base's standoff from that station (m).
+        approach: for a point out of reach, the orientation of that hand, base frame; `short_by_m` is measured in it.
+        offset_m: how far the cloth had been dragged from its place at the start, (x, y) in the table frame (m): `point`
+            minus this is the point with the cloth at the start. None if the cloth's place does not matter.
+        shift_m: how far the cloth must be moved, or for a point out of reach the station or the table the other way,
+            to fix the set (m); None if no shift fixes it.
         shift_towards: the unit direction of that shift, table frame.
-        comfort_m: with "comfort_only" the comfort radius with which it can be reached (m).
+        comfort_m: with "comfort_only" the comfort radius with which the point can be reached (m).
         needed_friction: the friction with which the cloth would not slip.
-        needed_grip_radius_m: the grip radius with which the hands would hold what they must (m).
-        set: reasons with one number must all be mended; of different numbers each is enough. None: not tried.
-        gives: what there is once the set is mended: a "plan", or the "fold" and all it waits for, or of cloth that does
-            not stay as it lies at the "start" that it does. None: not tried.
-        change: the fields of the plan request that mend the set, to be put in place of its own; None where it takes
-            what no request can ask for, as longer arms.
+        needed_grip_radius_m: the grip radius with which the hands would hold all they must (m).
+        set: the index of the correction set: reasons with one index must all be fixed together; fixing one set is
+            enough. None: not tried.
+        gives: what fixing the set achieves: a "plan", or the "fold" and all it waits for, or, for cloth that does not
+            stay as it lies at the "start", that it does. None: not tried.
+        change: the fields of the plan request that fix the set, replacing its own; None if no request can ask for the
+            change, such as longer arms.
     """
 
     __pydantic_config__ = STRICT
@@ -91,7 +92,7 @@ class Reason:
 
     @property
     def is_tried(self) -> bool:
-        """Whether it is known what there is without it; what waits for a fold is not tried for itself."""
+        """Whether its removal has been tried; a fold that waits for another is not tried for itself."""
         return self.set is not None or self.code is Code.WAITS_FOR_FOLD
 
     def to_dict(self) -> dict[str, Any]:

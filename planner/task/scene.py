@@ -1,7 +1,7 @@
-"""The scene: table, stations, and every number of the cost model, with its default. Nowhere else.
+"""The scene: table, stations, and every number of the cost model, with its default.
 
-The default scene is one in which a PR2 can fold all nine articles of the paper's Table 1: a table 1.60 m deep and
-0.98 m wide, the base centre standing 0.15 m outside the edge at each of five stations.
+No default stands anywhere else. In the default scene a PR2 can fold all nine articles of the paper's Table 1: the
+table is 1.60 m deep and 0.98 m wide, and the base centre is 0.15 m outside the edge at each of five stations.
 """
 
 import math
@@ -31,13 +31,13 @@ DEFAULT_STATIONS: MappingProxyType[str, Pose2] = MappingProxyType(
         "right": Pose2(0.45, -0.64, _QUARTER),
     }
 )
-"""Where the base may stand, in the table frame, by name (paper, Figure 7a)."""
+"""The default stations, poses of the base in the table frame by name (paper, Figure 7a)."""
 
 STATIONS_MAX = 64
-"""A scene with more stations is refused."""
+"""The most stations that a scene may have."""
 
 SUPPORT_ANGLE_MAX_RAD = math.radians(85.0)
-"""Beyond this even the top of a hanging piece would count as supported by what is beside it (rad)."""
+"""The largest support angle (rad): beyond it the cloth beside it would support even the top of a hanging piece."""
 
 
 def _pairs(named: Mapping[str, Pose2]) -> tuple[tuple[str, Pose2], ...]:
@@ -55,21 +55,21 @@ NamedPoses = Annotated[
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The table, where the robot may stand, and what its motions cost.
+    """The table, the stations, and the costs of the robot's motions.
 
     Attributes:
         table: the table.
         stations: named base poses in the table frame, in the order given.
-        torso_m: how far the robot's lift is raised (m).
+        torso_m: the height to which the robot's lift is raised (m).
         friction: static friction coefficient between cloth and table, mu.
         support_angle_rad: a vertex also counts as supported when cloth lies within this angle of
             straight above it (rad); 0 is the bare theory.
         approach_cone_rad: a pinch comes from within this angle of the bisector of the directions
             into the cloth (rad); pi asks nothing.
         back_off_max_m: the furthest that the base may back off from a station (m).
-        edge_clear_m: how far outside a table edge's plane a tool holds cloth that hangs there (m).
+        edge_clear_m: the distance outside a table edge's plane at which a tool holds cloth that hangs there (m).
         arm_motion_s: the time of one arm motion (s).
-        grip_dwell_s: how long a hand rests while its fingers close, and again while they open, within an arm
+        grip_dwell_s: the time that a hand rests while its fingers close, and again while they open, within an arm
             motion (s).
         base_speed_m_s: the base's speed (m/s).
         base_turn_rad_s: the base's turning speed (rad/s).
@@ -91,14 +91,14 @@ class Scene:
     base_turn_rad_s: Annotated[float, Interval(ge=1e-3, le=1e3), NULL_IS_DEFAULT] = 0.5
 
     def __post_init__(self) -> None:
-        """Refuse what is no scene; raises `SceneError` naming the field and the number."""
+        """Check the fields; raises `SceneError` with the field and the number."""
         if not 1 <= len(self.stations) <= STATIONS_MAX:
             raise SceneError("stations", f"there are {len(self.stations)}, a scene has 1 to {STATIONS_MAX}")
         require_intervals(self, SceneError)
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Scene":
-        """Return the scene that JSON holds; what is left out or null is usual, given stations replace the five.
+        """Return the scene that JSON holds; fields left out or null have defaults, given stations replace the five.
 
         Raises:
             SceneError: names the field, and says what is wrong with which number.

@@ -1,4 +1,4 @@
-"""A task: all that a plan depends on."""
+"""A task: all inputs on which a plan depends."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -23,15 +23,15 @@ COMFORT_MAX_M = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How exact a plan is to be, and how much may be spent on finding it.
+    """Limits of the search: the accuracy of the plan, and the effort to find it.
 
     Attributes:
         comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m).
-        heuristic: the lower bound on the time that is left: "arm_time" or "zero".
+        heuristic: the lower bound on the remaining time: "arm_time" or "zero".
         time_limit_s: the time for the search (s).
-        work_limit_s: the work for it, in seconds of a machine of our day; None for as much as the time limit. Where
-            work ends the search, and not time, the same task has the same answer on every machine.
-        max_expanded: the states that it may expand.
+        work_limit_s: the work for the search, in seconds of a present-day machine; None for as much as the time limit.
+            If work ends the search before time does, the task has the same answer on every machine.
+        max_expanded: the most states that the search may expand.
     """
 
     __pydantic_config__ = STRICT
@@ -43,14 +43,14 @@ class Limits:
     max_expanded: Annotated[int, Interval(ge=1, le=1_000_000)] = 100_000
 
     def __post_init__(self) -> None:
-        """Refuse a number that is out of range; raises `RequestError`."""
+        """Check the fields; raises `RequestError` for a number out of range."""
         require_intervals(self, RequestError)
         if self.heuristic not in ("arm_time", "zero"):
             raise RequestError("heuristic", f"{self.heuristic!r} is none of arm_time, zero")
 
 
 class TaskOptions(TypedDict, total=False):
-    """What may be said of a task besides garment and scene; see `Task.of`."""
+    """The options of a task besides garment and scene; see `Task.of`."""
 
     placement: Pose2 | None
     start_station: str
@@ -68,14 +68,14 @@ _LIMITS = frozenset(Limits.__slots__)
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """What is to be planned; equal tasks have equal plans.
+    """The problem that is planned; equal tasks have equal plans.
 
     Attributes:
         garment: the garment, its folds in the user's order.
         scene: table, stations and costs.
         robot: the robot's name.
         start: the state of the world before the first step.
-        limits: how exact the plan is to be, and what may be spent on it.
+        limits: the accuracy of the plan, and the effort to find it.
     """
 
     garment: Garment
@@ -85,7 +85,7 @@ class Task:
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
-        """Refuse a start that names folds that the garment has not; raises `RequestError`."""
+        """Check the start; raises `RequestError` if it names folds that the garment does not have."""
         folds, done = range(len(self.garment.folds)), self.start.folds_done
         for index, fold in enumerate(done):
             if fold not in folds:
@@ -95,7 +95,7 @@ class Task:
 
     @staticmethod
     def of(garment: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> "Task":
-        """Return the task of folding a garment, what is left out being as usual.
+        """Return the task of folding a garment; options left out have their defaults.
 
         Args:
             garment: the garment.
@@ -115,15 +115,15 @@ class Task:
         return Task(garment, where, options.get("robot", "pr2"), start, limits)
 
     def at(self, placement: Pose2) -> "Task":
-        """Return the same task with the article elsewhere at the start."""
+        """Return this task with the article elsewhere at the start."""
         return replace(self, start=replace(self.start, placement=placement))
 
     def within(self, comfort_radius_m: float) -> "Task":
-        """Return the same task with another comfort radius (m)."""
+        """Return this task with another comfort radius (m)."""
         return replace(self, limits=replace(self.limits, comfort_radius_m=comfort_radius_m))
 
     def in_scene(self, scene: Scene) -> "Task":
-        """Return the same task in another scene; a base at a station stands at the one of its name there."""
+        """Return this task in another scene; a base at a station moves to the new station of that name."""
         base, stations = self.start.base, dict(scene.stations)
         if base.station in stations:
             base = BaseStop.at(base.station, stations[base.station], base.back_off_m)

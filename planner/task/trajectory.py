@@ -1,6 +1,6 @@
 """The trajectory of a plan: keyframes of every joint, the base and the cloth, between which everything moves evenly.
 
-It is all there is to know about the motion: whoever shows, exports, simulates or checks a plan reads it here.
+It describes the motion completely: stage, exports, simulation and checks read nothing else.
 """
 
 from bisect import bisect_right
@@ -17,14 +17,14 @@ from planner.task.phase import Phase
 
 @dataclass(frozen=True)
 class Segment:
-    """A phase as it is timed.
+    """A phase with its times.
 
     Attributes:
         step: the index of the plan's step to which it belongs.
-        start_s: when it begins (s).
-        phase: what base, hands and cloth do.
+        start_s: the time of its start (s).
+        phase: the motion of base, hands and cloth.
         times_s: the time since its start, rising from 0 to its duration (s).
-        fractions: how much of the phase is done at each of these times, 0 to 1.
+        fractions: the fraction of the phase that is done at each of these times, 0 to 1.
     """
 
     step: int
@@ -35,11 +35,11 @@ class Segment:
 
     @property
     def duration_s(self) -> float:
-        """How long it takes (s)."""
+        """Its duration (s)."""
         return self.times_s[-1]
 
     def fraction_at(self, t_s: float) -> float:
-        """Return how much of the phase is done at a time of the plan (s)."""
+        """Return the fraction of the phase that is done at a time of the plan (s)."""
         return float(np.interp(t_s - self.start_s, self.times_s, self.fractions))
 
     def base_at(self, t_s: float) -> Pose2:
@@ -58,7 +58,7 @@ class ArmTrack:
 
     Attributes:
         names: the joints' URDF names, arm by arm.
-        times_s: when the keyframes are, rising (s).
+        times_s: the times of the keyframes, rising (s).
         positions: the joints at each (rad; m for prismatic ones), one row for each keyframe.
     """
 
@@ -82,7 +82,7 @@ class ArmTrack:
         return np.asarray(self.velocities[min(bisect_right(self.times_s, t_s), len(self.times_s) - 1) - 1])
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the fields alone, without the arrays made of them."""
+        """Return the fields without the arrays cached from them."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
@@ -103,9 +103,9 @@ class GripperTrack:
     Attributes:
         arm: the arm's name.
         joint: the URDF name of the joint that drives the fingers.
-        times_s: when the keyframes are, rising (s).
-        openings_m: how far apart the fingers are at each (m).
-        positions: the joint at each (rad).
+        times_s: the times of the keyframes, rising (s).
+        openings_m: the distance between the fingers at each (m).
+        positions: the joint's position at each (rad).
     """
 
     arm: str
@@ -119,7 +119,7 @@ class GripperTrack:
         return float(np.interp(t_s, self.times_s, self.openings_m))
 
     def position_at(self, t_s: float) -> float:
-        """Return the joint at a time (rad)."""
+        """Return the joint's position at a time (rad)."""
         return float(np.interp(t_s, self.times_s, self.positions))
 
     def velocity_at(self, t_s: float) -> float:
@@ -133,14 +133,14 @@ class GripperTrack:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What robot and cloth do from 0 to the plan's end.
+    """The motion of robot and cloth from 0 to the plan's end.
 
     Attributes:
         duration_s: the end (s).
-        segments: what base and cloth do, one after the other.
-        arms: what the arms do.
-        grippers: what the grippers do, arm by arm.
-        torso_m: how far the lift is raised throughout (m).
+        segments: the motions of base and cloth, one after the other.
+        arms: the motions of the arms.
+        grippers: the motions of the grippers, arm by arm.
+        torso_m: the height of the lift throughout (m).
         resting: all other actuated joints by name (rad, m for prismatic ones), which do not move.
     """
 
@@ -166,11 +166,11 @@ class Trajectory:
         return {**dict.fromkeys(self.resting, 0.0), **dict(moving), **fingers}
 
     def index_at(self, t_s: float) -> int:
-        """Return the index of the segment that is under way at a time (s)."""
+        """Return the index of the segment at a time (s)."""
         return max(0, bisect_right(self._starts_s, t_s) - 1)
 
     def segment_at(self, t_s: float) -> Segment:
-        """Return the segment that is under way at a time (s)."""
+        """Return the segment at a time (s)."""
         return self.segments[self.index_at(t_s)]
 
     def of_step(self, step: int) -> tuple[Segment, ...]:

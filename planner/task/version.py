@@ -7,12 +7,12 @@ from planner.errors import RequestError
 
 
 def require_version(data: Mapping[str, Any], key: str, newest: int, fields: Set[str]) -> None:
-    """Raise `RequestError` unless JSON is an object of a known version with exactly these fields and the version.
+    """Raise `RequestError` unless JSON is an object of a known version with exactly the version's field and these.
 
     Args:
         data: the object.
-        key: the field that holds its version.
-        newest: the newest version that is known.
+        key: the field of the version.
+        newest: the newest known version.
         fields: the names of its other fields.
     """
     if not isinstance(data, Mapping):

@@ -1,7 +1,7 @@
 """The state of the world between two primitives: the cloth, the base, and what is held.
 
-Any g-state (paper, section 4) may be the start of a task. Between the steps of a plan it says how far the plan has
-come, so that planning can go on from there.
+Any g-state (paper, section 4) may be the start of a task. Between the steps of a plan it records the plan's progress,
+so that planning can continue from there.
 """
 
 from dataclasses import dataclass
@@ -28,15 +28,15 @@ class HeldPoint:
 
 @dataclass(frozen=True, slots=True)
 class WorldState:
-    """Cloth, base and hands at one time.
+    """Cloth, base and hands at one moment.
 
     Attributes:
-        folds_done: the indices of the folds done, in the order in which they were.
+        folds_done: the indices of the folds done, in the order in which they were made.
         placement: the article frame in the table frame.
-        base: where the base stands.
-        held: what is held, arm by arm; empty when all hands are free.
-        dragged_m: the length of the drag from which it is held (m); 0 where nothing is, or where it is held from a
-            fold for the red fold that follows.
+        base: the base's place.
+        held: the points that are held, arm by arm; empty when all hands are free.
+        dragged_m: the length of the drag after which the cloth is still held (m); 0 if nothing is held, or if it is
+            held after a fold, for the red fold that follows.
     """
 
     __pydantic_config__ = STRICT
