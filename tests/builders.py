@@ -1,4 +1,4 @@
-"""Small things that many tests build: regions, garments, folds, a robot that reaches everything."""
+"""Builders that many tests use: regions, garments, folds, a robot that reaches everything."""
 
 import math
 import random
@@ -23,7 +23,7 @@ CIRCLE_M = 0.47
 
 
 def rectangle(width_m: float, height_m: float, x_m: float = 0.0, y_m: float = 0.0) -> Region:
-    """A rectangle with its lower left corner at a place."""
+    """Return a rectangle with its lower left corner at a place."""
     return Region.polygon(rectangle_points(width_m, height_m, x_m, y_m))
 
 
@@ -33,7 +33,7 @@ def rectangle_points(width_m: float, height_m: float, x_m: float = 0.0, y_m: flo
 
 
 def star(rng: random.Random, corners: int) -> tuple[Point2, ...]:
-    """A simple polygon, mostly not convex, that winds once round the origin."""
+    """Return a simple polygon, mostly not convex, that winds once round the origin."""
     turns = sorted(rng.uniform(0.0, math.tau) for _ in range(corners))
     reach = [rng.uniform(0.15, 0.5) for _ in turns]
     return tuple((r * math.cos(a), r * math.sin(a)) for r, a in zip(reach, turns, strict=True))
@@ -44,7 +44,7 @@ def fold(start: Point2, end: Point2, kind: str = "blue", name: str = "a fold", r
 
 
 def garment(outline: Sequence[Point2], *folds: DrawnFold, placement: Pose2 | None = None) -> Garment:
-    """A garment of the given folds; unless told otherwise it lies in the middle of the table."""
+    """Return a garment of the given folds; by default it lies in the middle of the table."""
     points = tuple(outline)
     return Garment("cloth", "Cloth", points, 0.2, folds, 0.127, placement or centred_placement(points))
 
@@ -54,7 +54,7 @@ def spread(outline: Sequence[Point2]) -> ClothState:
 
 
 def is_same_stack(one: ClothState, other: ClothState) -> bool:
-    """Whether the same pieces of the pattern lie at the same places, above and below the same wherever they overlap."""
+    """Return whether the same pieces lie at the same places, stacked alike wherever they overlap."""
     if len(one.layers) != len(other.layers):
         return False
     partner = []
@@ -78,7 +78,7 @@ def is_same_layer(one: Layer, other: Layer) -> bool:
 
 
 def is_same_region(one: Region, other: Region, area_m2: float = 2e-5) -> bool:
-    """Whether two regions differ by less than a sliver."""
+    """Return whether two regions differ by less than a sliver."""
     return one.difference(other).area + other.difference(one).area < area_m2
 
 
@@ -92,7 +92,7 @@ class WideReach:
     query_time_s = 0.0
 
     def __init__(self, allowed: Callable[[int, FloatArray, int], bool] | None = None) -> None:
-        """`allowed`: of an arm's number, a point in the base frame at back-off 0, and a back-off."""
+        """Set `allowed`, a function of an arm's index, a point in the base frame at standoff 0, and a standoff."""
         self._allowed = allowed or (lambda arm, point, back_off: True)
 
     def back_offs(
@@ -138,7 +138,7 @@ class WideFollowing:
     def least_driving(
         self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
     ) -> Driving:
-        """All ways by relaxation over waypoints and back-offs; `most` is not made use of."""
+        """Return all ways by relaxation over waypoints and standoffs; `most` is ignored."""
         count = len(begun)
         first = np.arange(count)
         steps = begun.copy()
@@ -161,7 +161,7 @@ class WideFollowing:
 
 
 def connected(row: list[int], count: int, start: int | None = None) -> list[int]:
-    """A row of masks without the back-offs that the base cannot have come to; all 0 if it gets stuck."""
+    """Return a row of masks without the standoffs that the base cannot have reached; all 0 if it gets stuck."""
     kept, before = [], (1 << count) - 1 if start is None else 1 << start
     for mask in row:
         stretches, at = [], 0
@@ -177,5 +177,5 @@ def connected(row: list[int], count: int, start: int | None = None) -> list[int]
 
 
 def context(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Context:
-    """A planning problem for a robot that reaches everything, unless told otherwise."""
+    """Return a planning context for a robot that reaches everything by default."""
     return Context(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)

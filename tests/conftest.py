@@ -1,4 +1,4 @@
-"""What all tests share: which need a browser, where it is, how many random cases are tried and were."""
+"""Shared settings: which tests need a browser, where it is, and the number of random cases."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -24,7 +24,7 @@ settings.load_profile("default")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Let ``--hypothesis-seed`` ask for other random cases; the profile asked for is loaded afterwards."""
+    """Let ``--hypothesis-seed`` set the random cases; the chosen profile is loaded afterwards."""
     if config.getoption("hypothesis_seed") is not None:
         for name in ("default", LONG):
             settings.register_profile(name, settings.get_profile(name), derandomize=False)
@@ -49,7 +49,7 @@ def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """How many random cases the laws were tried on, and how many laws failed."""
+    """Print how many random cases the laws were tried on, and how many laws failed."""
     tried: Counter[str] = Counter()
     outcomes: Counter[str] = Counter()
     for outcome in ("passed", "failed"):
@@ -67,5 +67,5 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
 
 @pytest.fixture(scope="session")
 def chromium_path() -> str | None:
-    """The system's Chromium for Playwright's ``executable_path``; None means Playwright's own."""
+    """Return the path of the system's Chromium for Playwright's ``executable_path``; None means Playwright's own."""
     return str(SYSTEM_CHROMIUM) if SYSTEM_CHROMIUM.exists() else None

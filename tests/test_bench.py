@@ -1,4 +1,4 @@
-"""The benchmark: its tables, its JSON, and the figures it takes from the paper. No time is ever judged."""
+"""The benchmark: its tables, its JSON, and its figures from the paper. No time is ever judged."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The figures of docs/model.md: up to date with the planner, and showing what the text says of them."""
+"""The figures of docs/model.md: up to date with the planner, and showing what the text says."""
 
 import xml.etree.ElementTree as ET
 from functools import cache
@@ -17,7 +17,7 @@ def drawn(name: str) -> str:
 
 
 def marks(name: str, kind: str) -> list[ET.Element]:
-    """The marks of a class in a figure."""
+    """Return the marks of a class in a figure."""
     return [e for e in ET.fromstring(drawn(name)).iter() if kind in e.get("class", "").split()]
 
 
@@ -26,7 +26,7 @@ def words(name: str) -> str:
 
 
 def points(mark: ET.Element) -> list[tuple[float, float]]:
-    """A line's corners on the sheet (px)."""
+    """Return a line's corners on the sheet (px)."""
     return [(float(x), float(y)) for x, y in (pair.split(",") for pair in mark.get("points", "").split())]
 
 

@@ -1,4 +1,4 @@
-"""The shipped garments as files: fields, outlines, where they lie. Nothing here asks the planner."""
+"""The shipped garments as files: fields, outlines, placements. Nothing here uses the planner."""
 
 import json
 import math
@@ -44,14 +44,14 @@ def read(path: Path) -> dict[str, Any]:
 
 
 def outline_on_table(garment: dict[str, Any]) -> Polygon:
-    """The outline in the table frame: turned about the article's origin, then moved to the placement."""
+    """Return the outline in the table frame: turned about the article's origin, then moved to the placement."""
     placed = garment["placement"]
     turned = rotate(Polygon(garment["outline"]), placed["yaw_rad"], origin=(0, 0), use_radians=True)
     return translate(turned, placed["x_m"], placed["y_m"])
 
 
 def silhouettes(garment: dict[str, Any]) -> list[Polygon]:
-    """The silhouette before each blue fold, by half-planes: for folds right across the cloth."""
+    """Return the silhouette before each blue fold, by half-planes: for folds right across the cloth."""
     silhouette = Polygon(garment["outline"])
     seen = []
     for fold in garment["folds"]:

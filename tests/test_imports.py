@@ -1,4 +1,4 @@
-"""The rooms of docs/architecture.md, held: who may import whom, and which library lives where."""
+"""The rooms of docs/architecture.md: allowed imports, and the home of each library."""
 
 import ast
 from collections.abc import Iterator, Mapping
@@ -56,7 +56,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
 
 
 class Import(NamedTuple):
-    """One import: the module that says it, the line, and the dotted name that it asks for."""
+    """An import: the importing module, the line, and the dotted name."""
 
     module: str
     path: Path
@@ -76,7 +76,7 @@ SOURCES = {module_name(path): path for package in ("planner", "app") for path in
 
 
 def imports_of(module: str, path: Path) -> Iterator[Import]:
-    """Every import in a file, also those in functions; `from a import b` asks for a.b if that is a module."""
+    """Return every import in a file, also those in functions; `from a import b` counts as a.b if that is a module."""
     package = module if path.name == "__init__.py" else module.rpartition(".")[0]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):

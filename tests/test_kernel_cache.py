@@ -1,4 +1,4 @@
-"""Compiled kernels are kept for one state of all their sources, so that none is used that is not what is written."""
+"""Compiled kernels are cached for one state of all their sources, so that no outdated one is used."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""docs/model.md: the numbers in its table are those of the program, and what it says in passing is so."""
+"""The numbers in docs/model.md's table and text are those of the program."""
 
 import importlib
 import re
@@ -18,7 +18,7 @@ NUMBERS = re.findall(r"^\| [^|]+ \| ([\d.e-]+) \| `(planner[^`]+)` \|$", PAGE, r
 
 
 def named(path: str) -> float:
-    """A number of the program by its dotted name; of a class the default of a field."""
+    """Return a number of the program by its dotted name; of a class the default of a field."""
     parts = path.split(".")
     for cut in range(len(parts) - 1, 0, -1):
         try:

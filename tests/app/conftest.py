@@ -1,4 +1,4 @@
-"""A server without a network, and one that really listens."""
+"""Fixtures: a server without a network, and one that really listens."""
 
 import subprocess
 import sys
@@ -21,7 +21,7 @@ def anyio_backend() -> str:
 
 @pytest.fixture
 async def client(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
-    """Talks to a server without a network; no document is open in it."""
+    """Return a client of a server without a network; no document is open in it."""
     app = create_app(Settings(data=tmp_path))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
     async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
@@ -53,7 +53,7 @@ class Served:
 
     @property
     def document(self) -> str:
-        """The document that the page shows first."""
+        """The id of the document that the page shows first."""
         return httpx.get(f"{self.url}/").headers["location"].rpartition("/")[2]
 
     @property
@@ -61,19 +61,19 @@ class Served:
         return int(self.url.rpartition(":")[2])
 
     def stop(self) -> None:
-        """Kill it: it has no time to put anything in order."""
+        """Kill the process, which leaves it no time to clean up."""
         if self.process.poll() is None:
             self.process.kill()
             self.process.communicate()
 
     def start_again(self) -> None:
-        """Another process with the same data on the same port."""
+        """Start another process with the same data on the same port."""
         self._start(self.port)
 
 
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """A real server on a free port."""
+    """Start a real server on a free port."""
     server = Served(tmp_path_factory.mktemp("data"))
     yield server
     server.stop()

@@ -1,7 +1,7 @@
-"""What a document's history should hold, by a model that knows nothing of how it is done.
+"""A model of a document's history, independent of the implementation.
 
-A list of drawings that can be gone back to, one of drawings that can be gone forward to, and perhaps a gesture that is
-going on. Drawings are as the server tells them.
+It has a list of drawings to undo to, one of drawings to redo to, and possibly a gesture in progress. Drawings are in
+the server's JSON form.
 """
 
 from typing import Any
@@ -16,7 +16,7 @@ class DocumentModel:
         self.past: list[tuple[str, Drawing]] = []
         self.future: list[tuple[str, Drawing]] = []
         self.gesture: tuple[str, str, Drawing] | None = None
-        """Its key, its label and the drawing before it."""
+        """The key and the label of the gesture in progress, and the drawing before it."""
 
     @property
     def history(self) -> dict[str, str | None]:
@@ -26,7 +26,7 @@ class DocumentModel:
         }
 
     def edit(self, phase: str, label: str, key: str, now: Drawing, after: Drawing) -> None:
-        """A drawing has become another, by a gesture's preview or its commit."""
+        """Replace the drawing by a gesture's preview or its commit."""
         if self.gesture is not None and self.gesture[0] != key:
             self.close_gesture(now)
         before = self.gesture[2] if self.gesture else now
@@ -38,31 +38,31 @@ class DocumentModel:
             self.step(label, before, after)
 
     def step(self, label: str, before: Drawing, after: Drawing) -> None:
-        """A step, unless nothing has changed."""
+        """Add a step, unless nothing has changed."""
         if after != before:
             self.past.append((label, before))
             self.future = []
 
     def close_gesture(self, now: Drawing) -> None:
-        """What goes on becomes a step of its own."""
+        """Commit the gesture in progress as a step of its own."""
         if self.gesture is not None:
             _, label, before = self.gesture
             self.gesture = None
             self.step(label, before, now)
 
     def drop_gesture(self, now: Drawing) -> Drawing:
-        """The drawing without what was going on."""
+        """Return to the drawing before the gesture in progress."""
         before = self.gesture[2] if self.gesture else now
         self.gesture = None
         return before
 
     def undo(self, now: Drawing) -> Drawing:
-        """The drawing a step further back."""
+        """Return to the drawing one step back."""
         self.close_gesture(now)
         return _go(self.past, self.future, now)
 
     def redo(self, now: Drawing) -> Drawing:
-        """The drawing a step further on."""
+        """Return to the drawing one step forward."""
         self.close_gesture(now)
         return _go(self.future, self.past, now)
 

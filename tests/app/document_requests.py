@@ -1,4 +1,4 @@
-"""What is asked of a document's routes again and again."""
+"""Requests of a document's routes that many tests make."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ async def created(client: httpx.AsyncClient, **changes: Any) -> dict[str, Any]:
 
 
 def moved(state: dict[str, Any], x_m: float) -> dict[str, Any]:
-    """A state's drawing with its first corner at another x."""
+    """Return a state's drawing with its first corner at another x."""
     drawing = state["drawing"]
     first, *others = drawing["outline"]
     return {**drawing, "outline": [{**first, "point": [x_m, first["point"][1]]}, *others]}

@@ -1,4 +1,4 @@
-"""Poses as viser has them, as matrices."""
+"""Poses in viser's form, as matrices."""
 
 import numpy as np
 from numpy.typing import NDArray

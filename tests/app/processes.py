@@ -1,4 +1,4 @@
-"""The processes that a process has started, as Linux tells of them."""
+"""The processes that a process has started, from Linux's /proc."""
 
 import time
 from collections.abc import Callable
@@ -8,7 +8,7 @@ PATIENCE_S = 30.0
 
 
 def descendants(pid: int) -> set[int]:
-    """All that are below a process now."""
+    """Return all descendants of a process."""
     parents: dict[int, int] = {}
     for stat in Path("/proc").glob("[0-9]*/stat"):
         try:
@@ -31,7 +31,7 @@ def is_alive(pid: int) -> bool:
 
 
 def cpu_s(pid: int) -> float:
-    """The processor time that a process and those below it have used (s)."""
+    """Return the processor time of a process and its descendants (s)."""
     total = 0.0
     for one in {pid, *descendants(pid)}:
         stat = Path(f"/proc/{one}/stat")

@@ -1,6 +1,6 @@
-"""A folder in which the system refuses to write, as it does where a disk is full or read-only.
+"""A folder in which the system refuses to write, as on a disk that is full or read-only.
 
-Tests may be run by root, whom permissions do not bind, so the calls are refused before they reach the system.
+Permissions do not bind root, who may run the tests, so the calls are refused before they reach the system.
 """
 
 import errno
@@ -18,7 +18,7 @@ _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC
 
 @contextmanager
 def refused(monkeypatch: pytest.MonkeyPatch, folder: Path, name: str) -> Iterator[None]:
-    """Meanwhile nothing can be written in a folder; `name` is that of the error. Removing is refused too."""
+    """Refuse writing and removing in a folder meanwhile; `name` is that of the error."""
     number = getattr(errno, name)
 
     def refuse(path: Any) -> None:

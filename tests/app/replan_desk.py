@@ -38,7 +38,7 @@ class Desk:
             time.sleep(0.002)
 
     def rest(self) -> None:
-        """Wait until everything that belongs to the drawing is there."""
+        """Wait until the plan and everything else belong to the drawing."""
         self.until(lambda: self.is_answered and self.has_film and self.document.state.answer.is_final)
 
     @property
@@ -60,11 +60,11 @@ def replanning() -> Iterator[Desk]:
 
 
 class Endless:
-    """A search that ends when it is stopped; by default only the first is such.
+    """A search that ends only when it is stopped; by default only the first one does.
 
     Attributes:
-        begun: it has begun.
-        stopped: it was told to stop.
+        begun: whether it has begun.
+        stopped: whether it was told to stop.
     """
 
     def __init__(self, *, is_once: bool = True) -> None:
@@ -81,7 +81,7 @@ class Endless:
 
 
 def nothing(*_: object, **__: object) -> None:
-    """No plan can be adapted."""
+    """Adapt no plan."""
 
 
 def moved(millimetres: float) -> Drawing:

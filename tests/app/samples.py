@@ -4,7 +4,7 @@ from typing import Any
 
 
 def towel(name: str = "my-towel", **changes: Any) -> dict[str, Any]:
-    """A small towel that is folded once."""
+    """Return a small towel that is folded once."""
     return {
         "name": name,
         "title": "My towel",

@@ -1,4 +1,4 @@
-"""Plan files on the command line: written, shown, sampled, gone on from, exported."""
+"""Plan files on the command line: written, shown, sampled, continued, exported."""
 
 import json
 from itertools import pairwise

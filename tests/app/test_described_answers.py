@@ -1,4 +1,4 @@
-"""Answers and messages have the fields that are described and no others: the page's types are made of these shapes."""
+"""Answers and messages have exactly the fields that are described, from which the page's types are generated."""
 
 import json
 from typing import Any
@@ -36,7 +36,7 @@ CROSSED = [[0.0, 0.0], [0.4, 0.3], [0.4, 0.0], [0.0, 0.3]]
 
 
 def assert_described(answer: Any, shape: Any) -> None:
-    """Hold JSON against a shape: read by it and written again it is the same."""
+    """Check JSON against a model: it is equal after being read and written."""
     adapter: TypeAdapter[Any] = TypeAdapter(shape)
     read = adapter.validate_json(json.dumps(answer))
     assert adapter.dump_python(read, mode="json", by_alias=True, exclude_unset=True) == answer

@@ -1,4 +1,4 @@
-"""The description of the interface: what reads it must find everything it refers to."""
+"""The description of the interface has no dangling references."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.anyio
 
 
 def references(part: object) -> Iterator[str]:
-    """All places that a description, or a part of it, refers to, discriminators' mappings included."""
+    """Yield all references in a description, or a part of it, discriminators' mappings included."""
     if isinstance(part, list):
         for one in part:
             yield from references(one)

@@ -1,6 +1,6 @@
 """Random operations on a document over REST: no state is lost and none is stale.
 
-Beside the server runs a model that knows nothing of how it is done. Two pages listen all the time.
+A model of the document, independent of the server, runs beside it. Two pages listen all the time.
 """
 
 import asyncio
@@ -27,7 +27,7 @@ keys = st.sampled_from(["one", "two"])
 
 
 class DocumentMachine(RuleBasedStateMachine):
-    """What is done to one document, and what should have come of it."""
+    """Operations on one document, and the invariants that must hold."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -44,7 +44,7 @@ class DocumentMachine(RuleBasedStateMachine):
         self.state = answer.json()
         self.listen()
 
-    # rules: what pages do
+    # rules: operations of pages
 
     @rule(corner=corners, x=centimetres, y=centimetres, key=keys)
     def drag(self, corner: int, x: int, y: int, key: str) -> None:
@@ -57,7 +57,7 @@ class DocumentMachine(RuleBasedStateMachine):
 
     @rule(across=st.floats(0.05, 0.35))
     def draw_fold(self, across: float) -> None:
-        """From the middle of the cloth as it is then to wherever the line leads; it may be illegal."""
+        """Draw a fold from the middle of the cloth as it lies, in any direction; it may be illegal."""
         fold = {"name": "", "kind": "blue", "start": {"point": [across, 0.15]}, "end": {"point": [across, 0.3]}}
         folds = [*self.state["drawing"]["folds"][:1], fold]
         self.edit("commit", f"Fold {self.steps}", {**self.state["drawing"], "folds": folds}, "fold")
@@ -68,7 +68,7 @@ class DocumentMachine(RuleBasedStateMachine):
 
     @rule()
     def spoil(self) -> None:
-        """Exchange two corners: the outline crosses itself, or is mended."""
+        """Exchange two corners, so that the outline crosses itself or no longer does."""
         first, second, *rest = self.state["drawing"]["outline"]
         self.edit("commit", f"Spoil {self.steps}", {**self.state["drawing"], "outline": [second, first, *rest]}, "x")
 
@@ -109,7 +109,7 @@ class DocumentMachine(RuleBasedStateMachine):
 
     @rule(in_the_middle=st.booleans())
     def kill_and_restart(self, in_the_middle: bool) -> None:
-        """The server is gone from one moment to the next; another one begins with what is on the disk."""
+        """Kill the server and start another one on the same data."""
         self.drag_on(in_the_middle)
         killed = self.app
         self.serve()
@@ -123,7 +123,7 @@ class DocumentMachine(RuleBasedStateMachine):
 
     @rule()
     def rest(self) -> None:
-        """With nothing going on, both pages show the same, and the plan is that of the drawing."""
+        """Wait until nothing is going on; both pages show the same state, and the drawing's own plan."""
         self.run(self.until_idle())
         one, other = self.pages
         assert one.last["document"] == other.last["document"] == self.state
@@ -144,10 +144,10 @@ class DocumentMachine(RuleBasedStateMachine):
         assert self.state["gesture"] == (self.model.gesture[1] if self.model.gesture else None)
         assert self.ask("GET", "").json() == self.state
 
-    # what comes of it
+    # invariants
 
     def look_back(self, page: Listener) -> None:
-        """Of all the plans that were shown as that of their version, none was another's."""
+        """Check that every plan that was shown as its version's was the plan of that version."""
         garments = {one["version"]: one["garment"] for one in page.heard if one["kind"] == "document"}
         layers: dict[int, object] = {}
         for shown in (one for one in page.heard if one["kind"] == "plan" and one["plan"]):
@@ -161,7 +161,7 @@ class DocumentMachine(RuleBasedStateMachine):
         page.heard = [one for one in page.heard if one["kind"] == "document"]
 
     def drag_on(self, in_the_middle: bool) -> None:
-        """Perhaps there is a gesture going on when it happens."""
+        """Leave a gesture in progress, possibly, while another operation happens."""
         if in_the_middle:
             self.steps += 1
             self.edit("preview", f"Drag {self.steps}", self.pulled(self.steps % 4, 2, self.steps % 3), "middle")
@@ -176,7 +176,7 @@ class DocumentMachine(RuleBasedStateMachine):
         self.changed(answer, after)
 
     def changed(self, answer: httpx.Response, drawing: object) -> None:
-        """Take the new state; its version has grown exactly when something in it has changed."""
+        """Take the new state; its version has grown if and only if something in it has changed."""
         assert answer.status_code == 200, answer.text
         state = answer.json()
         assert state["drawing"] == drawing
@@ -185,7 +185,7 @@ class DocumentMachine(RuleBasedStateMachine):
         self.state = state
 
     def pulled(self, corner: int, x: int, y: int) -> dict[str, Any]:
-        """The drawing with a corner so many centimetres from where the towel has it."""
+        """Return the drawing with a corner moved from the towel's by some centimetres."""
         outline = list(self.state["drawing"]["outline"])
         home = towel()["outline"][corner]
         outline[corner] = {**outline[corner], "point": [home[0] + 0.01 * x, home[1] + 0.01 * y]}

@@ -1,4 +1,4 @@
-"""Documents by REST: made, copied, listed, opened again, removed, and the page of each."""
+"""REST routes of documents: made, copied, listed, opened again, removed, and the page of each."""
 
 import asyncio
 import itertools

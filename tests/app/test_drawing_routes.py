@@ -1,4 +1,4 @@
-"""How a drawing is changed by REST: in steps that can be undone, or refused with the field that is wrong."""
+"""Changes of a drawing over REST: steps that can be undone, or refusals with the wrong field."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""Whatever is sent, the answer is a problem that names the field: never a 500, never a trace."""
+"""Any request is answered, bad ones with a problem that names the field: never a 500, never a trace."""
 
 import json
 from typing import Any

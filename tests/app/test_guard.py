@@ -88,7 +88,7 @@ def test_the_given_host_is_an_own_name_too() -> None:
 
 @pytest.fixture
 async def everywhere(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
-    """Talks to a server that listens on all addresses of the machine."""
+    """Return a client of a server that listens on all addresses of the machine."""
     app = create_app(Settings(data=tmp_path, host="0.0.0.0", insecure=True))
     async with httpx.AsyncClient(transport=httpx.ASGITransport(app=app), base_url=OWN_URL) as client:
         yield client

@@ -1,4 +1,4 @@
-"""A server that is killed has lost nothing that anybody has seen."""
+"""A server that is killed loses nothing that a client has seen."""
 
 from pathlib import Path
 from typing import Any

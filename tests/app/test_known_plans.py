@@ -1,4 +1,4 @@
-"""What a document remembers of its plans: of each way the latest, the quickest first."""
+"""The plans that a document remembers: the latest of each kind, the quickest first."""
 
 from app.known_plans import KnownPlans
 from planner import load_garment

@@ -1,4 +1,4 @@
-"""Who waits for whom: short work never for long work, long work never for longer than it was given."""
+"""Priorities: short work never waits for long work, long work never longer than its limit."""
 
 import asyncio
 import signal
@@ -25,7 +25,7 @@ SLOW = {"garment": "shirt", "time_limit_s": 60, "comfort_radius_m": 0.06, "heuri
 
 @asynccontextmanager
 async def endless_plans(client: httpx.AsyncClient, many: int) -> AsyncIterator[None]:
-    """So many plans are asked for, each of which takes longer than anybody waits."""
+    """Request some plans, each of which takes longer than any test waits."""
     lanes = client._transport.app.state.workspace.lanes  # type: ignore[attr-defined]
     tasks = [asyncio.create_task(client.post("/api/plans", json=SLOW)) for _ in range(many)]
     while len(lanes.searches._open) < many and not any(task.done() for task in tasks):
@@ -102,7 +102,7 @@ def test_a_queue_has_an_end_and_what_was_stopped_makes_room() -> None:
 
 
 def only_the_template(server: Served) -> bool:
-    """Whether none but the template process and what watches over shared resources is left below a server."""
+    """Return whether only the template process and the resource tracker are left below a server."""
     return len(descendants(server.process.pid)) <= 2
 
 

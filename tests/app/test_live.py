@@ -1,4 +1,4 @@
-"""What several pages on one document are told."""
+"""Messages to several pages on one document."""
 
 import asyncio
 import time

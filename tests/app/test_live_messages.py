@@ -1,4 +1,4 @@
-"""What pages are told in words and numbers, and the described shapes of it."""
+"""Messages to pages in words and numbers, and their described models."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ T_SHIRT = load_garment("t-shirt")
 
 
 def answered(plan: Plan, *, is_final: bool = True) -> DocumentState:
-    """A T-shirt with an answer."""
+    """Return a T-shirt's document with its plan."""
     document = Document(draft_of(drawing_of(T_SHIRT)))
     task = document.state.task
     assert task is not None

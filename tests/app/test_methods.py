@@ -1,4 +1,4 @@
-"""Methods, failures and what the description of the interface says of them."""
+"""HTTP methods, failures, and their description."""
 
 import logging
 from pathlib import Path

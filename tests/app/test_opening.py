@@ -1,4 +1,4 @@
-"""At first the table and the robot are whole in the picture, whatever its shape."""
+"""The first picture shows the whole table and robot, whatever its shape."""
 
 import math
 
@@ -16,7 +16,7 @@ ASPECTS = [0.46, 0.57, 0.85, 1.0, 1.6, 2.2]
 
 
 def in_picture(viewpoint: Viewpoint, points: FloatArray, aspect: float) -> FloatArray:
-    """Where points are seen, as shares of the way from the middle of the picture to its edges, shape (n, 2)."""
+    """Return points as fractions of the way from the middle of the picture to its edges, shape (n, 2)."""
     middle, eye = np.array(viewpoint.look_at), np.array(viewpoint.position)
     ahead = (middle - eye) / np.linalg.norm(middle - eye)
     right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.hypot(*ahead[:2])

@@ -1,4 +1,4 @@
-"""Plan files over REST: written, taken back once replayed, refused with the step at which they fail; starts."""
+"""Plan files over REST: written, imported after a replay, refused with the step that fails; starts."""
 
 import copy
 from collections.abc import Callable

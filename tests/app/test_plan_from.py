@@ -1,4 +1,4 @@
-"""Planning from the middle, as pages ask for it: the command `plan_from`, and what the `plan` message says of it."""
+"""Planning from the middle: the command `plan_from`, and the `plan` message about it."""
 
 import threading
 from dataclasses import replace
@@ -22,14 +22,14 @@ T_SHIRT = load_garment("t-shirt")
 
 
 async def planned(client: httpx.AsyncClient) -> tuple[dict[str, Any], Listener, dict[str, Any]]:
-    """A T-shirt's document, a page on it, and its plan message."""
+    """Open a T-shirt's document with a page on it, and return its plan message."""
     state: dict[str, Any] = (await client.post("/api/documents", json={"garment": "t-shirt"})).json()
     page = listening(client, state["id"])
     return state, page, await page.until_planned(state["version"])
 
 
 async def replanned(page: Listener, **wanted: object) -> dict[str, Any]:
-    """Wait for the plan that stays of a version with this start; its message."""
+    """Wait for the final plan of a version with this start; return its message."""
     await page.until("plan", status="solved", **wanted)
     return await page.until_planned(page.last["plan"]["version"])
 

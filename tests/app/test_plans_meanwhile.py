@@ -1,4 +1,4 @@
-"""What is shown while the quickest plan is looked for: a plan for the drawing as it is now, found sooner."""
+"""Quick plans: a plan for the current drawing is shown while the search for the best one goes on."""
 
 import threading
 from collections.abc import Iterator
@@ -77,7 +77,7 @@ def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place
 
 
 def answers(desk: Desk) -> list[Answer]:
-    """Where all that is shown from now on is noted."""
+    """Record everything that is shown from now on."""
     shown: list[Answer] = []
 
     def look() -> None:

@@ -16,7 +16,7 @@ from tests.app.drawing.drawings import outlined, pulled
 
 
 class CountingStage:
-    """Stands in for a stage, and counts what it is shown."""
+    """A fake stage that counts what it is shown."""
 
     def __init__(self, has_watchers: bool) -> None:
         self.has_watchers = has_watchers
@@ -68,7 +68,7 @@ def until(condition) -> None:
 
 
 class FailingStage(CountingStage):
-    """A stage that fails now and then, as one does while a visitor leaves it."""
+    """A stage that fails sometimes, as one does while a visitor leaves it."""
 
     def __init__(self, failures: int) -> None:
         super().__init__(has_watchers=True)

@@ -1,4 +1,4 @@
-"""Below a prefix, as behind a proxy that takes it off the path or leaves it there."""
+"""Serving below a prefix, behind a proxy that removes it from the path or keeps it."""
 
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -19,7 +19,7 @@ PREFIX = {"x-forwarded-prefix": "/tools/pleat"}
 
 @pytest.fixture
 async def below(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
-    """Talks to a server below /pleat that a proxy shows at https://example.org."""
+    """Return a client of a server below /pleat that a proxy shows at https://example.org."""
     app = create_app(Settings(data=tmp_path, root_path="/pleat", origin="https://example.org"))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
     async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:

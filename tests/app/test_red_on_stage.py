@@ -1,4 +1,4 @@
-"""Red folds on the stage: told from blue ones by colour and by dashes, drawn on the cloth that they will fold."""
+"""Red folds on the stage: distinct from blue ones in colour and dashes, drawn on the cloth that they will fold."""
 
 from collections.abc import Iterator
 
@@ -22,7 +22,7 @@ BLUE, RED = 0, 1
 
 @pytest.fixture(scope="module")
 def letter() -> Plan:
-    """A towel 0.4 x 0.5 m: its near half comes over y = 0.25, then the free edge back over y = 0.39."""
+    """Return a towel 0.4 x 0.5 m: its near half goes over y = 0.25, then the free edge back over y = 0.39."""
     return make_plan(load_garment("letter-towel"), time_limit_s=60.0)
 
 
@@ -35,12 +35,12 @@ def stage(letter: Plan) -> Iterator[Stage]:
 
 
 def performed(plan: Plan, index: int) -> PlanStep:
-    """The step that performs a fold."""
+    """Return the step that performs a fold."""
     return next(step for step in plan.steps if step.fold == index)
 
 
 def line(stage: Stage, index: int) -> NDArray[np.float64]:
-    """A fold's line as drawn: segments, shape (n, 2, 3), m; none when it is not shown."""
+    """Return a fold's line as drawn: segments, shape (n, 2, 3), m; none if it is hidden."""
     handle = stage._server.scene.get_handle_by_name(f"/folds/{index}")
     assert handle is not None
     return np.asarray(handle.points, dtype=float) if handle.visible else np.zeros((0, 2, 3))

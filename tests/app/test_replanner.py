@@ -1,4 +1,4 @@
-"""Plans follow the drawing: the latest wins, and what is shown says what it belongs to."""
+"""Plans follow the drawing: the latest wins, and each answer names its version."""
 
 import threading
 import time

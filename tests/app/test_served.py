@@ -1,4 +1,4 @@
-"""A server that really listens: its websockets, its guard, and how it ends."""
+"""A server that really listens: its websockets, its guard, and its shutdown."""
 
 import json
 import signal
@@ -33,7 +33,7 @@ def live(served: Served, **options: Any) -> ClientConnection:
 
 
 def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]:
-    """The first message of a kind that has these fields."""
+    """Return the first message of a kind that has these fields."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
         message: dict[str, Any] = json.loads(page.recv(timeout=deadline - time.monotonic()))
@@ -42,7 +42,7 @@ def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]
 
 
 def until_planned(page: ClientConnection) -> dict[str, Any]:
-    """The first message of a plan that stays: on a slow machine some plan is told of before the quickest."""
+    """Return the first message of a final plan: a slow machine shows other plans before it."""
     while not (message := until(page, "plan", status="solved"))["plan"]["is_final"]:
         pass
     return message

@@ -11,7 +11,7 @@ from tests.app.conftest import Served
 
 
 def serve(data: Path) -> subprocess.CompletedProcess[str]:
-    """A server that should not come up."""
+    """Start a server that should fail to start."""
     command = [sys.executable, "-c", "from app.cli import main; main()", "serve", "--port", "0", "--data", str(data)]
     return subprocess.run(command, capture_output=True, text=True, timeout=60.0)
 

@@ -1,4 +1,4 @@
-"""What a stage shows, asked of its own scene and, for the robot, of a second opinion on kinematics."""
+"""The stage's scene, with a second implementation of kinematics as reference for the robot."""
 
 import http
 import urllib.error
@@ -44,7 +44,7 @@ def plan() -> Plan:
 
 
 def shown_pose(stage: Stage, node: str) -> NDArray[np.float64]:
-    """A node's pose in the table frame, from the poses of all nodes above it."""
+    """Return a node's pose in the table frame, from the poses of all nodes above it."""
     placed = np.eye(4)
     parts = node.strip("/").split("/")
     for depth in range(1, len(parts) + 1):

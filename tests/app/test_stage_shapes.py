@@ -1,4 +1,4 @@
-"""What a stage draws with: colours under its light, cloth that lies or hangs, lines on it, rotations."""
+"""Shapes on a stage: colours under its light, cloth that lies or hangs, lines on it, rotations."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_lines_keep_their_hue_where_the_film_does_not_show_all_of_their_light(pa
 
 
 def sheet(*layers: tuple[float, float, float]) -> ClothSurface:
-    """Squares of cloth on the table, each with its near and far x and its height, from y = 0 to y = 1."""
+    """Return squares of cloth on the table, each with its near and far x and its height, from y = 0 to y = 1."""
     corners = []
     for low, high, z in layers:
         a, b, c, d = (low, 0.0, z), (high, 0.0, z), (high, 1.0, z), (low, 1.0, z)

@@ -27,7 +27,7 @@ STATUS_OF = {
 
 
 def every_writing_request(client: httpx.AsyncClient, state: dict[str, Any]) -> dict[str, Any]:
-    """What writes, by name."""
+    """Return all requests that write, by name."""
     path = f"/api/documents/{state['id']}"
     return {
         "commit": lambda: put(client, state, moved(state, -0.03)),

@@ -21,7 +21,7 @@ STUCK = {"garment": towel(placement=FAR), "scene": FRONT_ONLY, "time_limit_s": 3
 
 
 def events_in(text: str) -> list[tuple[str, dict[str, Any]]]:
-    """Server-sent events by name, with their data."""
+    """Return server-sent events by name, with their data."""
     events = []
     for block in text.strip().split("\n\n"):
         fields = dict(line.split(": ", 1) for line in block.splitlines() if not line.startswith(":"))

@@ -1,4 +1,4 @@
-"""Requests that do not come to their end, sent to a real listener with shorter times."""
+"""Requests that never end, sent to a real listener with short time-outs."""
 
 import socket
 import threading

@@ -1,4 +1,4 @@
-"""What is changed of viser rests on what viser is: these fail where a new version is another.
+"""Assumptions about viser behind the patches of it: these fail where a new version breaks them.
 
 What its page does only once it runs (colours of labels, what it takes for a phone) is looked at in a browser.
 """

@@ -11,7 +11,7 @@ from tests.app.conftest import OWN_URL
 
 
 class Listener:
-    """Keeps what the server said last of each kind; all of it once `keep_all` is set."""
+    """A listener that keeps the last message of each kind; all of them once `keep_all` is set."""
 
     def __init__(self, app: ASGIApp, path: str) -> None:
         self.last: dict[str, dict[str, Any]] = {}
@@ -47,7 +47,7 @@ class Listener:
         return self.last[kind]
 
     async def until_planned(self, version: int) -> dict[str, Any]:
-        """Wait for the plan of a version that stays, and for its playback; its message."""
+        """Wait for the final plan of a version, and for its playback; return the plan's message."""
         plan = await self.until("plan", status="solved", version=version)
         async with asyncio.timeout(60.0):
             while not (plan := self.last["plan"])["plan"]["is_final"]:

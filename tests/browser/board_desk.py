@@ -1,4 +1,4 @@
-"""One document in one window, on which test after test works: a page takes its time to load."""
+"""A document in one window that many tests share, since a page takes long to load."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,21 +13,21 @@ from tests.browser.conftest import PATIENCE_MS, Sheet
 
 
 class Desk(Sheet):
-    """A document on which one garment after the other is laid."""
+    """A document into which one garment after the other is put."""
 
     def __init__(self, page: Page, server: Served) -> None:
-        """A new document on a blank board."""
+        """Create a document on a blank board."""
         made = httpx.post(f"{server.url}/api/documents", json={}).raise_for_status()
         super().__init__(server.url, made.json()["id"])
         self.page = page
 
     def garment(self, name: str) -> dict[str, Any]:
-        """A garment's file."""
+        """Return a garment's file."""
         found: dict[str, Any] = httpx.get(self.page_url.partition("/d/")[0] + f"/api/garments/{name}").json()
         return found
 
     def lay(self, garment: dict[str, Any]) -> None:
-        """Begin anew, as one step, with nothing selected and all of the garment in view."""
+        """Put a garment in place of the last one, as one step, with nothing selected and all of it in view."""
         page, hand = self.page, Hand(self.page)
         if page.url != self.page_url:
             page.goto(self.page_url)
@@ -48,7 +48,7 @@ class Desk(Sheet):
 
 @contextmanager
 def window(browser: Browser) -> Iterator[Page]:
-    """A page without a stage; any error in it fails the test that comes last."""
+    """Open a page without a stage; any error in it fails the test that comes last."""
     faults: list[str] = []
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     context.set_default_timeout(PATIENCE_MS)
@@ -61,16 +61,16 @@ def window(browser: Browser) -> Iterator[Page]:
 
 
 def expect_step(page: Page, name: str) -> None:
-    """The last step has this name."""
+    """Expect the last step to have this name."""
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", f"Undo: {name} (Ctrl+Z)")
 
 
 def expect_no_step(page: Page) -> None:
-    """No step has been made since the garment was laid on the board."""
+    """Expect no step since the garment was put on the board."""
     expect_step(page, "Begin")
 
 
 def corner(sheet: Sheet, index: int) -> list[float]:
-    """Where the server has a corner of the outline (m)."""
+    """Return a corner of the outline on the server (m)."""
     point: list[float] = sheet.drawing["outline"][index]["point"]
     return point

@@ -6,7 +6,7 @@ from tests.browser.board_hand import Hand, Point
 
 
 class Finger:
-    """One or two fingers on the glass, by the browser's own protocol."""
+    """One or two fingers on the screen, by the browser's own protocol."""
 
     def __init__(self, page: Page) -> None:
         self.hand = Hand(page)

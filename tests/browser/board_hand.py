@@ -1,4 +1,4 @@
-"""A hand on the drafting board that knows where the article frame is on the screen."""
+"""A hand on the drafting board that works in the article frame."""
 
 from playwright.sync_api import Locator, Page
 
@@ -9,14 +9,14 @@ SEVEN = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.4), (0.375, 0.6), (0.25, 0.5), (0.125, 
 
 
 class Hand:
-    """Points in metres of the article frame, wherever the board shows them."""
+    """A mouse led to points of the article frame (m), wherever the board shows them."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
         self.board: Locator = page.get_by_role("application", name="Drafting board")
 
     def px(self, point: Point) -> Point:
-        """Where a point of the article frame is in the window."""
+        """Return the position in the window of a point of the article frame (px)."""
         box = self.board.bounding_box()
         assert box is not None
         x0, y0 = (float(part) for part in str(self.board.get_attribute("data-origin-px")).split(","))

@@ -1,4 +1,4 @@
-"""The board's cross, led by the keyboard."""
+"""The board's cursor for the keyboard."""
 
 from playwright.sync_api import Page
 
@@ -9,7 +9,7 @@ TABS_MAX = 150
 
 
 def walk(page: Page, start: Point, end: Point) -> None:
-    """Lead the cross from a point to another, both on whole millimetres."""
+    """Move the cursor from a point to another, both on whole millimetres."""
     for axis, names in enumerate((("ArrowLeft", "ArrowRight"), ("ArrowDown", "ArrowUp"))):
         left = round(1000 * (end[axis] - start[axis]))
         key = names[left > 0]
@@ -19,13 +19,13 @@ def walk(page: Page, start: Point, end: Point) -> None:
 
 
 def cross(page: Page) -> Point:
-    """Where the cross is, as the board says it for those who do not see it."""
+    """Return the cursor's position, as announced to screen readers."""
     words = str(page.locator(".board-pane .unseen").text_content()).replace(" cm", "").split(",")
     return float(words[0]) / 100, float(words[1]) / 100
 
 
 def tab_to(page: Page, name: str) -> None:
-    """Go on with Tab until what has the focus has a name that begins like this."""
+    """Press Tab until the focused element's name begins like this."""
     for _ in range(TABS_MAX):
         if str(page.evaluate(LABEL_OF_FOCUS)).startswith(name):
             return

@@ -1,4 +1,4 @@
-"""A window of the page: what a person does in it with the mouse, and what is to be seen in it."""
+"""A window of the page: operations of a person with the mouse, and what the window shows."""
 
 from typing import Any
 
@@ -46,7 +46,7 @@ SHOWN = f"""() => {{
 
 
 class Window:
-    """One of several on the same document."""
+    """One of several windows on the same document."""
 
     def __init__(self, page: Page) -> None:
         self.page, self.hand = page, Hand(page)
@@ -56,7 +56,7 @@ class Window:
         self.look_at(sheet.state["version"])
 
     def let_go(self) -> None:
-        """Whatever was going on is dropped."""
+        """Drop whatever is in progress."""
         self.page.keyboard.press("Escape")
         self.page.mouse.up()
         self.page.keyboard.up("Control")
@@ -66,21 +66,21 @@ class Window:
         self.page.wait_for_function(HAS_DRAWN, arg=version)
 
     def wait_for_answer(self, version: int) -> None:
-        """Wait until this version is drawn, and the page says what planning it came to in the end."""
+        """Wait until this version is drawn, and the page shows the final outcome of its planning."""
         self.page.wait_for_function(HAS_ANSWER, arg=version)
 
     def shown(self) -> dict[str, Any]:
-        """All that is to be seen of the document, lengths in metres of the article frame."""
+        """Return all that is shown of the document, lengths in metres of the article frame."""
         self.clear()
         return self.seen()
 
     def seen(self) -> dict[str, Any]:
-        """The same while something is going on."""
+        """Return what is shown while something is in progress."""
         shown: dict[str, Any] = self.page.evaluate(SHOWN)
         return shown
 
     def clear(self) -> None:
-        """The cloth spread out and all in view, nothing selected or begun, the mouse elsewhere."""
+        """Spread the cloth out, all in view, with nothing selected or begun and the mouse elsewhere."""
         self.page.mouse.move(0, 0)
         self.page.evaluate(SPREAD_OUT)
 
@@ -88,7 +88,7 @@ class Window:
         return 1 / float(str(self.hand.board.get_attribute("data-px-per-m")))
 
     def begin_drag(self, start: Point, end: Point) -> None:
-        """Without snapping; the button stays down."""
+        """Begin a drag without snapping; the button stays down."""
         self.clear()
         self.page.keyboard.down("Control")
         self.hand.drag(start, end, is_released=False)
@@ -96,7 +96,7 @@ class Window:
         self.page.evaluate(DRAWN)
 
     def end_drag(self) -> None:
-        """Wait, too, until the server has taken what is dropped."""
+        """End a drag, and wait until the server has taken the drop."""
         with self.page.expect_response(lambda answer: answer.ok and answer.request.method == "PUT"):
             self.page.keyboard.down("Control")
             self.page.mouse.up()
@@ -112,7 +112,7 @@ class Window:
         self.page.keyboard.press("Delete")
 
     def draw_fold(self, start: Point, end: Point, colour: str) -> None:
-        """On the cloth as it lies then, which may be elsewhere than where it was spread out."""
+        """Draw a fold on the cloth as it lies then, which may not be where it was spread out."""
         self.clear()
         for name in ("Draw fold", "Fit", colour):
             self.hand.tool(name)
@@ -143,7 +143,7 @@ class Window:
         expect(dialog).to_have_count(0)
 
     def place(self, ahead_cm: int) -> None:
-        """The garment's middle so far ahead of the table's."""
+        """Set how far the garment's middle is ahead of the table's."""
         self.clear()
         self.hand.tool("Place")
         self.page.get_by_label("Ahead of the table's middle").fill(str(ahead_cm))
@@ -153,7 +153,7 @@ class Window:
         self.page.get_by_role("button", name=verb, exact=True).click()
 
     def count_refusals(self) -> None:
-        """From now on, also after it is loaded anew."""
+        """Count refusals from now on, also after a reload."""
         self.page.add_init_script(
             """window.refusals = 0;
             addEventListener("DOMContentLoaded", () => {
@@ -164,5 +164,5 @@ class Window:
         )
 
     def refusals(self) -> int:
-        """How many times the page has said that something was not done, since it was loaded."""
+        """Return how many refusals the page has shown since it was loaded."""
         return int(self.page.evaluate("window.refusals"))

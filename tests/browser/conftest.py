@@ -32,12 +32,12 @@ IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
 Garment = str | dict[str, Any] | None
 
 REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
-"""One for all: `httpx.get` reads the system's certificates each time it is called, which takes longer than the call."""
+"""A shared client: `httpx.get` reads the system's certificates at each call, which takes longer than the call."""
 
 
 @pytest.fixture(scope="module")
 def playwright() -> Iterator[Playwright]:
-    """There can be but one at a time in a process, and while it is there no other event loop can run."""
+    """Start Playwright: a process can have only one, and no other event loop can run beside it."""
     with sync_playwright() as started:
         yield started
 
@@ -51,7 +51,7 @@ def chromium(playwright: Playwright, chromium_path: str | None) -> Iterator[Brow
 
 @pytest.fixture(scope="module")
 def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    """One that draws in three dimensions too."""
+    """Start a browser that can draw in three dimensions."""
     opened = playwright.chromium.launch(executable_path=chromium_path, args=BY_SOFTWARE)
     yield opened
     opened.close()
@@ -59,7 +59,7 @@ def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Brows
 
 @pytest.fixture(scope="module")
 def stage_window(browser: Browser, served: Served) -> Iterator[tuple[Page, list[str]]]:
-    """The page with its stage, planned, and what goes wrong in it: errors, and requests elsewhere."""
+    """Open the page with its stage, planned, and record errors and requests to other hosts."""
     faults: list[str] = []
     page = browser.new_page(viewport={"width": 900, "height": 500})
     page.set_default_timeout(STAGE_PATIENCE_MS)
@@ -75,7 +75,7 @@ def stage_window(browser: Browser, served: Served) -> Iterator[tuple[Page, list[
 
 @pytest.fixture
 def stage_page(stage_window: tuple[Page, list[str]]) -> Iterator[Page]:
-    """The same page for all tests of a module, since it takes its time to load; what goes wrong in it fails a test."""
+    """Return one page for all tests of a module, since loading takes long; anything wrong in it fails a test."""
     page, faults = stage_window
     yield page
     assert faults == []
@@ -93,7 +93,7 @@ def designer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 
 
 class Sheet:
-    """A document, as the server has it."""
+    """A document on the server."""
 
     def __init__(self, url: str, document: str) -> None:
         self.page_url = f"{url}/d/{document}"
@@ -105,7 +105,7 @@ class Sheet:
         return state
 
     def at_rest(self) -> dict[str, Any]:
-        """The same once no gesture is under way there: what a page drops, its server hears of a little later."""
+        """Return the document once no gesture is in progress: the server hears of a dropped gesture a little later."""
         for _ in range(PATIENCE_MS // 50):
             state = self.state
             if state["gesture"] is None:
@@ -129,7 +129,7 @@ class Sheet:
         return label
 
     def edit(self, change: Callable[[dict[str, Any]], None]) -> None:
-        """Change the drawing behind the page's back."""
+        """Change the drawing without the page."""
         state = self.state
         change(state["drawing"])
         body = {"base_version": state["version"], "label": "Elsewhere", "drawing": state["drawing"]}
@@ -138,7 +138,7 @@ class Sheet:
 
 @pytest.fixture(scope="session")
 def new_sheet(designer: Served) -> Callable[[Garment], Sheet]:
-    """Makes documents: on a garment, or blank."""
+    """Return a function that makes documents: for a garment, or blank."""
 
     def made(garment: Garment) -> Sheet:
         asked = {} if garment is None else {"garment": garment}
@@ -150,14 +150,14 @@ def new_sheet(designer: Served) -> Callable[[Garment], Sheet]:
 
 @pytest.fixture
 def context(chromium: Browser) -> Iterator[BrowserContext]:
-    """Windows for one test."""
+    """Return a browser context for one test."""
     with windows(chromium) as opened:
         yield opened
 
 
 @contextmanager
 def windows(chromium: Browser, **options: Any) -> Iterator[BrowserContext]:
-    """Windows without a stage; any error in a page fails the test."""
+    """Return windows without a stage; any error in a page fails the test."""
     faults: list[str] = []
     opened = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
     opened.set_default_timeout(PATIENCE_MS)

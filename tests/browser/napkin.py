@@ -1,4 +1,4 @@
-"""A napkin of three folds that is planned at once: two sides in, which wait for nothing, then in half."""
+"""A napkin of three folds that is planned at once: two sides in, independent of each other, then in half."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A proxy that shows a server below a prefix, as web servers do: it takes the prefix off and says so in headers."""
+"""A proxy that serves below a prefix, as web servers do: it removes the prefix and names it in a header."""
 
 import socket
 import threading
@@ -10,7 +10,7 @@ PREFIX = "/tools/pleat"
 
 @contextmanager
 def below_prefix(server_port: int) -> Iterator[str]:
-    """Where the server is to be found below the prefix."""
+    """Return the address of the server below the prefix."""
     listener = socket.create_server(("127.0.0.1", 0))
     port = listener.getsockname()[1]
     threading.Thread(target=_accept, args=(listener, server_port), daemon=True).start()
@@ -28,7 +28,7 @@ def _accept(listener: socket.socket, server_port: int) -> None:
 
 
 def _serve(browser: socket.socket, server_port: int) -> None:
-    """One request for each connection; what follows its head goes through as it is, websockets too."""
+    """Serve one request for each connection; everything after its head is passed through, websockets too."""
     with browser, suppress(OSError), socket.create_connection(("127.0.0.1", server_port)) as server:
         head, rest = _head(browser)
         if head:

@@ -1,4 +1,4 @@
-"""How long searches may take that do several seconds of counted work, on a machine that does other things too."""
+"""Time limits for searches of several seconds of counted work, on a busy machine."""
 
 SEARCH_MS = 90_000
-"""For the first suggestion, or a map of placements."""
+"""The time for the first suggestion, or a map of placements (ms)."""

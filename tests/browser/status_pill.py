@@ -1,4 +1,4 @@
-"""What the page says in a few words of the document in it."""
+"""The status that the page shows for its document."""
 
 import re
 
@@ -6,14 +6,14 @@ from playwright.sync_api import Page, expect
 
 
 def expect_planned(page: Page) -> None:
-    """There is a plan, and none quicker is looked for any more: on a slow machine some plan is shown before that."""
+    """Expect the final plan: on a slow machine another plan is shown before it."""
     status = page.get_by_role("status")
     expect(status).to_contain_text("Planned: ")
     expect(status).to_have_attribute("data-is-final", "true")
 
 
 def cost_s(page: Page) -> float:
-    """Of the plan on show (s)."""
+    """Return the cost of the plan that is shown (s)."""
     found = re.search(r", ([\d.]+) s$", page.get_by_role("status").inner_text())
     assert found is not None
     return float(found[1])

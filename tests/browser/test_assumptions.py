@@ -1,4 +1,4 @@
-"""What a plan takes for granted beyond what is usual is marked, and taken off by a click."""
+"""Assumptions of a plan that differ from the defaults are marked, and removed by a click."""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +18,7 @@ ASSUMED = ["grip 50 cm", "friction 1.5", "comfort 1 cm"]
 
 @pytest.fixture
 def assumed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
-    """A napkin with a wide grip in two of its folds, on a rougher table, reached with less slack."""
+    """Return a napkin with a wide grip in two of its folds, a rougher table, and a smaller comfort radius."""
     sheet = new_sheet(napkin())
 
     def assume(drawing: dict[str, Any]) -> None:

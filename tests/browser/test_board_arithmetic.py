@@ -1,4 +1,4 @@
-"""Lengths as people write them, and the plane geometry of the page, asked of the modules themselves."""
+"""Lengths as people write them, and the plane geometry of the page, tested on the modules themselves."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -18,7 +18,7 @@ def page(chromium: Browser, designer: Served) -> Iterator[Page]:
 
 
 def asked(page: Page, module: str, question: str, room: str = "board") -> Any:
-    """What an expression on a module's exports, called `m`, comes to."""
+    """Return the value of an expression on a module's exports, named `m`."""
     return page.evaluate(f"import('/static/js/{room}/{module}.js').then((m) => {question})")
 
 
@@ -112,7 +112,7 @@ def test_a_flipped_fold_is_named_anew_unless_somebody_has_named_it(page: Page, n
 
 
 def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any:
-    """Where a point is carried by the axis of an outline."""
+    """Return the image of a point under the reflection over an outline's axis."""
     carried = f"import('/static/js/board/geometry.js').then((g) => g.mirrored({point}, ...m.axisOf({outline})))"
     return asked(page, "symmetry", carried)
 
@@ -139,7 +139,7 @@ def test_a_garment_without_an_axis_is_mirrored_over_the_middle_of_its_box(page: 
 
 
 def laid(page: Page, edge: list[list[float]], onto: list[list[float]], point: list[float]) -> Any:
-    """Where a point is carried by the fold that lays an edge on another; null where none does."""
+    """Return the image of a point under the fold that lays an edge on another; None if no fold does."""
     carry = f"import('/static/js/board/geometry.js').then((g) => line && g.mirrored({point}, ...line))"
     return asked(page, "edge_onto_edge", f"((line) => {carry})(m.layingOnto({edge}, {onto}))")
 

@@ -1,4 +1,4 @@
-"""What is drawn stands exactly where it should, tied to what it ends at; two fingers draw nothing, they zoom."""
+"""Drawn points are exactly where they should be, tied to what they end at; two fingers zoom and draw nothing."""
 
 from collections.abc import Callable, Iterator
 

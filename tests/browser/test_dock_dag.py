@@ -21,7 +21,7 @@ LAID = """async ([count, edges]) => {
 
 @pytest.fixture(scope="module")
 def planned(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Page]:
-    """The page with a plan and its graph."""
+    """Open the page with a plan and its graph."""
     with windows(chromium) as context:
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)
@@ -31,7 +31,7 @@ def planned(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterato
 
 @pytest.fixture
 def page(planned: Page) -> Page:
-    """The page at the beginning of the plan."""
+    """Return the page at the beginning of the plan."""
     planned.get_by_role("slider", name="Time").press("Home")
     return planned
 

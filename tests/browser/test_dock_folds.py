@@ -1,4 +1,4 @@
-"""The list `Folds`: order, names, colours, what waits for what."""
+"""The list `Folds`: order, names, colours, dependencies."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -16,7 +16,7 @@ OPENED = "Open afresh"
 
 @pytest.fixture(scope="module")
 def opened(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[tuple[Page, Sheet]]:
-    """One page for all: loading it is what takes the time."""
+    """Open one page for all tests, since loading takes long."""
     sheet = new_sheet(napkin())
     with windows(chromium) as context:
         page = context.new_page()
@@ -32,7 +32,7 @@ def page(opened: tuple[Page, Sheet]) -> Page:
 
 @pytest.fixture
 def sheet(opened: tuple[Page, Sheet]) -> Sheet:
-    """The napkin opened afresh, nothing selected."""
+    """Reset the napkin, with nothing selected."""
     page, sheet = opened
     title = f"Napkin {sheet.state['version']}"  # another one, or it would be no step
     httpx.put(f"{sheet.path}/garment", json={"garment": napkin(title=title), "label": OPENED}).raise_for_status()
@@ -55,7 +55,7 @@ def expect_order(page: Page, names: list[str]) -> None:
 
 
 def pull(page: Page, row: Locator, onto: Locator, share: float) -> None:
-    """Pull a row to a share of the height of another."""
+    """Pull a row to a fraction of the height of another."""
     page.mouse.move(*middle(row, 0.5))
     page.mouse.down()
     page.mouse.move(*middle(onto, 0.5), steps=3)

@@ -31,7 +31,7 @@ def wide(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[P
 
 @pytest.fixture(scope="module")
 def phone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Page]:
-    """A phone with the sheet pulled up."""
+    """Open the page on a phone with the sheet pulled up."""
     with windows(chromium, viewport=PHONE, has_touch=True, is_mobile=True) as context:
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)

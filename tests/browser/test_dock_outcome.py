@@ -1,4 +1,4 @@
-"""What planning came to: the plan and its numbers, or why there is none and what would help."""
+"""The outcome of planning: the plan and its numbers, or the reasons why there is none, and suggestions."""
 
 import json
 import re
@@ -21,7 +21,7 @@ FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
 
 @pytest.fixture
 def stuck(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
-    """A towel at the far end of the table, and a robot that may stand at the near one only."""
+    """Open a towel at the far end of the table, with a robot that may stand at the near end only."""
     sheet = new_sheet(towel(placement=FAR))
     sheet.edit(keep_front_alone)
     page.goto(sheet.page_url)
@@ -34,7 +34,7 @@ def keep_front_alone(drawing: dict[str, Any]) -> None:
 
 
 def planned(page: Page, sheet: Sheet) -> float:
-    """The page with a plan of a sheet, and its cost (s)."""
+    """Open the page with a plan of a sheet, and return its cost (s)."""
     page.goto(sheet.page_url)
     expect_planned(page)
     return cost_s(page)

@@ -1,4 +1,4 @@
-"""The status pill, and how waiting for a plan shows."""
+"""The status pill, and the page while a plan is awaited."""
 
 import json
 import re
@@ -86,7 +86,7 @@ def test_what_was_stopped_can_be_planned_again(page: Page, new_sheet: Callable[[
 
 
 def stopped(page: WebSocketRoute) -> None:
-    """A server that has been told to stop, until it is told to plan again."""
+    """Fake a server that has been told to stop, until it is told to plan again."""
     server = page.connect_to_server()
     kept: list[str] = []
 
@@ -124,7 +124,7 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
 
 
 def out_of_time(page: WebSocketRoute) -> None:
-    """A server that knows no more of the quickest plan than that it takes 6.5 s or more, until it looks longer."""
+    """Fake a server that knows only that any plan takes 6.5 s or more, until it looks longer."""
     server = page.connect_to_server()
     last: list[str] = []
 
@@ -148,7 +148,7 @@ def out_of_time(page: WebSocketRoute) -> None:
 
 
 def still_looking(page: WebSocketRoute) -> None:
-    """A server that looks for a quicker plan, in vain, until it is told to stop."""
+    """Fake a server that looks for a quicker plan, in vain, until it is told to stop."""
     server = page.connect_to_server()
     last: list[str] = []
 
@@ -172,7 +172,7 @@ def still_looking(page: WebSocketRoute) -> None:
 
 
 def cut_off(page: Page, sheet: Sheet, then: Callable[[WebSocketRoute], None]) -> None:
-    """Open a page and cut its connection once it has a plan; those that it opens then are handed on."""
+    """Open a page and cut its connection once it has a plan; connections that it opens later are passed on."""
     sockets = []
     page.route_web_socket("**/live", lambda route: sockets.append((route, route.connect_to_server())))
     page.goto(sheet.page_url)

@@ -1,4 +1,4 @@
-"""The timeline: lanes, slider and transport show one time, and go to another."""
+"""The timeline: lanes, slider and transport show and set one time."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -18,7 +18,7 @@ from tests.browser.status_pill import expect_planned
 def planned(
     chromium: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet]
 ) -> Iterator[tuple[Page, list[float]]]:
-    """The page with a plan; when its primitives begin (s), and at last when it ends."""
+    """Open the page with a plan; return the starts of its primitives and its end (s)."""
     sheet = new_sheet(napkin())
     with windows(chromium) as context:
         page = context.new_page()
@@ -32,7 +32,7 @@ def planned(
 
 @pytest.fixture
 def page(planned: tuple[Page, list[float]]) -> Page:
-    """The page at the beginning of the plan, standing."""
+    """Return the page at the beginning of the plan, paused."""
     page, _ = planned
     page.mouse.move(5, 5)
     page.keyboard.press("Escape")
@@ -51,7 +51,7 @@ def slider(page: Page) -> Locator:
 
 
 def expect_time(page: Page, t_s: float) -> None:
-    """The slider and the clock show a time."""
+    """Expect the slider and the clock to show a time."""
     expect(slider(page)).to_have_attribute("aria-valuetext", f"{t_s:.1f} s")
     expect(page.locator(".clock")).to_contain_text(f"{t_s:.1f} / ")
 

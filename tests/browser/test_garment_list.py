@@ -1,4 +1,4 @@
-"""The list in the bar: choosing opens a document; nothing drawn leaves it, or is replaced, without a word."""
+"""The list in the bar: a choice opens a document; no drawing is left or replaced without a question."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""The benchmark of what a hand feels: what it makes of the times that the page keeps, and that the page keeps them."""
+"""The benchmark of response times under the hand: its statistics, and the times that the page records."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A drawing that cannot be planned has a button that mends it: what is wrong goes, and undo brings it back."""
+"""The button of a quick fix: it removes the problem, and undo brings the problem back."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Messages in the page's own words: made from a code and numbers, in its unit, and never from a sentence."""
+"""Messages in the page's own words: made from a code and numbers, in its unit, never from a sentence."""
 
 import ast
 import re
@@ -149,7 +149,7 @@ def page(chromium: Browser, designer: Served) -> Iterator[Page]:
 
 
 def told(page: Page, says: dict[str, Any], unit: str) -> str:
-    """What the page makes of a message; its sentence is of no use."""
+    """Return the page's words for a message whose sentence is useless."""
     words: str = page.evaluate(
         """async ([told, folds, name]) => {
           const { unit } = await import("/static/js/board/units.js");
@@ -163,7 +163,7 @@ def told(page: Page, says: dict[str, Any], unit: str) -> str:
 
 
 def codes_in_python() -> set[str]:
-    """The code of every `Message` that is made somewhere; where it is put together, how it begins."""
+    """Return the code of every `Message` made in Python; of a code that is composed, its beginning."""
     found: set[str] = set()
     for path in (*(ROOT / "planner").rglob("*.py"), *(ROOT / "app").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -1,4 +1,4 @@
-"""The server goes away while somebody draws: nothing that was done is lost, and the tools rest until it is back."""
+"""The server disappears while somebody draws: nothing is lost, and the tools are disabled until it is back."""
 
 from collections.abc import Callable, Iterator
 
@@ -17,7 +17,7 @@ PULLED = (-0.05, -0.03)
 
 @pytest.fixture
 def napkin_sheet(page: Page, designer: Served, new_sheet: Callable[[Garment], Sheet]) -> Iterator[Sheet]:
-    """A napkin in the browser; whatever happens the server is there again afterwards."""
+    """Open a napkin in the browser; the server runs again afterwards in any case."""
     sheet = new_sheet(napkin())
     page.goto(sheet.page_url)
     expect_planned(page)

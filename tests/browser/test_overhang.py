@@ -1,4 +1,4 @@
-"""Cloth that would not stay on the table as it lies: what is said of it, its picture, and the button that mends it."""
+"""Cloth that would not stay on the table: its message, its picture, and the button of its quick fix."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ NewSheet = Callable[[Garment], Sheet]
 
 
 def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
-    """A towel whose outline begins at a place of the table, which ends at 0.8 m and at 0.49 m: 0.4 m on, 0.3 m left."""
+    """Return a towel from a place of the table 0.4 m on and 0.3 m left; the table ends at 0.8 m and at 0.49 m."""
     return new_sheet(towel(placement={"x_m": x_m, "y_m": y_m, "yaw_rad": 0.0}))
 
 

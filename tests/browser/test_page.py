@@ -1,4 +1,4 @@
-"""The page in a real browser. What is on the stage is asked of the page's own scene, not of pixels."""
+"""The page in a real browser. The stage is tested through the page's own scene, not through pixels."""
 
 import itertools
 import time
@@ -41,7 +41,7 @@ RENDERED = """() => {
 
 @pytest.fixture
 def page(stage_page: Page, served: Served) -> Page:
-    """The page with the T-shirt at rest, spread out."""
+    """Return the page with the T-shirt at rest, spread out."""
     stage_page.set_viewport_size({"width": 900, "height": 500})
     document = f"{served.url}/api/documents/{served.document}"
     REST.put(f"{document}/garment", json={"garment": "t-shirt"}).raise_for_status()
@@ -64,7 +64,7 @@ def until_there(page: Page, name: str) -> None:
 
 
 def until(condition: Any) -> None:
-    """Wait until a condition holds that cannot be asked in the page."""
+    """Wait until a condition holds that cannot be evaluated in the page."""
     deadline = time.monotonic() + STAGE_PATIENCE_MS / 1000
     while not condition():
         assert time.monotonic() < deadline
@@ -82,14 +82,14 @@ def duration_s(page: Page) -> float:
 
 
 def cloth_area(page: Page) -> float:
-    """The area of the cloth's bounding box as seen from above (m2); y is up in the browser."""
+    """Return the area of the cloth's bounding box as seen from above (m2); y is up in the browser."""
     width, _, depth = node(page, "/cloth/front")["size"]
     return float(width * depth)
 
 
 @contextmanager
 def opened(page: Page, choice: str) -> Iterator[None]:
-    """Another document in the page, chosen in the bar; afterwards it is back on the one before."""
+    """Open another document in the page through the bar; return to the first one afterwards."""
     before = page.url
     page.get_by_role("combobox", name="Garment").select_option(choice)
     page.wait_for_url(lambda url: url != before)

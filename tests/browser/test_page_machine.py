@@ -29,7 +29,7 @@ CORNERS_MAX = 7
 FOLDS_MAX = 3
 ROOM_M = 0.03
 HANDLE_PX = 14.0
-"""Beside a point on an edge nothing else may be within so much, in the plane and on the screen: the hand takes that."""
+"""The distance (px) that a point on an edge keeps from everything else, since the hand takes what is within it."""
 
 COLOURS = {"blue": "Blue: all layers", "red": "Red: last flap"}
 
@@ -39,15 +39,15 @@ anybody = st.sampled_from([0, 1, None])
 
 numbers = st.integers(0, 6)
 pulls = st.tuples(st.integers(-3, 3), st.integers(-3, 3)).filter(any)
-"""So many centimetres to the right and up."""
+"""Displacements to the right and up (cm)."""
 
 
 class PageMachine(TwoWindows):
-    """What is done to one document, and what should be seen of it."""
+    """Operations on one document, and the invariants of what is shown."""
 
     @initialize()
     def begin(self) -> None:
-        """With a towel in place of what there was; further back than that nobody goes."""
+        """Put a towel in place of the last garment; undo goes no further back."""
         for window in self.windows:
             window.let_go()
         body = {"garment": towel(title=self.new_title()), "label": "Begin"}
@@ -72,7 +72,7 @@ class PageMachine(TwoWindows):
 
     @rule(who=either, which=numbers, pull=pulls)
     def undo_in_the_other_window_during_a_drag(self, who: int, which: int, pull: tuple[int, int]) -> None:
-        """The drag is a step that is taken back; what is then dropped is one more."""
+        """Undo in the other window during a drag: the drag's step is undone, and the drop is one more step."""
         before = self.state["drawing"]
         window, index, target = self.grasp(who, which, pull)
         dragged = self.sheet.state
@@ -86,7 +86,7 @@ class PageMachine(TwoWindows):
 
     @rule(who=either, which=numbers, pull=pulls)
     def rename_over_rest_during_a_drag(self, who: int, which: int, pull: tuple[int, int]) -> None:
-        """The drag is a step of its own, and what is dropped is there already."""
+        """Rename over REST during a drag: the drag becomes a step of its own, and the drop adds nothing."""
         before = self.state["drawing"]
         window, index, target = self.grasp(who, which, pull)
         dragged = self.sheet.state
@@ -129,7 +129,7 @@ class PageMachine(TwoWindows):
     @precondition(lambda self: len(self.folds) < FOLDS_MAX and self.state["steps"])
     @rule(who=either, colour=st.sampled_from(list(COLOURS)), first=numbers, second=numbers)
     def draw_a_fold(self, who: int, colour: str, first: int, second: int) -> None:
-        """From the middle of an edge of the cloth as it lies then to that of another; it may be refused."""
+        """Draw a fold from the middle of an edge of the cloth as it lies to that of another; it may be refused."""
         rings = self.state["steps"][-1]["flap" if colour == "red" else "silhouette"]
         ring = rings[0] if rings else self.outline
         a, b = (_middle(ring, number % len(ring)) for number in (first, second))
@@ -230,7 +230,7 @@ class PageMachine(TwoWindows):
 
     @rule()
     def rest(self) -> None:
-        """With nothing going on both windows show the same, and that is the document with its own plan."""
+        """Wait until nothing is in progress; both windows show the document with its own plan."""
         state = self.sheet.state
         for window in self.windows:
             window.wait_for_answer(state["version"])
@@ -263,7 +263,7 @@ def _middle(ring: list[list[float]] | list[Point], edge: int) -> Point:
 
 @pytest.fixture
 def two(chromium: Browser, sheet: Sheet) -> Iterator[tuple[Window, Window]]:
-    """Each a window of its own: of two tabs in one only one is drawn."""
+    """Open two windows, each of its own: a browser draws only one of two tabs."""
     size = {"width": 900, "height": 500}
     with windows(chromium, viewport=size) as one, windows(chromium, viewport=size) as other:
         first, second = Window(one.new_page()), Window(other.new_page())

@@ -1,4 +1,4 @@
-"""`Plan from here`: what is left after a step of the plan is planned, asked for in the step's menu."""
+"""`Plan from here` in a step's menu plans what is left after the step."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -15,7 +15,7 @@ LONGER_THAN_A_LONG_PRESS_MS = 700
 
 @pytest.fixture(scope="module")
 def opened(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[tuple[Page, Sheet, float]]:
-    """The page of a napkin, its document, and how long its whole plan takes (s)."""
+    """Open a napkin; return the page, its document, and the duration of its whole plan (s)."""
     sheet = new_sheet(napkin())
     with windows(chromium, has_touch=True) as context:
         page = context.new_page()
@@ -26,7 +26,7 @@ def opened(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator
 
 @pytest.fixture
 def page(opened: tuple[Page, Sheet, float]) -> Page:
-    """The page with the whole plan, no menu open."""
+    """Return the page with the whole plan, and no menu open."""
     page, _, whole_s = opened
     page.keyboard.press("Escape")
     back = page.get_by_role("button", name="Plan from the start")
@@ -46,7 +46,7 @@ def menu(page: Page) -> Locator:
 
 
 def first_fold(page: Page) -> int:
-    """The step that makes the first fold."""
+    """Return the step that makes the first fold."""
     names = [row.get_attribute("data-colour") for row in steps(page).all()]
     return next(index for index, colour in enumerate(names) if colour)
 
@@ -56,12 +56,12 @@ def texts(page: Page) -> list[str]:
 
 
 def seconds(row: str) -> float:
-    """How long a row says that its step takes."""
+    """Return the duration of a step as its row shows it."""
     return float(row.split()[-2])
 
 
 def expect_left(page: Page, before: list[str], step: int) -> None:
-    """The steps after one are left, and the timeline is as long as they are."""
+    """Expect the steps after one to be left, and the timeline to be as long as they are."""
     expect(page.get_by_role("button", name="Plan from the start")).to_be_visible()
     expect_planned(page)
     expect(steps(page)).to_have_count(len(before) - step - 1)

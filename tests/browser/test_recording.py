@@ -1,4 +1,4 @@
-"""A recording plays by itself: opened from the disk, with nothing to ask for anywhere."""
+"""A recording plays from the disk, without any request."""
 
 from pathlib import Path
 

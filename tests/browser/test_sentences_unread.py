@@ -1,4 +1,4 @@
-"""With every sentence of the server that has numbers replaced by rubbish the page still says everything."""
+"""With rubbish in place of every sentence of the server that has numbers, the page still shows all messages."""
 
 import json
 import re
@@ -21,7 +21,7 @@ APRON: dict[str, Any] = {
 
 
 def spoilt(told: Any) -> Any:
-    """What is told, with rubbish for every sentence that there is data for."""
+    """Return a message with rubbish for every sentence that has data."""
     if isinstance(told, list):
         return [spoilt(one) for one in told]
     if not isinstance(told, dict):
@@ -33,7 +33,7 @@ def spoilt(told: Any) -> Any:
 
 
 def spoil(page: Page) -> None:
-    """From now on the page hears rubbish, over REST and the websocket."""
+    """Replace the sentences that the page receives by rubbish, over REST and the websocket."""
 
     def socket(there: WebSocketRoute) -> None:
         server = there.connect_to_server()

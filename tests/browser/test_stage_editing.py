@@ -1,4 +1,4 @@
-"""Editing in the stage of the real page, with the mouse: what is seen there is asked of the stage's own scene."""
+"""Editing in the stage of the real page with the mouse, tested through the stage's own scene."""
 
 import time
 from collections.abc import Callable
@@ -38,7 +38,7 @@ def until(condition: Callable[[], Any]) -> None:
 
 
 def still_camera(page: Page) -> str:
-    """Where the camera is, once it has come to rest."""
+    """Return the camera's place once it has come to rest."""
     before = ""
     while (now := str(page.evaluate(CAMERA))) != before:
         before = now

@@ -1,4 +1,4 @@
-"""From a blank board to a plan, to none, to a suggestion and back: with the mouse, with the keyboard, with a finger."""
+"""From a blank board to a plan, to none, to a suggestion and back: with the mouse, the keyboard, a finger."""
 
 import csv
 import io
@@ -33,7 +33,7 @@ PHONE: dict[str, Any] = {"viewport": {"width": 390, "height": 844}, "has_touch":
 
 
 def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
-    """All that a person does with the hands; gives the document as it was before everything was undone."""
+    """Do everything that a person does with the hands; return the document as it was before the undos."""
     page.goto(sheet.page_url)
     expect(page.locator(".blank")).to_be_visible()
     blank = sheet.state
@@ -71,7 +71,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
 
 
 def pull_until_there_is_no_plan(page: Page, way: Way, sheet: Sheet) -> None:
-    """Further and further, each time when the page has the plan of the time before; then let go."""
+    """Pull further and further, each time once the page has the previous plan; then release."""
     status = page.get_by_role("status")
     x, y = sheet.drawing["outline"][PULLED]["point"]
     way.take(PULLED, (x, y))
@@ -85,7 +85,7 @@ def pull_until_there_is_no_plan(page: Page, way: Way, sheet: Sheet) -> None:
 
 
 def until_it_is_at(sheet: Sheet, y: float) -> int:
-    """Wait until the server has the corner there; the version in which it has."""
+    """Wait until the server has the corner there; return the version."""
     for _ in range(PATIENCE_MS // 20):
         state = sheet.state
         if abs(state["drawing"]["outline"][PULLED]["point"][1] - y) < NEAR_M / 2:
@@ -95,13 +95,13 @@ def until_it_is_at(sheet: Sheet, y: float) -> int:
 
 
 def expect_answer(page: Page, version: int) -> None:
-    """The page has this version, or a later one, and what planning it came to."""
+    """Expect the page to show this version, or a later one, and the outcome of its planning."""
     shown = "['drafting-board', 'status'].map((id) => Number(document.getElementById(id).dataset.version))"
     page.wait_for_function(f"(version) => {shown}.every((other) => other >= version)", arg=version)
 
 
 def step(page: Page, way_there: Callable[[], None]) -> None:
-    """Go a step back or forth and wait until the board shows it."""
+    """Undo or redo a step, and wait until the board shows it."""
     board = page.get_by_role("application", name="Drafting board")
     before = str(board.get_attribute("data-version"))
     way_there()
@@ -119,7 +119,7 @@ def redo_everything(page: Page, sheet: Sheet) -> None:
 
 
 def expect_all_of(page: Page, sheet: Sheet, state: dict[str, Any]) -> None:
-    """The page shows a document as it was, with its plan, and nothing of its history is lost."""
+    """Expect the page to show a document as it was, with its plan and its whole history."""
     expect_planned(page)
     expect(page.locator(".corner")).to_have_count(7)
     expect_folds(page, 3)
@@ -132,7 +132,7 @@ def expect_all_of(page: Page, sheet: Sheet, state: dict[str, Any]) -> None:
 
 
 def exported(page: Page, folder: Path) -> dict[str, str]:
-    """All that the dialog `Export` offers, saved: what is in the files, by their names."""
+    """Save all files that the dialog `Export` offers; return their contents by name."""
     page.get_by_role("button", name="Export", exact=True).click()
     dialog = page.get_by_role("dialog", name="Export")
     expect(dialog.get_by_role("listitem")).to_have_count(6)

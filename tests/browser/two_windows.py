@@ -1,4 +1,4 @@
-"""A document in two windows: what is known of it, how to wait for what hands do, and what has to be seen then."""
+"""A document in two windows: its known state, waiting for operations, and the checks of what is shown."""
 
 import math
 import time
@@ -13,13 +13,13 @@ from tests.browser.board_window import Window
 from tests.browser.conftest import PATIENCE_MS, REST, Sheet
 
 SLACK_PX = 1.5
-"""A mouse stands on whole pixels."""
+"""The tolerance of a position (px), since a mouse stands on whole pixels."""
 
 SAME_M = 1e-6
 
 
 class TwoWindows(RuleBasedStateMachine):
-    """Machines that hold the document's state as it was told last, and the model of its history."""
+    """A state machine with the document's last known state, and the model of its history."""
 
     def __init__(self, pages: tuple[Window, Window], sheet: Sheet) -> None:
         super().__init__()
@@ -37,7 +37,7 @@ class TwoWindows(RuleBasedStateMachine):
         return folds
 
     def hand(self, who: int) -> Window:
-        """A window that shows what there is."""
+        """Return a window that shows the latest version."""
         self.windows[who].look_at(self.state["version"])
         return self.windows[who]
 
@@ -47,7 +47,7 @@ class TwoWindows(RuleBasedStateMachine):
         return index, (x + 0.01 * pull[0], y + 0.01 * pull[1])
 
     def grasp(self, who: int, which: int, pull: tuple[int, int]) -> tuple[Window, int, Point]:
-        """Drag a corner, and wait until the server has it there; the button is still down."""
+        """Drag a corner, and wait until the server has it there; the button stays down."""
         index, target = self.target(which, pull)
         window = self.hand(who)
         window.begin_drag(self.outline[index], target)
@@ -60,7 +60,7 @@ class TwoWindows(RuleBasedStateMachine):
         assert math.dist(self.outline[index], target) < SLACK_PX * window.pixel_m()
 
     def go(self, verb: str, who: int | None, label: str | None) -> None:
-        """A step back or forth, if there is one."""
+        """Undo or redo a step, if there is one."""
         if who is None:
             self.state = REST.post(f"{self.sheet.path}/{verb}").raise_for_status().json()
         elif label is not None:
@@ -70,7 +70,7 @@ class TwoWindows(RuleBasedStateMachine):
             self.state = self.sheet.state
 
     def done(self, label: str) -> None:
-        """Wait for a step of this name, and take over what it has led to."""
+        """Wait for a step of this name, and take over the state it led to."""
         version, before = self.state["version"], self.state["drawing"]
         self.until(lambda: self.is_done(self.sheet.state, version, label))
         self.state = self.sheet.state
@@ -81,17 +81,17 @@ class TwoWindows(RuleBasedStateMachine):
         return bool(state["version"] > version and state["gesture"] is None and state["history"]["can_undo"] == label)
 
     def none_done(self) -> None:
-        """Wait until it is as it was."""
+        """Wait until the state is as it was."""
         wanted = self.state["drawing"]
         self.until(lambda: self.sheet.state["gesture"] is None and self.sheet.drawing == wanted)
         self.state = self.sheet.state
 
     def new_title(self) -> str:
-        """One that the document has not had."""
+        """Return a title that the document has not had."""
         return f"Cloth {self.sheet.state['version']}"
 
     def planned(self, state: dict[str, Any]) -> dict[str, Any]:
-        """What the planner says to the drawing, asked by somebody who knows nothing of the document."""
+        """Return the planner's answer to the drawing, independent of the document."""
         if state["problems"]:
             return {"status": "illegal", "primitives": []}
         drawing = state["drawing"]
@@ -109,7 +109,7 @@ class TwoWindows(RuleBasedStateMachine):
 
 
 def assert_shown(shown: dict[str, Any], state: dict[str, Any]) -> None:
-    """All that a window shows of a document is as the server has it."""
+    """Check that a window shows the document as the server has it."""
     drawing, history = state["drawing"], state["history"]
     assert shown["versions"] == [state["version"]] * 2
     assert shown["title"] == drawing["title"]
@@ -127,7 +127,7 @@ def assert_shown(shown: dict[str, Any], state: dict[str, Any]) -> None:
 
 
 def beginning(plan: dict[str, Any]) -> str:
-    """How the status begins."""
+    """Return how the status begins."""
     if plan["status"] != "solved":
         return "No plan: "
     if plan["dag"]["folds"] == 0:

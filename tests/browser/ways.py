@@ -1,4 +1,4 @@
-"""Three ways to the same: what a person does on the page with a mouse, with the keyboard alone, with a finger."""
+"""Three ways to operate the page: with a mouse, with the keyboard alone, with a finger."""
 
 from typing import Protocol
 
@@ -10,23 +10,23 @@ from tests.browser.board_keys import cross, tab_to, walk
 
 
 class Way(Protocol):
-    """What the hands do; each call returns when the page has been told, not when it has done it."""
+    """Operations of a person; each call returns when the page has received the input."""
 
     def draw_outline(self, corners: list[Point]) -> None: ...
 
     def draw_folds(self, lines: list[tuple[Point, Point]]) -> None:
-        """One after the other, each when the one before is in the list."""
+        """Draw folds one after the other, each once the list has the one before."""
 
     def take(self, corner: int, at: Point) -> None:
-        """Take hold of a corner of the outline, which shall not snap to anything."""
+        """Take hold of a corner of the outline, without snapping."""
 
     def pull_down(self, to: Point) -> None:
-        """Pull it down to there, by whole centimetres."""
+        """Pull it down, by whole centimetres."""
 
     def let_go(self) -> None: ...
 
     def press(self, button: str) -> None:
-        """The button whose name begins like this."""
+        """Press the button whose name begins like this."""
 
     def undo(self) -> None: ...
 
@@ -79,7 +79,7 @@ class ByMouse:
 
 
 class ByKeyboard:
-    """Letters choose tools, arrows lead, Enter puts, Tab goes on."""
+    """Letters choose tools, arrows move the cursor, Enter sets a point, Tab moves the focus."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
@@ -128,7 +128,7 @@ class ByKeyboard:
 
 
 class ByFinger:
-    """Taps and strokes on a phone, where folds and reasons are on a sheet that is pulled up."""
+    """Taps and strokes on a phone, which shows folds and reasons on a sheet that is pulled up."""
 
     def __init__(self, page: Page) -> None:
         self.page, self.finger = page, Finger(page)
@@ -179,7 +179,7 @@ class ByFinger:
 
 
 def middle(points: list[Point]) -> Point:
-    """Of the box round some points."""
+    """Return the middle of the bounding box of some points."""
     xs, ys = zip(*points, strict=True)
     return (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
 
@@ -193,5 +193,5 @@ def expect_twice_as_large(page: Page, before: float) -> None:
 
 
 def expect_folds(page: Page, count: int) -> None:
-    """Counted on a sheet that is not pulled up, too."""
+    """Expect this number of folds, also on a sheet that is not pulled up."""
     expect(page.locator(".fold-list > li")).to_have_count(count)

@@ -27,7 +27,7 @@ def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0) -> U
 
 
 def over_near_edge(hanging_m: float, lying_m: float, width_m: float = 0.4) -> ClothState:
-    """A rectangle that lies square over the near edge."""
+    """Return a rectangle that lies square over the near edge."""
     x, y = -0.8 - hanging_m, -width_m / 2
     return ClothState.spread_out(rectangle(hanging_m + lying_m, width_m, x, y))
 
@@ -113,7 +113,7 @@ def test_a_triangle_that_hangs_by_its_base_stays_and_by_its_tip_does_not():
 
 
 def with_hanging_flap(end_x: float, line_x: float) -> ClothState:
-    """A strip over the near edge whose near end is folded up over a line that hangs beside the table."""
+    """Return a strip over the near edge whose near end is folded up over a line beside the table."""
     strip = ClothState.spread_out(rectangle(-0.3 - end_x, 0.4, end_x, -0.2))
     return fold_cloth(strip, Segment((line_x, -0.2), (line_x, 0.2)), is_red=False).cloth
 

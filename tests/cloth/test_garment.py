@@ -1,4 +1,4 @@
-"""Garments from JSON: defaults, round trips, and a refusal for everything that is none."""
+"""Garments from JSON: defaults, round trips, and refusals of everything else."""
 
 import copy
 import math
@@ -75,7 +75,7 @@ def test_an_empty_title_is_kept():
 
 
 def put(path: str, value: object) -> Callable[[Json], None]:
-    """A change that puts a value at a path such as ``folds.0.start``."""
+    """Return a change that puts a value at a path such as ``folds.0.start``."""
 
     def change(data: Json) -> None:
         node: Any = data

@@ -1,4 +1,4 @@
-"""Garments by name or path: what cannot be read says why."""
+"""Garments by name or path; unreadable ones are refused with the cause."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The fewest grips that hold every vertex, and of those the nearest."""
+"""The fewest grips that hold every vertex, and the nearest of them."""
 
 import math
 import random
@@ -18,7 +18,7 @@ UP = (0.0, 1.0)
 
 
 def top(width_m: float) -> tuple[Region, FloatArray]:
-    """A rectangle and its two top corners."""
+    """Return a rectangle and its two top corners."""
     piece = rectangle(width_m, 0.3)
     return piece, must_hold(piece, UP, (), 0.0)
 

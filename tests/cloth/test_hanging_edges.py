@@ -24,13 +24,13 @@ each_edge = pytest.mark.parametrize("edge", OUTWARDS)
 
 
 def beside(edge: str, points: Sequence[Point2]) -> list[Point2]:
-    """Points given as (along, out) in the table frame."""
+    """Return points given as (along, out) in the table frame."""
     (nx, ny), half = OUTWARDS[edge], 0.8 if edge in ("near", "far") else 0.49
     return [(nx * (half + out) - ny * along, ny * (half + out) + nx * along) for along, out in points]
 
 
 def block(low: float, high: float, lying_m: float, hanging_m: float) -> list[Point2]:
-    """A rectangle square over an edge, from one place along it to another."""
+    """Return a rectangle square over an edge, from one place along it to another."""
     return [(low, -lying_m), (high, -lying_m), (high, hanging_m), (low, hanging_m)]
 
 
@@ -98,7 +98,7 @@ def test_at_right_angles_the_pulls_add_up_as_vectors(first: str, second: str):
 
 
 def cross(**hanging_m: float) -> ClothState:
-    """Two strips 0.2 m wide across the middle of a square table 0.6 m wide, hanging so far from each edge."""
+    """Return two strips 0.2 m wide across the middle of a square table 0.6 m wide, hanging over each edge."""
     along = rectangle(0.6 + hanging_m["near"] + hanging_m["far"], 0.2, -0.3 - hanging_m["near"], -0.1)
     across = rectangle(0.2, 0.6 + hanging_m["left"] + hanging_m["right"], -0.1, -0.3 - hanging_m["right"])
     return ClothState.spread_out(Region.union([along, across]))

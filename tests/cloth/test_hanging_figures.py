@@ -31,13 +31,13 @@ EDGE = Segment((-5.0, 0.0), (5.0, 0.0))
 
 
 def loose(hanging: Sequence[Point2], support_deg: float = 0.0) -> set[Point2]:
-    """The vertices of a hanging part that must be held and are not on the edge."""
+    """Return the vertices of a hanging part that must be held and are not on the edge."""
     found = must_hold(Region.polygon(hanging), UP, (EDGE,), math.radians(support_deg))
     return {(round(float(x), 4), round(float(y), 4)) for x, y in found}
 
 
 def on_table(hanging: Sequence[Point2]) -> ClothState:
-    """A cloth whose hanging part has this shape, over the table's near edge; 0.5 m of it lie."""
+    """Return a cloth with a hanging part of this shape over the table's near edge; 0.5 m of it lie."""
     top = [x for x, y in hanging if y == 0.0]
     below = Region.polygon([(y - 0.8, -x) for x, y in hanging])
     return ClothState.spread_out(Region.union([below, rectangle(0.5, max(top) - min(top), -0.8, -max(top))]))

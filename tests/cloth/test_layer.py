@@ -1,4 +1,4 @@
-"""Layers remember where in the pattern they come from; stacks are layers from bottom to top."""
+"""Layers record where in the pattern they come from; stacks are layers from bottom to top."""
 
 import random
 

@@ -58,7 +58,7 @@ def test_the_tip_of_a_wedge_a_hair_wide_that_leaves_the_baseline_hangs_from_noth
 
 
 def flaring(degrees: float) -> Region:
-    """A trapezoid 0.4 m wide on top that widens downwards on both sides by an angle from the vertical."""
+    """Return a trapezoid 0.4 m wide on top that widens downwards on both sides by an angle from the vertical."""
     more = 0.3 * math.tan(math.radians(degrees))
     return Region.polygon([(-more, 0.0), (0.4 + more, 0.0), (0.4, 0.3), (0.0, 0.3)])
 

@@ -1,4 +1,4 @@
-"""Outlines that are none are refused, and the error names the point and the number."""
+"""Invalid outlines are refused, and the error names the point and the number."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Whether all folds can be held by two grippers, and why at which corners."""
+"""The check of a garment: whether two grippers can hold all folds, and if not, at which corners."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""What an attempt lacks, seen by a robot whose arms reach from here to there ahead of its base, and no more."""
+"""The shortfall of an attempt, for a robot whose arms reach only certain bands ahead of its base."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -94,7 +94,7 @@ def test_both_hands_must_be_in_reach_at_once():
 
 
 def _miss(bands: Mapping[int, Sequence[Band]], *ways: Sequence[float], stands: int = ANYWHERE) -> Miss | None:
-    """What hands lack that go by so many metres ahead of the base at back-off 0, at equal waypoints."""
+    """Return the shortfall of hands that pass some metres ahead of the base at standoff 0, at equal waypoints."""
     cloth = garment(rectangle_points(0.4, 0.4), fold((0.4, 0.2), (0.0, 0.2)))
     problem = context(cloth, reach=BandReach(bands))
     like = next(iter(fold_trials(problem, START, 0)))

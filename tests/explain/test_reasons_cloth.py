@@ -1,4 +1,4 @@
-"""Cloth that would not stay, or lies where it cannot be folded: provoked, worked out by hand, and mended."""
+"""Cloth that would not stay, or lies where it cannot be folded: provoked, worked out by hand, and fixed."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import BACK, HAMMER_SCENE, but_for_collisions, hammer, is_gone, refused
 
 BEHIND = Scene(stations=(("front", Pose2(-1.2, 0.0, 0.0)),), back_off_max_m=0.0)
-"""The robot stands still, 0.4 m from the table's near edge at x = -0.8 m."""
+"""A scene in which the robot stands still, 0.4 m from the table's near edge at x = -0.8 m."""
 
 
 def test_a_fold_after_which_too_much_hangs_names_the_friction_that_would_hold_it():
@@ -133,5 +133,5 @@ def test_a_sheet_larger_than_the_table_is_told_so():
 
 
 def _towel(line, length_m: float, x_m: float) -> Garment:
-    """0.4 m wide, its near edge at x, its y away from `front`."""
+    """Return a towel 0.4 m wide, its near edge at x, its y away from `front`."""
     return garment(rectangle_points(0.4, length_m), line, placement=Pose2(x_m, 0.2, BACK))

@@ -1,4 +1,4 @@
-"""Arms that collide while they drag the cloth: told with the fold that the drag would serve."""
+"""Arms that collide while they drag the cloth: the reason names the fold that the drag would serve."""
 
 import math
 
@@ -38,7 +38,7 @@ def front_alone(back_off_max_m: float) -> Scene:
 
 
 class HinderedCollisions(BarredCollisions):
-    """Wherever the base stands its arms are barred, by a bar that they are the deeper in the further it backs off."""
+    """Collisions of arms with a bar at every place of the base, deeper the further the base stands back."""
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
         return Contact("left forearm", "bar", 0.01 + FRONT_X - base_in_table.x_m)
@@ -50,7 +50,7 @@ class HinderedRobot(BarredRobot):
 
 
 def refused(x_m: float, back_off_max_m: float) -> Plan:
-    """The answer for a napkin that a robot could fold that nothing bars."""
+    """Return the answer for a napkin that a robot without obstacles could fold."""
     plan = planned(napkin(HALF, x_m=x_m), front_alone(back_off_max_m))
     assert plan.status == "infeasible"
     return plan

@@ -1,4 +1,4 @@
-"""Hands that do not suffice: each code provoked, its numbers worked out by hand, and mended by what they say."""
+"""Hands that do not suffice: each code provoked, its numbers worked out by hand, and fixed by its change."""
 
 import math
 from dataclasses import replace
@@ -21,11 +21,11 @@ SLOPE_M = math.hypot(0.2, 0.1)
 
 
 NEARBY = Scene(stations=FRONT, back_off_max_m=0.2)
-"""Few places to stand, so that what cannot be done is soon exhausted."""
+"""A scene with few places to stand, so that the search is soon exhausted."""
 
 
 def house(radius_m: float, *more):
-    """The house with its tip towards the robot, its roof to be folded up."""
+    """Return the house with its tip towards the robot, its roof to be folded up."""
     roof = fold((0.4, 0.0), (0.0, 0.0), name="roof", radius_m=radius_m)
     return garment(HOUSE, roof, *more, placement=Pose2(-0.45, 0.2, BACK))
 
@@ -116,7 +116,7 @@ def test_the_needed_radius_is_that_of_an_exhaustive_search():
 
 
 def _centre(a, b, c):
-    """The centre of the smallest circle round three points."""
+    """Return the centre of the smallest circle round three points."""
     for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
         if np.dot(p - r, q - r) <= 0.0:
             return (p + q) / 2

@@ -1,4 +1,4 @@
-"""The attempt that a reason is about is the one that came closest, and one that could really be made."""
+"""A reason is about the attempt that came closest, and that was possible otherwise."""
 
 import math
 
@@ -112,5 +112,5 @@ def test_a_reason_is_the_same_every_time():
 
 
 def _met(name: str) -> Context:
-    """A problem with all that was met before it was known to have no plan."""
+    """Return a problem with all reasons that were met before it was known to have no plan."""
     return met(*PROBLEMS[name]).problem.context

@@ -1,4 +1,4 @@
-"""Out of reach: each cause provoked, its numbers worked out by hand, and mended by what they say."""
+"""Out of reach: each cause provoked, its numbers worked out by hand, and fixed by its change."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What a reason names is a cause: with it removed, as much as it says and no less, the fold can be done."""
+"""A reason names a cause: with it removed, by as much as it says and no less, the fold is possible."""
 
 import math
 import random
@@ -108,7 +108,7 @@ def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there():
 
 
 def random_task(seed: int) -> tuple[Garment, Scene]:
-    """A towel folded once, somewhere on the table or over its edge, on a table more or less rough."""
+    """Return a towel folded once, somewhere on the table or over its edge, with some friction."""
     rng = random.Random(seed)
     width, length = rng.uniform(0.1, 0.8), rng.uniform(0.2, 1.6)
     y = rng.uniform(0.1, 0.9) * length
@@ -144,7 +144,7 @@ def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int):
 
 
 def a_bit_less(reason: Reason, cloth: Garment, scene: Scene) -> dict[str, object]:
-    """The change of a reason with all that it adds less by a twentieth."""
+    """Return the change of a reason with every addition smaller by a twentieth."""
     change = dict(reason.change or {})
     if "placement" in change:
         to, before = change["placement"], cloth.placement

@@ -1,4 +1,4 @@
-"""Which reasons are given, and in which order: those that each alone, mended, would lead further."""
+"""The choice and order of reasons: each of them, fixed alone, would lead further."""
 
 import numpy as np
 import pytest

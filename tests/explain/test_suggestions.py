@@ -30,7 +30,7 @@ FAR = Pose2(0.4, 0.15, -math.pi / 2)
 
 
 def towel(placement: Pose2 | None = None) -> Garment:
-    """A towel, 40 cm along the robot's arms and 30 cm deep, folded once away from the robot."""
+    """Return a towel, 40 cm along the robot's arms and 30 cm deep, folded once away from the robot."""
     half = fold((0.3, 0.2), (0.0, 0.2))
     return garment(rectangle_points(0.3, 0.4), half, placement=placement or Pose2(-0.7, 0.15, -math.pi / 2))
 
@@ -93,7 +93,7 @@ def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
 
 
 def least_of(search: Search) -> Suggestion:
-    """What a search tells in the end, with all the time in the world."""
+    """Return the final suggestions of a search without a time limit."""
     wish = next(search)
     while isinstance(wish, Trial):
         task = replace(wish.task, limits=replace(wish.task.limits, time_limit_s=60.0))
@@ -189,7 +189,7 @@ def test_another_order_ends_in_the_same_outline(name: str):
 
 
 def all_trials(task: Task) -> list[Trial]:
-    """What the search for orders would try if nothing worked."""
+    """Return all orders that the search would try if none worked."""
     trials, search = [], orders(task)
     unsolved = make_plan(towel(FAR), FRONT_ONLY)
     wish = next(search, None)
@@ -259,7 +259,7 @@ def test_a_map_cut_short_says_so():
 
 
 def is_complete(found: Suggestions) -> bool:
-    """What a search says in the end."""
+    """Return the last answer of a search: whether it is complete."""
     while True:
         try:
             next(found)
@@ -279,7 +279,7 @@ def test_a_search_says_whether_it_has_tried_everything():
 
 
 def slow() -> bool:
-    """Asked whether to stop, a machine that is slow to answer."""
+    """Return a question whether to stop that a slow machine answers slowly."""
     time.sleep(0.001)
     return False
 

@@ -1,4 +1,4 @@
-"""What fold ends are attached to, on a towel of 0.4 x 0.3 m, and on random cloths."""
+"""The attachments of fold ends, on a towel of 0.4 x 0.3 m, and on random cloths."""
 
 import math
 import random
@@ -123,7 +123,7 @@ def simple_star(rng: random.Random) -> tuple[Point2, ...]:
 
 
 def randomly_folded(replay: Replay, rng: random.Random) -> Replay:
-    """One more legal fold along some chord."""
+    """Add one more legal fold along some chord."""
     for _ in range(50):
         turn, x, y = rng.uniform(0, math.tau), rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2)
         line = Segment((x, y), (x + math.cos(turn), y + math.sin(turn)))

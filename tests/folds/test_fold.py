@@ -1,4 +1,4 @@
-"""Drawn lines are put onto the silhouette's boundary, or refused with how far off they are."""
+"""Drawn lines are snapped onto the silhouette's boundary, or refused with their distance from it."""
 
 import pytest
 

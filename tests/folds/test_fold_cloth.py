@@ -1,4 +1,4 @@
-"""Folding a stack: what moves, what stays, in which order it lies."""
+"""Folding a stack: the layers that move, those that stay, and their order."""
 
 import random
 
@@ -101,7 +101,7 @@ def test_a_line_round_whose_end_the_cloth_hangs_together_is_refused():
 
 
 def chord(rng: random.Random, region: Region) -> Segment | None:
-    """A segment from somewhere on the boundary to somewhere else on it, inside the region."""
+    """Return a segment from somewhere on the boundary to somewhere else on it, inside the region."""
     ring = region.shape.exterior if region.shape.geom_type == "Polygon" else None
     if ring is None:
         return None

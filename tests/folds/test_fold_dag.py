@@ -1,4 +1,4 @@
-"""The Fold-DAG: which fold waits for which."""
+"""The Fold-DAG: the order that folds impose on each other."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""How grips move in a fold: up along (b, d - b) to the apex, down along (-b, d - b)."""
+"""The path of grips in a fold: up along (b, d - b) to the apex, down along (-b, d - b)."""
 
 import math
 import random
@@ -22,7 +22,7 @@ def path(line: Segment = ACROSS, depth_m: float = 0.4, rising_top: TableTop = TO
 
 
 def tools(of: FoldPath, *grips: tuple[float, float], sweeps: int = 401) -> FloatArray:
-    """The tools' ways, shape (grips, sweeps, 3)."""
+    """Return the tools' paths, shape (grips, sweeps, 3)."""
     return of.tool_paths(np.array(grips), np.linspace(0.0, 2.0, sweeps))
 
 

@@ -1,4 +1,4 @@
-"""What must be held in the folds of a garment."""
+"""The vertices that must be held in the folds of a garment."""
 
 import math
 

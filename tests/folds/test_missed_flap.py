@@ -1,4 +1,4 @@
-"""A red fold takes the flap of the fold before it, and a line beside that flap is told so."""
+"""A red fold takes the flap of the fold before it; a line that misses the flap is refused with that reason."""
 
 import pytest
 

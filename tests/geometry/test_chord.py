@@ -1,4 +1,4 @@
-"""Where a line crosses a region."""
+"""Chords: the stretches of a line within a region."""
 
 import pytest
 

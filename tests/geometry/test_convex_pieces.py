@@ -1,4 +1,4 @@
-"""Convex pieces cover a region, and little more."""
+"""Convex pieces cover a region, and little beyond it."""
 
 import math
 import random

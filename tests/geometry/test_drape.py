@@ -1,4 +1,4 @@
-"""Cloth drawn over the table's edges: round, without gaps, and as large as it is."""
+"""Cloth drawn over the table's edges: round, without gaps, and of the right area."""
 
 import itertools
 import math
@@ -27,7 +27,7 @@ PLACES = {
 
 
 def draped_square(x: float, y: float, turn: float = 0.0, gap_m: float = GAP_M) -> FloatArray:
-    """A square of cloth, 50 cm wide, about a place of the table, in triangles, shape (n, 3, 3)."""
+    """Return a square of cloth, 50 cm wide, about a place of the table, in triangles, shape (n, 3, 3)."""
     along = 0.25 * math.sqrt(2.0) * np.exp(1j * (turn + math.pi / 4 + math.pi / 2 * np.arange(4)))
     flat = Region.polygon(np.column_stack([x + along.real, y + along.imag])).triangles
     cut, _ = creased(flat, bends(TOP, flat, gap_m))
@@ -40,7 +40,7 @@ def area(triangles: FloatArray) -> float:
 
 
 def rim(triangles: FloatArray) -> float:
-    """The length of all sides that only one triangle has."""
+    """Return the length of all sides that only one triangle has."""
     sides = np.round(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3) * 1e6).astype(np.int64)
     order = [sorted(map(tuple, side)) for side in sides.tolist()]
     _, first, counts = np.unique(np.array(order), axis=0, return_index=True, return_counts=True)

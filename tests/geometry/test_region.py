@@ -1,4 +1,4 @@
-"""Regions: cut, moved, joined; their corners without what lies on a straight run."""
+"""Regions: cut, moved, joined; corners without points in the middle of straight edges."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""Directed segments: sides, distances, where two meet."""
+"""Directed segments: sides, distances, intersections."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Cutting along a segment parts the cloth there, and nowhere else along its line."""
+"""Cutting along a segment separates the cloth there, and nowhere else along its line."""
 
 import random
 

@@ -1,4 +1,4 @@
-"""Over the table's edge: lengths are kept, what lies beyond hangs."""
+"""Cloth over the table's edge: lengths are kept, and the part beyond it hangs."""
 
 import itertools
 import math

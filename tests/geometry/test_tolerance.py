@@ -1,4 +1,4 @@
-"""What counts as equal."""
+"""The tolerance of equality."""
 
 from planner.geometry.tolerance import AREA_M2, GRID_M, LENGTH_M, grid_key
 

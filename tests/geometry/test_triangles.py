@@ -1,4 +1,4 @@
-"""Triangles that are cut along lines."""
+"""Triangles cut along lines."""
 
 import numpy as np
 import pytest
@@ -19,13 +19,13 @@ lines = st.tuples(places, places).filter(lambda ends: ends[0] != ends[1]).map(la
 
 
 def areas(triangles: np.ndarray) -> np.ndarray:
-    """Positive where they run counter-clockwise (m^2)."""
+    """Return the areas of triangles, positive if counter-clockwise (m^2)."""
     a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
 
 
 def lone_sides(triangles: np.ndarray) -> set[tuple[bytes, bytes]]:
-    """The sides that no other triangle has, the other way round; compared to the last digit."""
+    """Return the sides that no other triangle has in reverse, compared to the last digit."""
     sides = {(t[i].tobytes(), t[(i + 1) % 3].tobytes()) for t in triangles for i in range(3)}
     return {(start, end) for start, end in sides if (end, start) not in sides}
 

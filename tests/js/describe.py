@@ -1,4 +1,4 @@
-"""Write the description of the interface to a file, for the page's types to be made of: ``python -m ... FILE``."""
+"""Write the description of the interface to a file that the page's types are made of: ``python -m ... FILE``."""
 
 import json
 import sys
@@ -9,7 +9,7 @@ from app.settings import Settings
 
 
 def main() -> None:
-    """Write it; no data folder is opened for that."""
+    """Write the description; no data folder is opened."""
     description = create_app(Settings(data=Path("nowhere"))).openapi()
     Path(sys.argv[1]).write_text(json.dumps(description), encoding="utf-8")
 

@@ -18,18 +18,18 @@ from tests.builders import fold, garment, spread
 from tests.laws.outlines import MOST_CORNERS, Outline, outlines
 
 OFFS = (0.0, 0.0, 1e-6, 1e-5, 3e-5, 1e-4, 1e-3, 1e-2)
-"""How far (m) and how steeply (rad) a line may run beside an edge, a corner or a crease: not at all, or hardly."""
+"""Offsets (m) and slopes (rad) of a line beside an edge, a corner or a crease: none, or hardly any."""
 
 
 @st.composite
 def drawings(draw: st.DrawFn, most_folds: int = 6, most_corners: int = MOST_CORNERS, least_folds: int = 1) -> Garment:
-    """A garment of at most so many folds, each legal when its turn comes."""
+    """Return a garment of at most some number of folds, each legal when its turn comes."""
     return draw(folded(draw(outlines(most_corners)), most_folds, least_folds))
 
 
 @st.composite
 def folded(draw: st.DrawFn, outline: Outline, most_folds: int, least_folds: int = 1) -> Garment:
-    """A garment of this outline and random legal folds."""
+    """Return a garment of this outline with random legal folds."""
     cloth, folds, lines = spread(outline), [], []
     for _ in range(draw(st.integers(least_folds, most_folds))):
         is_red = bool(folds) and draw(st.integers(0, 3)) == 0
@@ -43,7 +43,7 @@ def folded(draw: st.DrawFn, outline: Outline, most_folds: int, least_folds: int 
 
 
 def _after(cloth: ClothState, drawn: DrawnFold, lines: list[Segment]) -> tuple[Segment, ClothState] | None:
-    """The line as it is snapped and the cloth afterwards; None if the fold is not legal."""
+    """Return the line as snapped and the cloth afterwards; None if the fold is not legal."""
     try:
         line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
         crease = lines[-1] if drawn.is_red else None
@@ -54,7 +54,7 @@ def _after(cloth: ClothState, drawn: DrawnFold, lines: list[Segment]) -> tuple[S
 
 @st.composite
 def _folds(draw: st.DrawFn, silhouette: Region, lines: list[Segment], *, is_red: bool) -> DrawnFold | None:
-    """A fold along a chord of the silhouette; its ends are drawn as roughly as hands may draw them."""
+    """Return a fold along a chord of the silhouette, with ends drawn as roughly as by hand."""
     chord = _chord(silhouette, draw(_through(silhouette, lines)))
     if chord is None:
         return None
@@ -68,7 +68,7 @@ def _folds(draw: st.DrawFn, silhouette: Region, lines: list[Segment], *, is_red:
 
 @st.composite
 def _through(draw: st.DrawFn, silhouette: Region, lines: list[Segment]) -> Segment:
-    """A segment through some point of the silhouette: where the chord shall run, and how far to a side of there."""
+    """Return a segment through some point of the silhouette: the chord's line, and an offset from the point."""
     corners = [_point(p) for p in silhouette.ring]
     some = st.sampled_from(corners)
     kind = draw(st.sampled_from(("anywhere", "corners", "beside an edge", "beside a crease")))
@@ -102,7 +102,7 @@ def _inner_points(draw: st.DrawFn, silhouette: Region) -> Point2:
 
 
 def _chord(silhouette: Region, through: Segment) -> tuple[Point2, Point2] | None:
-    """The stretch of a whole line within the silhouette that comes nearest to the segment's start."""
+    """Return the stretch of a whole line within the silhouette that comes nearest to the segment's start."""
     stretches = silhouette.overlaps_with(Segment(through.at(-10.0), through.at(10.0)))
     place = np.array([through.start])
     long = [s for s in stretches if math.dist(*s) > 1e-3]
@@ -114,13 +114,13 @@ def _chord(silhouette: Region, through: Segment) -> tuple[Point2, Point2] | None
 
 
 def _moves_most(silhouette: Region, line: Segment) -> bool:
-    """Whether the larger part lies to the left of a line: hands rather turn the smaller one."""
+    """Return whether the larger part lies to the left of a line: people rather turn the smaller one."""
     parts = split_along(silhouette, line)
     return parts is not None and parts[0].area > parts[1].area
 
 
 def _rounded(point: Point2) -> Point2:
-    """To the millimetre, as in a file that someone typed."""
+    """Round to the millimetre, as in a file that someone typed."""
     return (round(point[0], 3), round(point[1], 3))
 
 

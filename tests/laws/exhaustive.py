@@ -1,4 +1,4 @@
-"""The cheapest way by trying everything: plainly right rather than quick, and apart from `planner.search`.
+"""The cheapest way by trying everything: obviously right rather than quick, and independent of `planner.search`.
 
 What a fold or a drag must hold, which arm may take it and along which path is asked of the planner; whether the cloth
 stays where it is, too. What makes the planner quick is left out: every approach of every arm is combined with every
@@ -28,7 +28,7 @@ Way = tuple[float, State]
 
 
 class Exhaustive:
-    """Tries all that a robot may do in one planning problem."""
+    """A search through everything that a robot may do in one planning problem."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -37,7 +37,7 @@ class Exhaustive:
         self._strips: dict[tuple[object, ...], list[tuple[int, ...]]] = {}
 
     def cost_s(self, start: State) -> float:
-        """The least time until every fold is done (s), by Dijkstra's algorithm; infinite if it cannot be."""
+        """Return the least time until every fold is done (s), by Dijkstra's algorithm; infinite if impossible."""
         everything = (1 << len(self._context.sequence.folds)) - 1
         if self._context.unrest(start.done, start.offset) is not None:
             return math.inf
@@ -77,7 +77,7 @@ class Exhaustive:
         return tuple(Held(arm, over.apply_point(grip)) for arm, grip in pairs)
 
     def _strips_of(self, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
-        """For each combination of approaches the back-offs that suit all hands at each waypoint, as bits."""
+        """Return for each combination of approaches the standoffs that suit all hands at each waypoint, as bits."""
         key = (state.done, state.offset, state.station, state.held, trial.fold, trial.cover, trial.arms)
         if key not in self._strips:
             whole = np.full((1, len(trial.sweeps)), (1 << self._context.back_offs) - 1, dtype=np.uint32)
@@ -89,7 +89,7 @@ class Exhaustive:
         return self._strips[key]
 
     def _able(self, station: int, arm: int, tool: FloatArray, approaches: NDArray[np.int64]) -> NDArray[np.uint32]:
-        """For each approach the back-offs from which one tool point is in comfort, as bits."""
+        """Return for each approach the standoffs from which one tool point is within the comfort radius, as bits."""
         key = (station, arm, tool.tobytes(), approaches.tobytes())
         if key not in self._masks:
             context = self._context
@@ -98,7 +98,7 @@ class Exhaustive:
         return self._masks[key]
 
     def _travel(self, strip: tuple[int, ...], state: State) -> list[float]:
-        """The fewest steps of the base until it stands at each back-off at the end of a path."""
+        """Return the fewest steps of the base until it stands at each standoff at the end of a path."""
         stands = range(self._context.back_offs)
         if state.held:
             steps = [0.0 if stand == state.back_off else math.inf for stand in stands]
@@ -136,7 +136,7 @@ class Exhaustive:
                         yield from self._carried(state, stand, held)
 
     def _carried(self, state: State, stand: int, held: tuple[Held, ...]) -> Iterator[Way]:
-        """The drags of every length that begin at a back-off, hands holding on or letting go."""
+        """Return the drags of every length that begin at a standoff, with hands that hold on or let go."""
         context = self._context
         for tenths in range(1, longest_drag(context) + 1):
             end, offset = stand + 2 * tenths, dragged(context, state.offset, state.station, tenths)

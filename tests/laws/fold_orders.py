@@ -11,7 +11,7 @@ from planner.folds.fold_sequence import FoldSequence
 
 
 def orders(dag: FoldDag, edges: Sequence[tuple[int, int]] | None = None) -> Iterator[list[int]]:
-    """Every order of the folds that keeps the edges and never interrupts a chain."""
+    """Yield every order of the folds that keeps the edges and never interrupts a chain."""
     of_chain = {fold: number for number, chain in enumerate(dag.chains) for fold in chain}
     graph = nx.DiGraph()
     graph.add_nodes_from(range(len(dag.chains)))
@@ -22,7 +22,7 @@ def orders(dag: FoldDag, edges: Sequence[tuple[int, int]] | None = None) -> Iter
 
 
 def replayed(sequence: FoldSequence, order: list[int]) -> ClothState:
-    """The stack after the folds in an order, each folded anew."""
+    """Return the stack after the folds in an order, each folded anew."""
     cloth = ClothState.spread_out(sequence.garment.pattern)
     for index in order:
         fold = sequence.folds[index]

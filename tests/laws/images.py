@@ -1,4 +1,4 @@
-"""The same planning problem, written down another way: in another order or frame, turned, in a mirror."""
+"""Equivalent planning problems: in another order or frame, turned, mirrored."""
 
 import math
 from dataclasses import replace
@@ -17,21 +17,21 @@ MOST_ORDERS = 24
 
 
 def snapped(garment: Garment) -> Garment:
-    """The same garment, its lines drawn where they are snapped to."""
+    """Return the garment with its lines drawn where they are snapped to."""
     folds = FoldSequence.of(garment).folds
     drawn = zip(garment.folds, folds, strict=True)
     return replace(garment, folds=tuple(replace(d, start=f.line.start, end=f.line.end) for d, f in drawn))
 
 
 def reordered(problem: Problem, rng: Random) -> Problem:
-    """The same folds, given in another order that the Fold-DAG allows."""
+    """Return the garment with its folds in another order that the Fold-DAG allows."""
     garment = snapped(problem.garment)
     order = rng.choice(list(islice(orders(FoldSequence.of(garment).dag), MOST_ORDERS)))
     return replace(problem, garment=replace(garment, folds=tuple(garment.folds[i] for i in order)))
 
 
 def redrawn(problem: Problem, turn_rad: float, by: Point2) -> Problem:
-    """The same cloth at the same place, drawn elsewhere in the article frame and turned."""
+    """Return the cloth at the same place, drawn elsewhere in the article frame and turned."""
     frame = Pose2(*by, turn_rad)
 
     def moved(point: Point2) -> Point2:
@@ -48,7 +48,7 @@ def redrawn(problem: Problem, turn_rad: float, by: Point2) -> Problem:
 
 
 def mirrored(problem: Problem) -> Problem:
-    """All of it as a mirror along the table's middle shows it: y -> -y on the table, x -> -x in the drawing.
+    """Return the problem mirrored at the table's middle: y -> -y on the table, x -> -x in the drawing.
 
     With the placement p -> R(yaw) p + t the mirror image of the cloth at yaw lies at pi - yaw:
     diag(1, -1) R(yaw) diag(-1, 1) = R(pi - yaw). What was to the left of a fold's line is to its right: the line turns
@@ -73,7 +73,7 @@ def mirrored(problem: Problem) -> Problem:
 
 
 def turned(problem: Problem) -> Problem:
-    """All of it, turned by half a turn about the table's middle."""
+    """Return the problem turned by half a turn about the table's middle."""
 
     def over(pose: Pose2) -> Pose2:
         return Pose2(-pose.x_m, -pose.y_m, pose.yaw_rad + math.pi)

@@ -1,4 +1,4 @@
-"""How often a law is tried: a few times in every run, thousands of times in a long one; and how often it was."""
+"""The number of cases for a law: a few in every run, thousands in a long one; and a count of them."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -11,7 +11,7 @@ LONG = "long"
 """The name of the profile in which laws are tried at length."""
 
 TRIED: Counter[str] = Counter()
-"""The cases that laws have been tried on so far, by kind."""
+"""The number of cases tried so far, by kind of law."""
 
 Test = Callable[..., Any]
 

@@ -12,7 +12,7 @@ from planner.errors import GarmentError
 from planner.geometry.pose import Point2
 
 STEPS_M = (0.05, 0.01, 0.001)
-"""Corners lie on one of these grids, which breeds edges in line and corners on lines; or within a millimetre of it."""
+"""Grids of corners (m), which breed collinear edges and corners on lines, exactly or within a millimetre."""
 
 MOST_CORNERS = 40
 _TURNS = 400
@@ -22,7 +22,7 @@ Outline = tuple[Point2, ...]
 
 @st.composite
 def outlines(draw: st.DrawFn, most: int = MOST_CORNERS, largest_m: float = 1.0) -> Outline:
-    """A garment's outline of 3 to `most` corners, at most `largest_m` wide, in either orientation."""
+    """Return a garment's outline of 3 to `most` corners, at most `largest_m` wide, in either orientation."""
     kind = draw(st.sampled_from((_star, _wild, _teeth, _flat)))
     size, step = draw(st.sampled_from((0.25, 0.5, 1.0))) * largest_m, draw(st.sampled_from(STEPS_M))
     ring = draw(kind(step, min(draw(st.integers(3, most)), round(size / step) + 3), size))
@@ -34,7 +34,7 @@ def outlines(draw: st.DrawFn, most: int = MOST_CORNERS, largest_m: float = 1.0) 
 
 @st.composite
 def _star(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
-    """Corners in the order of their directions from one point."""
+    """Return corners in the order of their directions from one point."""
     radii = draw(st.lists(st.floats(0.15, 0.5), min_size=corners, max_size=corners))
     shares = draw(st.lists(st.floats(0.1, 1.0), min_size=corners, max_size=corners))
     angle, ring = 0.0, []
@@ -46,14 +46,14 @@ def _star(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
 
 @st.composite
 def _wild(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
-    """Corners anywhere, joined in an order in which no edges cross."""
+    """Return corners anywhere, joined in an order in which no edges cross."""
     points = draw(_places(corners, round(size / step), round(size / step)))
     return _on_grid(_untangled([(x * step, y * step) for x, y in points]), step)
 
 
 @st.composite
 def _teeth(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
-    """Columns of many heights on one base, square-cornered: legs, sleeves and slots that lie in line."""
+    """Return columns of many heights on one base, square-cornered: collinear legs, sleeves and slots."""
     most = round(size / step)
     columns = min(max(1, corners // 2 - 1), most)
     xs = sorted(draw(st.lists(st.integers(0, most), min_size=columns + 1, max_size=columns + 1, unique=True)))
@@ -66,7 +66,7 @@ def _teeth(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
 
 @st.composite
 def _flat(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
-    """A sliver of a garment, a few millimetres high."""
+    """Return a sliver of a garment, a few millimetres high."""
     columns, most = max(2, corners // 2), round(size / step)
     xs = sorted(draw(st.lists(st.integers(0, most), min_size=columns, max_size=columns, unique=True)))
     lows = draw(st.lists(st.integers(0, 2), min_size=columns, max_size=columns))
@@ -78,7 +78,7 @@ def _flat(draw: st.DrawFn, step: float, corners: int, size: float) -> Outline:
 
 @st.composite
 def _shaken(draw: st.DrawFn, ring: Outline) -> Outline:
-    """The same corners, each up to half a millimetre off its grid."""
+    """Return the corners, each moved by up to half a millimetre off its grid."""
     offs = st.lists(st.integers(-500, 500), min_size=len(ring), max_size=len(ring))
     return tuple((x + 1e-6 * a, y + 1e-6 * b) for (x, y), a, b in zip(ring, draw(offs), draw(offs), strict=True))
 
@@ -94,7 +94,7 @@ def _on_grid(ring: Sequence[Point2], step: float) -> Outline:
 
 
 def _untangled(points: list[Point2]) -> list[Point2]:
-    """The points in an order in which no edges cross: two that do exchange their ends until none are left."""
+    """Return the points in an order in which no edges cross, by exchanging the ends of edges that do."""
     ring = list(points)
     for _ in range(_TURNS):
         crossing = _first_crossing(ring)

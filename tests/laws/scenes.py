@@ -1,4 +1,4 @@
-"""Random planning problems that are small enough to be searched to the end many times over."""
+"""Random planning problems that are small enough to be searched exhaustively many times."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -28,7 +28,7 @@ from tests.laws.drawings import folded
 from tests.laws.outlines import Outline, outlines
 
 MOST_STATES = 100_000
-"""No search of a small scene needs to expand more: the laws are about costs, and a budget has none."""
+"""The budget of states, which no search of a small scene exhausts: the laws are about costs."""
 
 FOLDABLE = tuple(name for name in shipped_garment_names() if not name.endswith("-halved"))
 """The shipped garments that can be folded."""
@@ -54,7 +54,7 @@ class Problem:
 
     @property
     def context(self) -> Context:
-        """The problem as the primitives see it, nothing remembered yet."""
+        """A fresh planning context of the problem."""
         robot = load_robot("pr2")
         reach = robot.reach(self.scene.torso_m, self.comfort_m)
         return Context(
@@ -66,7 +66,7 @@ class Problem:
         return State(0, (0.0, 0.0), [name for name, _ in self.scene.stations].index(self.start), 0)
 
     def plan(self, heuristic: str = "arm_time", time_limit_s: float = 60.0) -> Plan:
-        """The plan that the planner makes, joint paths and all."""
+        """Return the planner's plan, with joint paths."""
         return make_plan(
             self.garment,
             self.scene,
@@ -77,7 +77,7 @@ class Problem:
         )
 
     def lean_cost_s(self) -> float:
-        """The same by the edges that planning goes along: without what is spare, or no cheaper than from elsewhere."""
+        """Return the cost by the planner's own edges, which leave out those that are redundant or no cheaper."""
         context, state = self.context, self.first_state
         if context.unrest(state.done, state.offset) is not None:
             return math.inf
@@ -89,7 +89,7 @@ class Problem:
         return found.cost
 
     def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
-        """What the cheapest sequence of primitives costs (s); infinite when there is none."""
+        """Return the cost of the cheapest sequence of primitives (s); infinite if there is none."""
         context, state = self.context, self.first_state
         if context.unrest(state.done, state.offset) is not None:
             return math.inf
@@ -108,7 +108,7 @@ class Problem:
 
 
 BOUNDS = (*HEURISTICS, "driving")
-"""The heuristics that requests name, and the one that takes the arms' place where many folds are loose."""
+"""The heuristics that requests name, and the one that replaces the arms' time if many folds are loose."""
 
 
 def bound_of(name: str, context: Context, start: State) -> Heuristic:
@@ -117,7 +117,7 @@ def bound_of(name: str, context: Context, start: State) -> Heuristic:
 
 @st.composite
 def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_offs: int = 9) -> Problem:
-    """A small garment in front of the first station, one to a few folds, some of the five stations."""
+    """Return a small garment in front of the first station, one to a few folds, some of the five stations."""
     wanted = draw(st.sampled_from(range(1, most_folds + 1)))
     cloth = draw(folded(draw(_small_outlines()), wanted, least_folds=wanted))
     assume(cloth.folds and not _is_borderline(cloth))
@@ -136,7 +136,7 @@ def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_
 
 
 def _is_borderline(cloth: Garment) -> bool:
-    """Whether rounding decides what is a sliver and what is cloth: drawn elsewhere it may be the other."""
+    """Return whether rounding decides what is a sliver and what is cloth, so that another frame may differ."""
     final = FoldSequence.of(cloth).final
     areas = [*(layer.area for layer in final.layers), *final.slivers]
     return any(math.isclose(area, AREA_M2, rel_tol=0.01) for area in areas)
@@ -150,7 +150,7 @@ def _small_outlines() -> st.SearchStrategy[Outline]:
 
 @st.composite
 def _placements(draw: st.DrawFn, outline: Outline) -> Pose2:
-    """A pose whose outline's middle lies within reach of the front, upright or askew, maybe over an edge."""
+    """Return a pose with the outline's middle within reach of the front, upright or askew, maybe over an edge."""
     middle = [(min(c) + max(c)) / 2 for c in zip(*outline, strict=True)]
     yaw = draw(st.one_of(st.sampled_from([i * math.pi / 2 for i in range(4)]), st.floats(-math.pi, math.pi)))
     x, y = draw(st.floats(-0.6, -0.1)), draw(st.floats(-0.25, 0.25))

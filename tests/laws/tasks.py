@@ -1,4 +1,4 @@
-"""Random planning tasks: some made to break things, some such as people draw."""
+"""Random planning tasks: some made to break the planner, some as people draw them."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -27,7 +27,7 @@ _TRIES = 4
 
 
 def plain_task(rng: Random) -> Problem:
-    """A garment and folds such as people draw, flat on a table before the robot."""
+    """Return a garment and folds as people draw them, flat on a table before the robot."""
     outline = rng.choice((_rectangle, _rectangle, _shirt, _trapezium))(rng)
     drawn = _folded(rng, outline, rng.randint(1, 3), _straight_line)
     middle = np.array(outline).min(axis=0) / 2 + np.array(outline).max(axis=0) / 2
@@ -42,7 +42,7 @@ def plain_task(rng: Random) -> Problem:
 
 
 def rough_task(rng: Random) -> Problem:
-    """Spikes, combs, many corners, folds anywhere, over the edge, in odd scenes; its folds may be illegal."""
+    """Return spikes, combs, many corners, folds anywhere, over the edge, in odd scenes; folds may be illegal."""
     outline = rng.choice((_rectangle, _shirt, _trapezium, _comb, _needle, _round, _spiky, _hairline))(rng)
     drawn = _folded(rng, outline, rng.randint(0, 5), rng.choice((_straight_line, _any_line, _corner_line)))
     if rng.random() < 0.1:
@@ -59,7 +59,7 @@ def rough_task(rng: Random) -> Problem:
 
 
 def _lying(middle: np.ndarray, x_m: float, y_m: float, yaw_rad: float) -> Pose2:
-    """The placement that puts a point of the drawing at a place of the table."""
+    """Return the placement that puts a point of the drawing at a place of the table."""
     cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
     x, y = float(middle[0]), float(middle[1])
     return Pose2(x_m - cos * x + sin * y, y_m - sin * x - cos * y, yaw_rad)
@@ -128,7 +128,7 @@ def _spiky(rng: Random) -> Outline:
 
 
 def _hairline(rng: Random) -> Outline:
-    """A rectangle with a slit, or a step, a hair wide."""
+    """Return a rectangle with a slit, or a step, a hair wide."""
     hair, wide, tall = rng.choice((1e-5, 3e-5, 1e-4, 1e-3)), rng.uniform(0.2, 0.8), rng.uniform(0.2, 0.8)
     if rng.random() < 0.5:
         return (
@@ -147,7 +147,7 @@ Line = Callable[[Random, Region], Segment]
 
 
 def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garment:
-    """A garment with up to so many folds, each legal when its turn comes; raises `GarmentError` for no outline."""
+    """Return a garment of up to some folds, each legal when its turn comes; raises `GarmentError` for a bad outline."""
     require_simple_outline(outline)
     cloth, folds, lines = spread(outline), [], []
     for _ in range(_TRIES * wanted):
@@ -165,7 +165,7 @@ def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garmen
 
 
 def _chord(silhouette: Region, line: Segment, kind: str) -> DrawnFold | None:
-    """A fold of the smaller part along the longest stretch of a whole line within the cloth."""
+    """Return a fold of the smaller part along the longest stretch of a whole line within the cloth."""
     stretches = silhouette.overlaps_with(Segment(line.at(-10.0), line.at(10.0)))
     longest = max(stretches, key=lambda ends: math.dist(*ends), default=None)
     if longest is None or math.dist(*longest) < 0.01:
@@ -187,7 +187,7 @@ def _after(cloth: ClothState, drawn: DrawnFold, lines: Sequence[Segment]) -> tup
 
 
 def _straight_line(rng: Random, silhouette: Region) -> Segment:
-    """Across or along, at a third, a half or anywhere."""
+    """Return a line across or along, at a third, a half or anywhere."""
     x0, y0, x1, y1 = silhouette.bounds
     share = rng.choice((0.5, 0.5, 1 / 3, 0.25, 0.75, rng.uniform(0.1, 0.9)))
     if rng.random() < 0.5:
@@ -203,7 +203,7 @@ def _any_line(rng: Random, silhouette: Region) -> Segment:
 
 
 def _corner_line(rng: Random, silhouette: Region) -> Segment:
-    """Through a corner, to another or in any direction."""
+    """Return a line through a corner, to another or in any direction."""
     corners = [(float(x), float(y)) for x, y in silhouette.ring]
     one, other = rng.choice(corners), rng.choice(corners)
     if math.dist(one, other) < 1e-3:

@@ -1,4 +1,4 @@
-"""Folding loses no cloth and makes none."""
+"""Folding preserves the area of cloth."""
 
 import math
 from itertools import combinations
@@ -23,7 +23,7 @@ SHARE = 1e-5
 
 
 def shoelace(ring: Outline) -> float:
-    """The area within a ring (m^2)."""
+    """Return the area within a ring (m^2)."""
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, (*ring[1:], ring[0]), strict=True))) / 2
 
 
@@ -32,7 +32,7 @@ def perimeter(region: Region) -> float:
 
 
 def states(sequence: FoldSequence) -> list[ClothState]:
-    """The cloth after each fold in the user's order, the start first."""
+    """Return the cloth after each fold in the user's order, the start first."""
     return [sequence.cloth((1 << count) - 1) for count in range(len(sequence.folds) + 1)]
 
 

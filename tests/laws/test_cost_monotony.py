@@ -1,4 +1,4 @@
-"""Whoever may do more never pays more."""
+"""More freedom never costs more."""
 
 from dataclasses import replace
 from itertools import combinations

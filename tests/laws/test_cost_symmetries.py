@@ -1,4 +1,4 @@
-"""What a plan costs does not depend on how the problem is written down: order, frame, left and right."""
+"""The cost of a plan does not depend on how the problem is written down: order, frame, left and right."""
 
 import math
 from random import Random

@@ -25,7 +25,7 @@ MOST_ORDERS = 24
 
 
 def leads_elsewhere(sequence: FoldSequence, order: list[int]) -> bool:
-    """Whether an order ends in another stack, or cannot be folded at all."""
+    """Return whether an order ends in another stack, or cannot be folded at all."""
     try:
         return not is_same_stack(replayed(sequence, order), sequence.final)
     except FieldError:

@@ -1,4 +1,4 @@
-"""The grips chosen are those that trying everything chooses, however the cloth is drawn."""
+"""The chosen grips are those of an exhaustive search, however the cloth is drawn."""
 
 import math
 from itertools import combinations
@@ -30,7 +30,7 @@ def rank(cover: Cover, vertices: list[Point2]) -> list[float]:
 
 
 def candidates(ring: Outline, vertices: list[Point2], baseline: Segment | None = None) -> list[Point2]:
-    """The vertices, and all that is nearest on the boundary to the smallest circle round each two and three of them.
+    """Return the vertices, and the nearest boundary points to the smallest circles round each two and three of them.
 
     None on the baseline: a hand there lifts nothing.
     """
@@ -49,7 +49,7 @@ def candidates(ring: Outline, vertices: list[Point2], baseline: Segment | None =
 def exhaustive(
     ring: Outline, vertices: list[Point2], radius_m: float, arms: int, baseline: Segment | None = None
 ) -> list[Cover]:
-    """All best covers by trying every set of candidates: distances compared largest first, to the tolerance."""
+    """Return all best covers by trying every set of candidates: distances compared largest first, to the tolerance."""
     if not vertices:
         return [()]
     places = candidates(ring, vertices, baseline)
@@ -65,7 +65,7 @@ def exhaustive(
 
 
 def are_same(some: list[Cover], others: list[Cover]) -> bool:
-    """Whether each cover is, to the tolerance, among the others."""
+    """Return whether each cover is, to the tolerance, among the others."""
     return all(any(is_near(one, other) for other in others) for one in some) and all(
         any(is_near(one, other) for one in some) for other in others
     )
@@ -76,7 +76,7 @@ def is_near(one: Cover, other: Cover) -> bool:
 
 
 def best(ring: Outline, up: Point2, radius_m: float) -> tuple[list[Point2], list[Cover]]:
-    """What must be held of a hanging piece, and the covers found."""
+    """Return the vertices of a hanging piece that must be held, and the covers found."""
     piece = Region.polygon(ring)
     found = grip_covers(piece, must_hold(piece, up, (), 0.0), radius_m, 2)
     return list(found.vertices), list(found.covers)

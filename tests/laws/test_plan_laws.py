@@ -1,4 +1,4 @@
-"""Whole plans, joint paths and all: equal tasks get equal answers, and who may do more is never proven slower."""
+"""Laws of whole plans with joint paths: equal tasks get equal answers, and more freedom is never proven slower."""
 
 import math
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from tests.laws.tasks import plain_task
 SECOND = 1e-6
 
 A_THOUSANDTH = 1e-3
-"""Drawn in another frame, cloth lies up to half a micrometre beside where it did, and joints take their time to it."""
+"""The tolerance of costs: in another frame cloth lies up to half a micrometre aside, and joint times follow it."""
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -69,7 +69,7 @@ def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int):
 
 
 def require_no_slower(wide: Plan, narrow: Plan) -> None:
-    """Whoever may do more has a lower bound, and neither a "no" nor a slower plan that is proven."""
+    """Require of more freedom a lower bound, and neither a proven "no" nor a proven slower plan."""
     if narrow.cost_s is not None:
         assert wide.is_solved or not wide.is_proven
         if wide.is_solved:
@@ -78,7 +78,7 @@ def require_no_slower(wide: Plan, narrow: Plan) -> None:
 
 
 def widened(problem: Problem, what: str, rng: Random) -> Problem:
-    """The same task with more friction, a wider cone, more room to back off, or less asked of the arms' comfort."""
+    """Return the task with more friction, a wider cone, a larger standoff, or a smaller comfort radius."""
     scene = problem.scene
     if what == "comfort":
         return replace(problem, comfort_m=problem.comfort_m * rng.choice((0.0, 0.33, 0.9)))
@@ -102,7 +102,7 @@ WIDER = {
     "friction": [({"friction": friction}, 0.03) for friction in (0.3, 1.0, 2.0)],
     "standoff": [({"back_off_max_m": back_off_m}, 0.03) for back_off_m in (0.4, 0.8, 1.2)],
 }
-"""What a task is asked with, from the tightest to the widest: fields of the scene, and the comfort radius (m)."""
+"""Variants of a task from the tightest to the widest: fields of the scene, and the comfort radius (m)."""
 
 IS_LONG = settings.get_current_profile_name() == LONG
 CHEAP = ["vest", "jeans", "letter-towel"]

@@ -1,4 +1,4 @@
-"""The tail of a plan is a plan: planning from the world after a step costs what is left of it."""
+"""The tail of a plan is a plan: planning from the world after a step costs the rest of the plan."""
 
 from dataclasses import replace
 

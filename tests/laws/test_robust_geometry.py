@@ -1,4 +1,4 @@
-"""Cloth that is awkward to compute with: needles, hairlines, corners, many folds, many corners. Nothing gets lost."""
+"""Cloth that is hard to compute with: needles, hairlines, corners, many folds, many corners. Nothing gets lost."""
 
 import math
 from itertools import pairwise
@@ -28,7 +28,7 @@ SHARE = 1e-5
 
 
 def whole(cloth: ClothState) -> float:
-    """The area of the layers and of what was dropped (m^2)."""
+    """Return the area of the layers and of the slivers dropped (m^2)."""
     return cloth.area + sum(cloth.slivers)
 
 
@@ -131,7 +131,7 @@ def test_a_fold_from_corner_to_corner_parts_the_cloth_there_or_is_refused(outlin
 
 
 def rolled(folds: int, pitch_m: float, width_m: float) -> Garment:
-    """A ribbon rolled up from its left end; each fold takes one layer more."""
+    """Return a ribbon rolled up from its left end; each fold takes one layer more."""
     lines = (fold((pitch_m * i, 0.0), (pitch_m * i, width_m)) for i in range(1, folds + 1))
     return garment(rectangle_points(pitch_m * (folds + 1), width_m), *lines)
 

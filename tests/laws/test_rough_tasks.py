@@ -1,4 +1,4 @@
-"""Tasks made to break things: an answer, or an error of ours, and within the time that it may take."""
+"""Tasks made to break the planner get an answer, or one of our errors, within their time."""
 
 from random import Random
 from time import process_time
@@ -16,7 +16,7 @@ LIMITS_S = (0.05, 0.3, 1.0)
 """Time limits of a plan."""
 
 OVERRUN_S = 0.5
-"""By so much of the processor's time a limit may be overrun."""
+"""The processor time by which a limit may be exceeded (s)."""
 
 MOMENTS = 8
 

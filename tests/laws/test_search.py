@@ -1,4 +1,4 @@
-"""A* finds what trying everything finds, and its bounds never promise too little."""
+"""A* finds the cost of an exhaustive search, and its bounds are never too high."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What is in the arms' way: moments whose answer geometry gives, and a request in which arms would have to cross."""
+"""Blocking contacts: moments whose answer geometry gives, and a request in which arms would have to cross."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ AHEAD = np.eye(3)
 def moments(
     *tools: tuple[float, float, float], arm: int = 0, other: tuple[float, float, float] | None = None
 ) -> Moments:
-    """Hands that point ahead, level; tools in the table frame."""
+    """Return moments of hands that point ahead, level; tools in the table frame."""
     count = len(tools)
     positions, rotations = np.full((2, count, 3), np.nan), np.full((2, count, 3, 3), np.nan)
     for number, places in ((arm, tools), (1 - arm, () if other is None else (other,) * count)):

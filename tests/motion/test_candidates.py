@@ -1,4 +1,4 @@
-"""What is looked at before arms are led: whether they can be where a run begins, ends, and goes."""
+"""Checks before arms are led: whether they can be at a transfer's start and end, and follow its path."""
 
 from dataclasses import replace
 from typing import Any

@@ -1,4 +1,4 @@
-"""The drawn cloth is cloth: bent and cut, never stretched."""
+"""The cloth that is drawn is bent and cut, never stretched."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
 
 LOOKS = 40
-"""Moments of a plan at which its cloth is measured."""
+"""The number of moments of a plan at which its cloth is measured."""
 
 
 def area_m2(surface: ClothSurface) -> float:
@@ -20,7 +20,7 @@ def area_m2(surface: ClothSurface) -> float:
 
 
 def require_unstretched(plan: Plan) -> None:
-    """The summed area of all layers is that of the pattern, at every moment."""
+    """Require the summed area of all layers to be that of the pattern, at every moment."""
     timeline = Timeline.of(plan)
     whole = area_m2(timeline.at(0.0).cloth)
     for t in np.linspace(0.0, timeline.duration_s, LOOKS):

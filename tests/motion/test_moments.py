@@ -1,4 +1,4 @@
-"""Moments of phases that are built by hand: how many, where the tools are then, and how they turn in their grips."""
+"""Moments of hand-built phases: their number, the tools' poses, and how tools turn in their grips."""
 
 import math
 from dataclasses import replace
@@ -29,19 +29,19 @@ def holding(*points: Point3, approach: Approach = SLANTED, rolls_rad: tuple[floa
 
 
 def phase(*hands: Hand | None, duration_s: float = 3.0, end: Pose2 = STAND) -> Phase:
-    """A phase in which the base goes from `STAND` to `end`; with hands only for the arms told, from the left."""
+    """Return a phase in which the base goes from `STAND` to `end`, with hands for the given arms, from the left."""
     both = (*hands, *(None,) * (2 - len(hands)))
     return Phase(duration_s, (STAND, end), both, CLOTH, motion=0 if end == STAND else None)
 
 
 def turns(moments: Moments, arm: int) -> FloatArray:
-    """By how much a tool turns from each moment to the next (rad)."""
+    """Return the angle by which a tool turns from each moment to the next (rad)."""
     rotations = moments.rotations[arm]
     return Rotation.from_matrix(rotations[:-1].swapaxes(1, 2) @ rotations[1:]).magnitude()
 
 
 def lean(rotation: FloatArray) -> float:
-    """How much of the line from finger to finger points up."""
+    """Return the upward component of the line from finger to finger."""
     return abs(float(rotation[2, 1]))
 
 

@@ -1,4 +1,4 @@
-"""The time of a reach is for going home from the run before and for coming: one may use what the other leaves."""
+"""The time of a reach covers going home from the transfer before, and coming: either may use the other's remainder."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Plans with red folds: each replays; what their trajectories show of hands and cloth."""
+"""Plans with red folds: each replays, and its trajectory shows the right hands and cloth."""
 
 from collections.abc import Callable
 from functools import cache
@@ -21,7 +21,7 @@ RELEASE_S = 0.5
 
 @cache
 def planned_chain() -> Plan:
-    """The towel's chain of two red folds, planned for a PR2."""
+    """Plan the towel's chain of two red folds for a PR2."""
     return make_plan(towel(OVER, BACK, OUT), time_limit_s=60.0)
 
 
@@ -46,12 +46,12 @@ def openings(plan: Plan, t_s: float) -> dict[str, float]:
 
 
 def performed(plan: Plan, index: int) -> PlanStep:
-    """The step that performs a fold."""
+    """Return the step that performs a fold."""
     return next(step for step in plan.steps if step.fold == index)
 
 
 def span(plan: Plan, index: int) -> tuple[float, float]:
-    """When a fold begins and ends (s)."""
+    """Return the times at which a fold begins and ends (s)."""
     step = performed(plan, index)
     return step.start_s, step.end_s
 
@@ -81,7 +81,7 @@ def test_the_hands_are_open_once_the_chain_is_done(planned: Callable[[], Plan], 
 
 
 def corners(surface: ClothSurface, below: int) -> FloatArray:
-    """The distinct corners of the layers below one, sorted, shape (n, 3), m."""
+    """Return the distinct corners of the layers below one, sorted, shape (n, 3), m."""
     shown = surface.vertices[surface.triangles[surface.layers < below]].reshape(-1, 3)
     return np.unique(np.round(shown, 6), axis=0)
 

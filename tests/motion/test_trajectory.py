@@ -1,4 +1,4 @@
-"""Trajectories: joints clear of everything and without a gap, also between runs, where the base drives."""
+"""Trajectories: joints clear of everything and without a gap, also between transfers, while the base drives."""
 
 from itertools import pairwise
 
@@ -29,7 +29,7 @@ def trajectory_of(name: str) -> Trajectory:
 
 
 def joints_at(trajectory: Trajectory, t_s: float) -> FloatArray:
-    """All arms' joints at a time, shape (joints,)."""
+    """Return all arms' joints at a time, shape (joints,)."""
     return trajectory.arms.at(t_s)
 
 

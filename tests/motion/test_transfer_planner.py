@@ -1,4 +1,4 @@
-"""What a maker of runs remembers: nothing is worked out twice, and everything is counted all the same."""
+"""The cache of a transfer planner: nothing is computed twice, and everything is counted all the same."""
 
 import math
 
@@ -13,7 +13,7 @@ from tests.builders import fold, garment, rectangle_points
 
 
 def some_fold() -> tuple[TransferPlanner, tuple[Step, ...], tuple[Step, ...]]:
-    """A maker, and a fold of a napkin as it is found by two searches, the one as good as the other."""
+    """Return a planner, and a fold of a napkin as two searches find it, equally good."""
     placement = Pose2(-0.6, 0.15, -math.pi / 2)
     cloth = garment(rectangle_points(0.3, 0.3), fold((0.3, 0.15), (0.0, 0.15), name="half"), placement=placement)
     problem = Problem.of(Task.of(cloth))

@@ -1,4 +1,4 @@
-"""When what happens in a run: rests in which fingers open are part of arm motions."""
+"""The times within a transfer: rests in which fingers open are part of arm motions."""
 
 import numpy as np
 import pytest

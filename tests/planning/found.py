@@ -1,4 +1,4 @@
-"""Plans with what they were found with: problem, acts and joint paths, which a plan itself does not hold."""
+"""Plans with the problem, acts and joint paths of their search, which a plan itself does not hold."""
 
 from typing import Unpack
 

@@ -1,4 +1,4 @@
-"""Small problems that have no plan, and what it takes to see that a reason is gone."""
+"""Small problems that have no plan, and checks that a reason is gone."""
 
 import math
 from collections.abc import Mapping
@@ -41,12 +41,12 @@ HAMMER_SCENE = Scene(stations=(("front", Pose2(-0.8, 0.0, 0.0)),))
 
 
 def fixed(height_m: float = LEVEL_M, **fields: object) -> Scene:
-    """A scene in which the robot stands still before the table: so nothing is dragged, and what is near is near."""
+    """Return a scene in which the robot stands still before the table, so that nothing is dragged."""
     return Scene(stations=FRONT, back_off_max_m=0.0, table=Table(height_m=height_m), **fields)
 
 
 def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -> Garment:
-    """A strip 0.1 m wide along the table's x, its far end to be folded back over a line `depth_m` from it.
+    """Return a strip 0.1 m wide along the table's x, its far end to be folded back over a line `depth_m` from it.
 
     One grip in the middle of the far end holds both its corners, 0.05 m away. The strip's middle is before the left
     shoulder, so what counts for the left arm is the distance ahead.
@@ -57,26 +57,26 @@ def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -
 
 
 def refused(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Plan:
-    """The answer where there is no plan."""
+    """Return the answer, which must have no plan."""
     return met(cloth, scene, **options).plan
 
 
 def met(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> FoundPlan:
-    """The answer where there is no plan, and all that was met before that was known."""
+    """Return the answer, which must have no plan, and all reasons that were met before that was known."""
     answer = found_plan(cloth, scene, time_limit_s=60.0, **options)
     assert answer.plan.status == "infeasible"
     return answer
 
 
 def but_for_collisions(answer: Plan) -> Reason:
-    """The only reason of an answer, if nothing else has to be mended with it but what the arms touch then."""
+    """Return the only reason of an answer, if only collisions have to be fixed with it."""
     reason, *others = answer.reasons
     assert all((other.code, other.set) == (Code.COLLISION, reason.set) for other in others)
     return reason
 
 
 def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
-    """The plan of a request once a change has been put into it, as a client would."""
+    """Return the plan of a request after a change has been put into it, as a client would."""
     parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
     options = {name: parts.get(name, float)(value) for name, value in change.items()}
     request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 60.0, **options}
@@ -84,19 +84,19 @@ def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None 
 
 
 def is_gone(reason: Reason, answer: Plan) -> bool:
-    """Whether a plan is solved, or at least a reason of this kind is no longer among its reasons."""
+    """Return whether a plan is solved, or at least has no reason of this kind any more."""
     kind = (reason.fold, reason.code, reason.cause, reason.arm, reason.station)
     return all((r.fold, r.code, r.cause, r.arm, r.station) != kind for r in answer.reasons)
 
 
 def is_in_reach(answer: FoundPlan, number: int) -> bool:
-    """Whether a fold could be done at the start by arms that nothing is in the way of."""
+    """Return whether a fold is possible at the start for arms without obstacles."""
     state = State(0, (0.0, 0.0), 0, 0)
     return any(step.after.done >> number & 1 for step in GFold(answer.problem.context).successors(state))
 
 
 def hammer() -> Garment:
-    """A hammer whose head, at y = 0.4 to 0.5, points away from the robot, to be folded back over y = 0.1."""
+    """Return a hammer whose head, at y = 0.4 to 0.5, points away from the robot, to be folded back over y = 0.1."""
     outline = ((0, 0), (0.3, 0), (0.3, 0.2), (0.2, 0.2), (0.2, 0.4), (0.3, 0.4))
     outline += ((0.3, 0.5), (0, 0.5), (0, 0.4), (0.1, 0.4), (0.1, 0.2), (0, 0.2))
     return garment(outline, fold((0.0, 0.1), (0.3, 0.1), name="hammer"), placement=Pose2(-0.65, 0.15, BACK))

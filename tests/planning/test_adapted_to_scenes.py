@@ -1,4 +1,4 @@
-"""A plan adapted to a scene in which the robot may not stand where it did."""
+"""Plans adapted to a scene in which the robot may not stand where it did."""
 
 from dataclasses import replace
 
@@ -13,14 +13,14 @@ JEANS, SHIRT = load_garment("jeans"), load_garment("t-shirt")
 
 @pytest.fixture(scope="module")
 def driving() -> FoundPlan:
-    """A plan that drives to another station."""
+    """Return a plan that drives to another station."""
     found = found_plan(JEANS, time_limit_s=60.0)
     assert any(p.kind == "move" for p in found.plan.primitives)
     return found
 
 
 def adapted(cloth: Garment, scene: Scene, known: FoundPlan) -> Plan | None:
-    """The plan that is found soon, from one that is known."""
+    """Return the plan that is found quickly, from a known one."""
     found = quick_plan(Task.of(cloth, scene), like=[known])
     return None if found is None else found.plan
 

@@ -1,4 +1,4 @@
-"""Cloth that hangs over two opposite edges alike: nothing pulls at it, however smooth the table."""
+"""Cloth that hangs equally over two opposite edges: nothing pulls at it, however smooth the table."""
 
 import math
 
@@ -10,7 +10,7 @@ from tests.builders import fold, garment, rectangle_points
 
 SMOOTH = Scene(friction=0.0)
 TOO_FAINT_M = 2e-5
-"""0.2 m wide cloth is out of balance by less than a sliver."""
+"""The offset by which cloth 0.2 m wide is out of balance by less than a sliver (m)."""
 
 
 @pytest.mark.parametrize("off_m", [0.0, TOO_FAINT_M, -TOO_FAINT_M])

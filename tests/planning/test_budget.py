@@ -13,11 +13,11 @@ from planner.planning.problem import Problem
 
 PAUSE_S = 0.002
 SEARCH_S = 0.08
-"""Work for some of the T-shirt's search, whatever it takes on the clock."""
+"""Work for a part of the T-shirt's search (s), whatever its duration."""
 
 
 def busy() -> bool:
-    """Asked whether to stop, a machine that is slow to answer."""
+    """Return a question whether to stop that a slow machine answers slowly."""
     time.sleep(PAUSE_S)
     return False
 

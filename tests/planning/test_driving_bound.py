@@ -1,4 +1,4 @@
-"""The bound on driving, for loose folds: consistent, no greater than what is true, and close to it."""
+"""The bound on driving for loose folds: consistent, never too high, and close to the true cost."""
 
 import math
 from dataclasses import replace

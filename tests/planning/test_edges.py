@@ -1,4 +1,4 @@
-"""What leaves a state in the search: all that can be done, but for what is no cheaper than from a state left before."""
+"""The edges of a state in the search: all successors, except those that are no cheaper than from an earlier state."""
 
 import pytest
 
@@ -14,7 +14,7 @@ EXPANDED_MAX = 100_000
 
 
 def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
-    """What the model allows, whether arms can follow it or not."""
+    """Return the edges that the model allows, whether arms can follow them or not."""
     return Edges(context, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: are_spares_wanted)
 
 
@@ -55,7 +55,7 @@ def test_from_a_back_off_passed_on_the_way_only_the_base_moves_on():
 
 
 def kinds_of(found) -> set[str]:
-    """The kinds of all steps, those worked out that have time."""
+    """Return the kinds of all steps, with the deferred ones that take time worked out."""
     kinds: set[str] = set()
     waiting = list(found)
     while waiting:

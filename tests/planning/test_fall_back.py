@@ -1,4 +1,4 @@
-"""A search that takes long falls back on a plan found greedily, and tells of it while it goes on."""
+"""A long search falls back on a greedy plan, and reports it while it goes on."""
 
 import pytest
 
@@ -8,12 +8,12 @@ from planner.planning.found_plan import FoundPlan
 from tests.replay.planned import planned
 
 TOO_FEW = 10
-"""Not enough states to find the T-shirt's quickest plan."""
+"""Too few states to find the T-shirt's quickest plan."""
 
 
 @pytest.fixture
 def found(monkeypatch: pytest.MonkeyPatch) -> list[FoundPlan]:
-    """What searches that fall back at once tell of."""
+    """Return the plans that searches report which fall back at once."""
     monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.0)
     return []
 

@@ -1,4 +1,4 @@
-"""Plans found at one go: they can be done, though others may be quicker."""
+"""Greedy plans: they can be executed, though others may be quicker."""
 
 import pytest
 

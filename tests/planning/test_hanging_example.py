@@ -46,25 +46,25 @@ class LyingDrag(GDrag):
 
 
 def hanging_m(context: Context, state: State) -> float:
-    """How deep the deepest point of the cloth hangs in a state of the search, let go (m)."""
+    """Return how deep the deepest point of the cloth hangs in a state of the search, let go (m)."""
     corners = context.sequence.cloth(state.done).silhouette.coordinates
     return deepest_m(context.scene.table, context.placed(state.offset).to_outer(corners))
 
 
 def hanging_after_m(plan: Plan, step: PlanStep) -> float:
-    """How deep the deepest point of the cloth hangs after a step of a plan, let go (m)."""
+    """Return how deep the deepest point of the cloth hangs after a step of a plan, let go (m)."""
     corners = plan.sequence.cloth(step.after.done).silhouette.coordinates
     return deepest_m(plan.scene.table, step.after.placement.to_outer(corners))
 
 
 def deepest_m(table: Table, corners: FloatArray) -> float:
-    """How far the furthest of some points of the table frame's unrolled plane, shape (n, 2), is beyond an edge (m)."""
+    """Return how far the furthest of points of the unrolled plane, table frame, shape (n, 2), is beyond an edge (m)."""
     half = np.array([table.depth_m, table.width_m]) / 2
     return max(0.0, float((np.abs(corners) - half).max()))
 
 
 def dragged_x_m(plan: Plan, step: PlanStep) -> float:
-    """How far the cloth lies from where it lay at the start, after a step (m along the table's x)."""
+    """Return how far the cloth lies from its start, after a step (m along the table's x)."""
     return step.after.placement.x_m - plan.task.start.placement.x_m
 
 
@@ -75,13 +75,13 @@ def towel() -> Plan:
 
 @pytest.fixture
 def without_hanging(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only drags that leave nothing hanging, and a "no" only once all states are exhausted."""
+    """Allow only drags that leave nothing hanging, and a "no" only once all states are exhausted."""
     monkeypatch.setattr(edges, "PRIMITIVES", (GFold, LyingDrag, BaseMove))
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
 
 
 def drag_and_fold(plan: Plan, index: int) -> tuple[PlanStep, PlanStep]:
-    """The step that performs a fold, and the one before it."""
+    """Return the step that performs a fold, and the one before it."""
     at = [step.fold for step in plan.steps].index(index)
     return plan.steps[at - 1], plan.steps[at]
 

@@ -1,4 +1,4 @@
-"""Cloth that hangs is taken, and left, a little outside the table's edge: fingers do not fit into the top."""
+"""Hanging cloth is gripped and released a little outside the table's edge: fingers do not fit into the top."""
 
 import math
 
@@ -15,13 +15,13 @@ CLEAR_M = Scene().edge_clear_m
 
 
 def towel(hanging_m: float, line_m: float, length_m: float = 0.5) -> Garment:
-    """A towel whose near end hangs over the near edge, and the fold that brings it back, `line_m` from that end."""
+    """Return a towel whose near end hangs over the near edge, and the fold that brings it back, `line_m` from there."""
     over = fold((0.3, line_m), (0.0, line_m))
     return garment(rectangle_points(0.3, length_m), over, placement=Pose2(-0.8 - hanging_m, 0.15, -math.pi / 2))
 
 
 def aside(hanging_m: float, x_m: float, side: float) -> Garment:
-    """A towel over the edge at the robot's left (side 1) or right (-1), its middle at `x_m`."""
+    """Return a towel over the edge at the robot's left (side 1) or right (-1), its middle at `x_m`."""
     line_m = hanging_m + 0.08
     over = fold((0.3, line_m), (0.0, line_m))
     placement = Pose2(x_m + side * 0.15, side * (0.49 + hanging_m), math.pi if side > 0 else 0.0)
@@ -29,7 +29,7 @@ def aside(hanging_m: float, x_m: float, side: float) -> Garment:
 
 
 def required(cloth: Garment, scene: Scene | None = None) -> Plan:
-    """The plan there must be, which replays, and in which nothing touches anything."""
+    """Require a plan that replays and in which nothing touches anything; return it."""
     plan = make_plan(cloth, scene, time_limit_s=60.0)
     assert plan.is_solved, plan.reasons
     check(cloth.to_dict(), plan.scene.to_dict(), plan.to_dict())

@@ -36,17 +36,17 @@ HALF = fold((0.3, 0.15), (0.0, 0.15), name="half")
 QUARTER = fold((0.15, 0.15), (0.15, 0.3), name="quarter")
 OVER, BACK_OVER = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
 IDLE_S = 3.0
-"""The time of an arm motion in which the joints have time enough."""
+"""The time of an arm motion that is long enough for the joints (s)."""
 
 HURRIED_S = 0.3
-"""And one in which they have not: runs take longer than they seem, and what seems quickest is not always so."""
+"""The time of an arm motion that is too short (s): transfers take longer than they seem, and the order may change."""
 
 ROOM_TO_TURN_M = 0.35
-"""A back-off that lets the base drive round the table, and the cloth be dragged."""
+"""A standoff that lets the base drive round the table, and the cloth be dragged (m)."""
 
 
 def napkin(*folds, x_m: float = -0.6) -> Garment:
-    """A napkin of 0.3 x 0.3 m, its near edge at x = `x_m`."""
+    """Return a napkin of 0.3 x 0.3 m, its near edge at x = `x_m`."""
     return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(x_m, 0.15, BACK))
 
 
@@ -59,7 +59,7 @@ def planned(cloth: Garment, where: Scene) -> Plan:
 
 
 class Eager:
-    """The plain way: Dijkstra's search over states with free hands, every run between them made real at once."""
+    """Dijkstra's search over states with free hands, with every transfer between them validated at once."""
 
     def __init__(self, context: Context) -> None:
         self._kinds = [kind(context) for kind in PRIMITIVES]
@@ -81,7 +81,7 @@ class Eager:
         return math.inf
 
     def _runs(self, state: State, so_far: tuple[Step, ...]) -> Iterator[tuple[Step, ...]]:
-        """All that can be done in a state until the hands are free again."""
+        """Yield all that can be done in a state until the hands are free again."""
         for kind in self._kinds:
             for step in kind.successors(state):
                 run = (*so_far, step)
@@ -112,11 +112,11 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
 
 
 IsBarred = Callable[[int, Pose2], bool]
-"""Whether an arm, by its number, collides whatever it does while the base stands somewhere."""
+"""A function of an arm's index and a base pose: whether the arm collides there whatever it does."""
 
 
 class BarredCollisions:
-    """What is in whose way, and more."""
+    """Collisions with added obstacles."""
 
     def __init__(self, real: Collisions, is_barred: IsBarred) -> None:
         self._real = real
@@ -149,7 +149,7 @@ class BarredCollisions:
 
 
 class BarredRobot(Pr2):
-    """A PR2 with something in its way that reach knows nothing of."""
+    """A PR2 with an obstacle that its reach ignores."""
 
     def __init__(self, is_barred: IsBarred) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Red folds in the search: what is held, in which order, how long it takes."""
+"""Red folds in the search: grips, order, and times."""
 
 import math
 
@@ -44,7 +44,7 @@ def banner(bar_m: float, radius_m: float = 0.127) -> Garment:
 
 
 def step_of(problem: Context, state: State, index: int = 0) -> FoldStep:
-    """The only way to go on from a state, for a robot that reaches everything, without driving."""
+    """Return the only successor of a state, for a robot that reaches everything, without driving."""
     steps = [s for s in GFold(problem).successors(state) if s.after.back_off == state.back_off]
     return next(s for s in steps if s.way.trial.fold == index or state.held)
 
@@ -126,7 +126,7 @@ def test_a_hand_that_has_let_go_in_a_chain_holds_nothing_later_in_it():
 
 
 def tip() -> DrawnFold:
-    """The corner's flap, halved parallel to its crease: from side to side half-way to its tip."""
+    """Return the corner's flap, halved parallel to its crease: from side to side half-way to its tip."""
     length = math.sqrt(13)
     twice = 2 * 0.15 * 2 / length
     landed = (0.4 - twice * 2 / length, 0.5 - twice * 3 / length)

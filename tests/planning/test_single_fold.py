@@ -1,4 +1,4 @@
-"""The relaxation must never deny what can be done, and should see at once what cannot."""
+"""The single-fold relaxation never denies what is possible, and soon sees what is not."""
 
 import math
 from itertools import count
@@ -50,7 +50,7 @@ def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
 @pytest.mark.parametrize("name", HALVED)
 def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
     def looked_at(stop_after: float) -> tuple[bool, int]:
-        """Whether the first fold is impossible, and how often it was asked whether to stop."""
+        """Return whether the first fold is impossible, and how often the search asked whether to stop."""
         problem, asked = Problem.of(Task.of(load_garment(name))), count(1)
         alone = SingleFold(problem.context, problem.start.station, lambda: next(asked) > stop_after)
         return alone.is_impossible(0), next(asked) - 1

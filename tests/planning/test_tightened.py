@@ -1,4 +1,4 @@
-"""Tasks with less room, in which ways come first that are among many others where there is more."""
+"""Tightened tasks, which bring to the front ways that are among many others where there is more room."""
 
 import math
 from dataclasses import replace

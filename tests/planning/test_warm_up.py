@@ -1,4 +1,4 @@
-"""What is compiled is compiled before the first plan."""
+"""Kernels are compiled before the first plan."""
 
 import subprocess
 import sys

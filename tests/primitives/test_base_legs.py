@@ -17,7 +17,7 @@ def strip_of(*masks: int) -> NDArray[np.uint32]:
 
 
 def brute_force(strip: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
-    """The least steps between all back-offs at the first waypoint and all at the last."""
+    """Return the least steps between all standoffs at the first waypoint and all at the last."""
     graph = nx.DiGraph()
     last = len(strip) - 1
     for waypoint, mask in enumerate(strip.tolist()):
@@ -38,7 +38,7 @@ def brute_force(strip: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
 
 
 def random_strips(seed: int) -> tuple[NDArray[np.uint32], int]:
-    """One to three strips of back-offs, dense enough that there mostly is a way."""
+    """Return one to three strips of standoffs, dense enough that there mostly is a way."""
     rng = random.Random(seed)
     count, waypoints = rng.randint(1, 9), rng.randint(1, 7)
     share = rng.uniform(0.4, 1.0)

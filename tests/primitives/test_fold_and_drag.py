@@ -25,7 +25,7 @@ BACK = -math.pi / 2
 
 
 def towel(*folds, x_m: float = -0.75, y_m: float = 0.2) -> Garment:
-    """A towel whose near edge lies at x = `x_m`."""
+    """Return a towel whose near edge lies at x = `x_m`."""
     return garment(rectangle_points(0.4, 0.3), *folds, placement=Pose2(x_m, y_m, BACK))
 
 

@@ -1,4 +1,4 @@
-"""All ways to do a fold between two states: the least travel first, the base only where the hands can follow."""
+"""Variants of a fold between two states: the least travel first, and the base only where the hands can follow."""
 
 import math
 
@@ -37,7 +37,7 @@ def step_of(context: Context, state: State, variant: Variant) -> FoldStep:
 
 
 def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
-    """From where each waypoint is in reach of both hands in a variant's orientations, asked one by one."""
+    """Return from where each waypoint is in reach of both hands in a variant's orientations, by single queries."""
     trial, found = variant.way.trial, np.full(len(variant.way.trial.sweeps), -1)
     for arm, tools, approach in zip(trial.arms, trial.tools, variant.way.approaches, strict=True):
         points = context.in_base(station, tools)
@@ -48,7 +48,7 @@ def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
 
 
 def travel_m(step: FoldStep) -> float:
-    """How far the base drives in a step's phases (m)."""
+    """Return how far the base drives in a step's phases (m)."""
     drives = [(phase.base[0], phase.base[1]) for phase in step.phases()]
     return sum(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) for a, b in drives)
 

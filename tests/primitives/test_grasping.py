@@ -1,4 +1,4 @@
-"""Which arm takes which grip, and from where."""
+"""The assignment of arms to grips, and their approaches."""
 
 import math
 
@@ -14,7 +14,7 @@ TOWEL = garment(rectangle_points(0.4, 0.3))
 
 
 class Fan(WideReach):
-    """Level-headed: pinches at 30 degrees from nine headings, and straight down."""
+    """Approaches that pinch at 30 degrees from nine headings, and straight down."""
 
     approaches = (
         *(Approach(math.radians(h), math.radians(30)) for h in range(-120, 121, 30)),
@@ -23,7 +23,7 @@ class Fan(WideReach):
 
 
 def headings(grip: Point2, cone_deg: float, turn_deg: float = 0.0) -> list[float]:
-    """The headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
+    """Return the headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
     problem = context(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
     found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip, 0)
     chosen = [Fan.approaches[i] for i in found]

@@ -1,4 +1,4 @@
-"""Two states are equal iff all of theirs is, to the grid."""
+"""Two states are equal if and only if all their fields are, to the grid."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Replays a solved plan from its JSON alone, and fails on the first thing that the mathematics forbids.
+"""Replay a solved plan from its JSON alone, and fail at the first violation of the mathematics.
 
 It shares no code with the planner: garment, scene and plan come in as plain JSON, and shapely does the geometry. What
 it holds a plan to: the clock adds up, folds come in an order that the Fold-DAG allows, every grip is where it must be,
@@ -37,7 +37,7 @@ def check(
 
 
 class Checker(World):
-    """Performs a plan's primitives one by one on the world."""
+    """A replay of a plan's primitives one by one on the world."""
 
     def run(self, plan: dict[str, Any]) -> None:
         self._require_dag(plan["dag"])
@@ -89,7 +89,7 @@ class Checker(World):
             assert self.held_from != "fold", f"{name}: interrupts a chain of red folds"
 
     def _picked(self, grip: dict[str, Any], name: str) -> Place:
-        """The point of the article that a grip takes, or holds already."""
+        """Return the point of the article that a grip takes, or holds already."""
         pick, arm = tuple(grip["pick"]), grip["arm"]
         if self.held:
             assert arm in self.held, f"{name}: the {arm} arm holds nothing, and there is no time to reach"
@@ -111,7 +111,7 @@ class Checker(World):
         name: str,
         still: flat.Line | None = None,
     ) -> None:
-        """Every vertex is held, by as few grips as can be and as near as can be, and grips are on the cloth."""
+        """Require every vertex to be held, by the fewest and nearest grips possible, with grips on the cloth."""
         assert 1 <= len(spots) <= len(ARMS), f"{name}: {len(spots)} grips for two arms"
         for spot in spots:
             gap = piece.distance(Point(spot)) if self.held else piece.boundary.distance(Point(spot))
@@ -139,7 +139,7 @@ class Checker(World):
             assert gaps[1] < NEAR_M, f"{name}: the place is {gaps[1]:.4f} m off {place}"
 
     def _sweep(self, spot: Place, line: flat.Line) -> tuple[Space, ...]:
-        """The way of a grip: up along (b, d - b) to the apex, down along (-b, d - b), taken over the edges."""
+        """Return the path of a grip: up along (b, d - b) to the apex, down along (-b, d - b), taken over the edges."""
         distance, (nx, ny) = flat.distance_left(line, spot), flat.left_normal(line)
         points = []
         for share in np.linspace(1.0, -1.0, 201):
@@ -157,7 +157,7 @@ class Checker(World):
             self.ways[-1][grip["arm"]] = Way(way, not self.held, inwards)
 
     def _require_fold_time(self, primitive: dict[str, Any], name: str) -> None:
-        """Two or three arm motions, and base legs on the grid that lead from one back-off to the other.
+        """Require two or three arm motions, and base legs on the grid that lead from one standoff to the other.
 
         Where the arms cannot keep up with the base it drives a little slower: by half a step of the grid at most.
         """

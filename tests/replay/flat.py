@@ -1,4 +1,4 @@
-"""Plane geometry for the checker, with shapely alone: silhouettes, cuts along a segment, what must be held."""
+"""Plane geometry for the checker, with shapely alone: silhouettes, cuts along a segment, vertices to hold."""
 
 import math
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import split
 
 NEAR_M = 1e-4
-"""The checker's own idea of "the same place" (m): coarser than the planner's, finer than a thread."""
+"""The checker's own tolerance of position (m): coarser than the planner's, finer than a thread."""
 
 SLIVER_M2 = 1e-5
 
@@ -31,7 +31,7 @@ def left_normal(line: Line) -> Place:
 
 
 def distance_left(line: Line, point: Place) -> float:
-    """The signed distance of a point from the whole line, positive on its left (m)."""
+    """Return the signed distance of a point from the whole line, positive on its left (m)."""
     nx, ny = left_normal(line)
     return (point[0] - line[0][0]) * nx + (point[1] - line[0][1]) * ny
 
@@ -49,25 +49,25 @@ def mirrored(line: Line, shape: BaseGeometry) -> BaseGeometry:
 
 
 def polygons(shape: BaseGeometry) -> list[Polygon]:
-    """The polygons of a shape that are large enough to be cloth."""
+    """Return the polygons of a shape that are large enough to be cloth."""
     parts = [part for part in shapely.get_parts(shape) if part.geom_type == "Polygon"]
     return [part for part in parts if part.area >= SLIVER_M2]
 
 
 def together(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
-    """What at least one shape covers; hairline cracks between them are closed."""
+    """Return the union of shapes, with hairline cracks between them closed."""
     whole = shapely.union_all(list(shapes))
     with np.errstate(divide="ignore", invalid="ignore"):  # GEOS divides by zero at a crack's tip, and copes with it
         return whole.buffer(2e-6, join_style="mitre").buffer(-2e-6, join_style="mitre")
 
 
 def without_hairs(shape: BaseGeometry) -> BaseGeometry:
-    """A shape without the hairline spurs that a difference leaves where edges lie on one another."""
+    """Return a shape without the hairline spurs that a difference leaves along common edges."""
     return shape.buffer(-5e-6, join_style="mitre").buffer(5e-6, join_style="mitre")
 
 
 def cut_along(shape: BaseGeometry, line: Line) -> BaseGeometry:
-    """The part joined to the left side of a segment whose ends lie on the boundary; fails if it parts nothing."""
+    """Return the part joined to the left side of a segment with ends on the boundary; fails if it separates nothing."""
     (ux, uy), (nx, ny) = unit(line), left_normal(line)
     (ax, ay), (bx, by) = line
     over = 2e-5
@@ -86,7 +86,7 @@ def cut_along(shape: BaseGeometry, line: Line) -> BaseGeometry:
 
 
 def corners(shape: BaseGeometry) -> list[tuple[Place, Place, Place]]:
-    """Each true outer corner with its neighbours."""
+    """Yield each true outer corner with its neighbours."""
     found = []
     for polygon in polygons(shape):
         ring = [tuple(p) for p in polygon.exterior.coords[:-1]]
@@ -105,7 +105,7 @@ def corners(shape: BaseGeometry) -> list[tuple[Place, Place, Place]]:
 
 
 def must_hold(shape: BaseGeometry, up: Place, baselines: list[Line], support_angle_rad: float) -> list[Place]:
-    """Vertices on the hull and off the baseline above which, within the support angle, there is no cloth."""
+    """Return the vertices on the hull and off the baseline with no cloth above, within the support angle."""
     hull = MultiPoint([p for _, p, _ in corners(shapely.convex_hull(shape))] or [shapely.get_coordinates(shape)[0]])
     heading = math.atan2(up[1], up[0])
     needed = []
@@ -123,7 +123,7 @@ def must_hold(shape: BaseGeometry, up: Place, baselines: list[Line], support_ang
 
 
 def bisector(shape: BaseGeometry, point: Place) -> Place:
-    """The unit vector through the middle of the directions that lead from a boundary point into a shape."""
+    """Return the unit vector through the middle of the directions that lead from a boundary point into a shape."""
     angles = np.arange(0.0, math.tau, math.tau / 720)
     spots = np.array(point) + 1e-3 * np.column_stack([np.cos(angles), np.sin(angles)])
     inside = shapely.contains_xy(shape, spots)
@@ -132,14 +132,14 @@ def bisector(shape: BaseGeometry, point: Place) -> Place:
 
 
 def reach_of(grips: list[Place], vertices: list[Place]) -> list[float]:
-    """Each vertex's distance to the grip nearest to it, largest first (m)."""
+    """Return each vertex's distance to the grip nearest to it, largest first (m)."""
     return sorted((min(math.dist(v, g) for g in grips) for v in vertices), reverse=True)
 
 
 def best_cover(
     shape: BaseGeometry, vertices: list[Place], radius_m: float, arms: int, still: Line | None = None
 ) -> list[float] | None:
-    """The distances of the best cover with the fewest grips, by trying all; None if the arms do not suffice.
+    """Return the distances of the best cover with the fewest grips, by trying all; None if the arms do not suffice.
 
     Nothing is lifted by a hand on the line that stays where it is.
     """

@@ -34,7 +34,7 @@ class Stack:
         return self.sheets[len(self.sheets) - self.moved :] if is_red else self.sheets
 
     def moving_part(self, line: Line, is_red: bool) -> BaseGeometry:
-        """The silhouette of what a fold over this line moves."""
+        """Return the part of the silhouette that a fold over this line moves."""
         return cut_along(together(sheet.shape for sheet in self.active(is_red)), line)
 
     def folded(self, line: Line, is_red: bool) -> "Stack":
@@ -77,7 +77,7 @@ class Folds:
         return len(self.lines)
 
     def before(self) -> dict[int, set[int]]:
-        """For each fold all the folds that must precede it."""
+        """Return for each fold all the folds that must precede it."""
         earlier: dict[int, set[int]] = {}
         for b in range(len(self)):
             direct = {a for a in range(b) if self.parts[a].intersection(self.parts[b]).area > SLIVER_M2}
@@ -86,7 +86,7 @@ class Folds:
         return earlier
 
     def edges(self) -> list[list[int]]:
-        """The same as the fewest pairs that say it."""
+        """Return the transitive reduction of that order, as pairs."""
         earlier = self.before()
         return sorted(
             [a, b]

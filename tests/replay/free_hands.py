@@ -21,10 +21,10 @@ from tests.replay.hands import CLOSED_M, seen
 from tests.replay.hulls import Body, bodies, robot
 
 OVER_CLOTH_M = 0.03
-"""No part of a free arm is lower over cloth, but for hands near their grips."""
+"""The least height of a free arm's parts over cloth (m), except for hands near their grips."""
 
 LAST_M = 0.08
-"""So near to a grip, along its way, a hand may be lower."""
+"""The distance to a grip, along the way there, within which a hand may be lower (m)."""
 
 PARTS = ("elbow", "forearm", "wrist", "gripper")
 SIDES = {"left": "l_", "right": "r_"}
@@ -45,7 +45,7 @@ class Look:
 
 
 def looks(plan: Plan, rate_hz: float) -> list[Look]:
-    """Samples of a plan's trajectory."""
+    """Return samples of a plan's trajectory."""
     height_m = plan.scene.table.height_m
     frames = list(Timeline.of(plan).samples(rate_hz))
     moments = [seen(frame.to_dict(), height_m) for frame in frames]
@@ -62,7 +62,7 @@ def looks(plan: Plan, rate_hz: float) -> list[Look]:
 
 
 def in_table(look: Look, table: Table) -> Iterator[tuple[str, float]]:
-    """The links of free arms, fingertips too, that are in the table, and how deep (m)."""
+    """Return the links of free arms, fingertips too, that are in the table, and how deep (m)."""
     for arm, to_grip_m in look.to_grip_m.items():
         if not np.isnan(to_grip_m):
             for link, pose in _arm_links(arm, look.frame, table):
@@ -73,7 +73,7 @@ def in_table(look: Look, table: Table) -> Iterator[tuple[str, float]]:
 
 
 def too_low(look: Look, table: Table) -> Iterator[tuple[str, float]]:
-    """The links of free arms that are too low over cloth, and how much higher they should be (m)."""
+    """Return the links of free arms that are too low over cloth, and how much higher they should be (m)."""
     cloth = None
     for arm, to_grip_m in look.to_grip_m.items():
         if not np.isnan(to_grip_m) and to_grip_m > LAST_M:
@@ -85,7 +85,7 @@ def too_low(look: Look, table: Table) -> Iterator[tuple[str, float]]:
 
 
 def _arm_links(arm: str, frame: Sample, table: Table) -> Iterator[tuple[Body, Any]]:
-    """An arm's links from the elbow outwards, and their poses in the table frame, where they are low."""
+    """Return the low links of an arm from the elbow outwards, and their poses in the table frame."""
     robot().update_cfg(frame.joints)
     base = trimesh.transformations.rotation_matrix(frame.base.yaw_rad, (0.0, 0.0, 1.0))
     base[:3, 3] = (frame.base.x_m, frame.base.y_m, -table.height_m)
@@ -98,7 +98,7 @@ def _arm_links(arm: str, frame: Sample, table: Table) -> Iterator[tuple[Body, An
 
 
 def _slabs(frame: Sample) -> list[Any]:
-    """Where nothing may be: convex pieces of what lies on the table, 3 cm high."""
+    """Return convex regions that must stay empty: the cloth on the table, 3 cm high."""
     corners = frame.cloth.vertices[frame.cloth.triangles]
     lying = corners[(np.abs(corners[:, :, 2]) < OVER_CLOTH_M).all(axis=1)][:, :, :2]
     whole = shapely.union_all(shapely.polygons(lying).tolist(), grid_size=1e-5)

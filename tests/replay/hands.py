@@ -1,4 +1,4 @@
-"""Where the robot's tools really are in a plan's trajectory, by pinocchio from the URDF and the joints' names alone."""
+"""The poses of the robot's tools in a trajectory, by pinocchio from the URDF and the joints' names alone."""
 
 import math
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ def robot() -> tuple[Any, Any]:
 
 @dataclass(frozen=True)
 class Moment:
-    """One sample: the tools in the table frame, how they point, whether they are closed, where the base is."""
+    """A sample: the tools in the table frame, their directions, whether they are closed, the base."""
 
     t_s: float
     primitive: int
@@ -34,7 +34,7 @@ class Moment:
 
 
 def seen(sample: dict[str, Any], table_height_m: float) -> Moment:
-    """Forward kinematics of one sample of a timeline's JSON."""
+    """Return the forward kinematics of one sample of a timeline's JSON."""
     model, data = robot()
     q = pin.neutral(model)
     for name, value in sample["joints"].items():
@@ -66,7 +66,7 @@ def require_joint_limits(sample: dict[str, Any]) -> None:
 
 
 def distance_to_way(point: Space, way: list[Space]) -> float:
-    """How far a point is from a polyline (m)."""
+    """Return the distance of a point from a polyline (m)."""
     spot, best = np.array(point), math.inf
     for a, b in zip(map(np.array, way[:-1]), map(np.array, way[1:]), strict=True):
         square = float((b - a) @ (b - a))

@@ -1,4 +1,4 @@
-"""What collides, seen independently: the convex hulls of the robot's full meshes, posed by yourdfpy.
+"""An independent check of collisions: the convex hulls of the robot's full meshes, posed by yourdfpy.
 
 Nothing of `planner.robots` is used. Every link is the hull of all that the URDF has for it, shown or for collisions.
 Links are compared unless nothing moves between them; one carries the other over no more than three joints (such
@@ -46,7 +46,7 @@ def mesh_path(fname: str) -> str:
 
 
 def link_vertices(name: str) -> np.ndarray:
-    """All vertices of a link's meshes, and the corners of its other shapes, in its frame, shape (n, 3)."""
+    """Return all vertices of a link's meshes, and the corners of its other shapes, in its frame, shape (n, 3)."""
     link = robot().link_map[name]
     found = [np.empty((0, 3))]
     for one in (*link.visuals, *link.collisions):
@@ -77,13 +77,13 @@ def body(name: str, vertices: np.ndarray) -> Body:
 
 @cache
 def bodies() -> tuple[Body, ...]:
-    """All links that have a shape."""
+    """Return all links that have a shape."""
     clouds = {name: link_vertices(name) for name in robot().link_map}
     return tuple(body(name, cloud) for name, cloud in clouds.items() if len(cloud))
 
 
 def moving_joints(link: str) -> tuple[str, ...]:
-    """The joints that move a link, the base's first."""
+    """Return the joints that move a link, the base's first."""
     joint_to = {joint.child: joint for joint in robot().joint_map.values()}
     found: list[str] = []
     while link in joint_to:
@@ -94,7 +94,7 @@ def moving_joints(link: str) -> tuple[str, ...]:
 
 
 def are_compared(a: str, b: str) -> bool:
-    """Whether two links may not overlap."""
+    """Return whether two links are checked for overlap."""
     to_a, to_b = moving_joints(a), moving_joints(b)
     shared = sum(one == other for one, other in zip(to_a, to_b, strict=False))
     between = len(to_a) + len(to_b) - 2 * shared
@@ -105,13 +105,13 @@ def are_compared(a: str, b: str) -> bool:
 
 @cache
 def pairs() -> np.ndarray:
-    """Numbers of the links to be compared, shape (n, 2)."""
+    """Return the indices of the links to check against each other, shape (n, 2)."""
     names = [one.name for one in bodies()]
     return np.array([(i, j) for i, j in combinations(range(len(names)), 2) if are_compared(names[i], names[j])])
 
 
 def contacts(joints: dict[str, float], base: tuple[float, float, float], table: Table) -> list[tuple[str, str, float]]:
-    """What collides in one posture.
+    """Return the collisions in one posture.
 
     Args:
         joints: every actuated joint by name, the torso's and the grippers' among them (rad, m).
@@ -146,6 +146,6 @@ def _yaw(angle: float) -> np.ndarray:
 
 
 def _depth(a: Any, pose_a: np.ndarray, b: Any, pose_b: np.ndarray) -> float:
-    """How deep two convex shapes are in each other (m); not positive if they are apart."""
+    """Return the penetration depth of two convex shapes (m); not positive if they are apart."""
     at_a, at_b = (coal.Transform3s(pose[:3, :3], pose[:3, 3]) for pose in (pose_a, pose_b))
     return -float(coal.distance(a, at_a, b, at_b, coal.DistanceRequest(), coal.DistanceResult()))

@@ -1,4 +1,4 @@
-"""The joints of a trajectory, 50 times a second, and what they are held to."""
+"""The joints of a trajectory, 50 times a second, and their limits."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ RATE_HZ = 50.0
 
 
 def arm_joints(timeline: Timeline) -> tuple[list[str], np.ndarray, float]:
-    """The arms' joints, 50 samples a second, shape (n, joints), and the time between two (s)."""
+    """Return the arms' joints, 50 samples a second, shape (n, joints), and the time between two (s)."""
     count = int(np.ceil(timeline.duration_s * RATE_HZ))
     frames = [timeline.at(t) for t in np.linspace(0.0, timeline.duration_s, count + 1)]
     names = [joint for joint in frames[0].joints if joint.split("_", 1)[1].endswith(("_joint",)) and joint[1] == "_"]
@@ -26,7 +26,7 @@ def speed_limits(joints: list[str]) -> np.ndarray:
 
 
 def require_speeds(timeline: Timeline) -> None:
-    """No joint of an arm is faster than the URDF allows."""
+    """Require that no arm joint is faster than the URDF allows."""
     joints, values, step_s = arm_joints(timeline)
     speeds = np.abs(np.diff(values, axis=0)) / step_s
     over = speeds / speed_limits(joints)
@@ -35,7 +35,7 @@ def require_speeds(timeline: Timeline) -> None:
 
 
 def require_clear(timeline: Timeline, table: Table, every_s: float) -> None:
-    """Nothing touches anything but the cloth."""
+    """Require that nothing touches anything but the cloth."""
     for t in np.arange(0.4 * every_s, timeline.duration_s, every_s):
         frame = timeline.at(float(t))
         found = contacts(frame.joints, (frame.base.x_m, frame.base.y_m, frame.base.yaw_rad), table)

@@ -25,7 +25,7 @@ IMPOSSIBLE = ("tie-halved", "scarf-halved")
 
 @dataclass(frozen=True)
 class Planned:
-    """What the checker is given, and what the plan was found with."""
+    """The checker's input, and the search that found the plan."""
 
     garment: dict[str, Any]
     scene: dict[str, Any]
@@ -40,7 +40,7 @@ class Planned:
 
 @cache
 def planned(name: str) -> Planned:
-    """The plan of a shipped garment in the default scene, with time enough for a cold machine."""
+    """Return the plan of a shipped garment in the default scene, with time enough for a cold machine."""
     garment = load_garment(name)
     found = found_plan(garment, time_limit_s=60.0)
     return Planned(garment.to_dict(), found.plan.scene.to_dict(), found.plan.to_dict(), found)

@@ -1,4 +1,4 @@
-"""The table for the checker: what hangs, whether it stays, and how points go over the edge."""
+"""The table for the checker: hanging cloth, whether it stays, and how points go over the edge."""
 
 import math
 from typing import Any
@@ -12,7 +12,7 @@ from tests.replay.flat import NEAR_M, SLIVER_M2, Line, Place, must_hold, polygon
 
 Space = tuple[float, float, float]
 REST_M = 0.02
-"""How high over the table a tool holds cloth (m)."""
+"""The height over the table at which a tool holds cloth (m)."""
 
 
 class TableSide:
@@ -33,7 +33,7 @@ class TableSide:
         ]
 
     def over_edge(self, place: Place, height_m: float) -> Space:
-        """Where the tool at a point of the unrolled plane at a height is in space: clear of the edge below the top."""
+        """Return the tool's point in space for a point of the unrolled plane and a height: clear of the top's edge."""
         x, y = min(max(place[0], -self.half_x), self.half_x), min(max(place[1], -self.half_y), self.half_y)
         beyond = math.dist(place, (x, y))
         if beyond == 0.0:
@@ -43,7 +43,7 @@ class TableSide:
         return x + clear * (place[0] - x), y + clear * (place[1] - y), height_m - beyond
 
     def unrolled(self, tool: Space) -> Place:
-        """The place in the unrolled plane of cloth that a resting tool holds."""
+        """Return the place in the unrolled plane of cloth that a resting tool holds."""
         depth = REST_M - tool[2]
         assert depth > -NEAR_M, f"a tool at rest is {tool[2]:.4f} m high, not {REST_M} m or below the edge"
         if depth <= NEAR_M:
@@ -55,7 +55,7 @@ class TableSide:
         return tool[0] + further * normal[0], tool[1] + further * normal[1]
 
     def hangs_towards(self, silhouette: BaseGeometry, direction: Place) -> bool:
-        """Whether cloth hangs from an edge that faces a direction."""
+        """Return whether cloth hangs from an edge that faces a direction."""
         x0, y0, x1, y1 = silhouette.bounds
         beyond = {(1.0, 0.0): x1 - self.half_x, (-1.0, 0.0): -x0 - self.half_x}
         beyond |= {(0.0, 1.0): y1 - self.half_y, (0.0, -1.0): -y0 - self.half_y}
@@ -87,13 +87,13 @@ class TableSide:
 
 
 def _least_beyond(part: BaseGeometry, edge: tuple[Place, Line]) -> float:
-    """How far beyond an edge's line the part's innermost point is (m)."""
+    """Return how far beyond an edge's line the part's innermost point is (m)."""
     (nx, ny), ((x, y), _) = edge
     return float(min((px - x) * nx + (py - y) * ny for px, py in shapely.get_coordinates(part)))
 
 
 def _shared(part: BaseGeometry, line: Line) -> list[Line]:
-    """The stretches of a table edge on which a part's boundary lies."""
+    """Return the stretches of a table edge on which a part's boundary lies."""
     common = LineString(line).intersection(part.buffer(2e-5))
     stretches = [s for s in shapely.get_parts(common) if s.length > NEAR_M]
     return [(s.coords[0], s.coords[-1]) for s in stretches]

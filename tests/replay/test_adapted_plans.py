@@ -1,4 +1,4 @@
-"""Plans found soon, from one for a garment that differs a little: they are held against the independent checker."""
+"""Quick plans, adapted from one for a slightly different garment, pass the independent checker."""
 
 import math
 from dataclasses import replace
@@ -28,7 +28,7 @@ each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 
 def moved(name: str, vertex: int, by: tuple[float, float]) -> Garment:
-    """A shipped garment with a vertex pulled; its folds go with the cloth that they are tied to."""
+    """Return a shipped garment with a vertex pulled; its folds follow the cloth that they are tied to."""
     drawing = solve(drawing_of(load_garment(name))).drawing
     outline = list(drawing.outline)
     x, y = outline[vertex].point
@@ -39,18 +39,18 @@ def moved(name: str, vertex: int, by: tuple[float, float]) -> Garment:
 
 
 def free_vertices(cloth: Garment) -> list[int]:
-    """The vertices at which no fold begins or ends."""
+    """Return the vertices at which no fold begins or ends."""
     ends = [end for drawn in cloth.folds for end in (drawn.start, drawn.end)]
     return [i for i, corner in enumerate(cloth.outline) if all(math.dist(corner, end) > 1e-6 for end in ends)]
 
 
 def soon(cloth: Garment, known: FoundPlan) -> FoundPlan | None:
-    """What is found soon for a garment, from a plan that is known."""
+    """Return the quick plan for a garment, from a known plan."""
     return quick_plan(Task.of(cloth), like=[known])
 
 
 def unhurried(found: FoundPlan) -> dict[str, Any]:
-    """A plan as if the joints kept up everywhere: the checker tells from the time how far the base has driven."""
+    """Return a plan as if the joints kept up everywhere: the checker infers the base's way from the time."""
     said, now = found.plan.to_dict(), 0.0
     steps = [step for act in found.acts for step in act.steps]
     for primitive, step in zip(said["primitives"], steps, strict=True):
@@ -69,7 +69,7 @@ def napkin(*folds: Fold) -> Garment:
 
 
 def way(found: FoundPlan) -> list[tuple[object, ...]]:
-    """What is done from where, one after the other."""
+    """Return the primitives in order, with their stations."""
     return [(step.kind, step.fold, step.base.station) for step in found.plan.steps]
 
 

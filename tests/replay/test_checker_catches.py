@@ -1,4 +1,4 @@
-"""The checker itself: a plan that is tampered with must not replay."""
+"""The checker itself: a tampered plan must not replay."""
 
 import copy
 import re
@@ -14,7 +14,7 @@ Json = dict[str, Any]
 
 
 def refusal(name: str, spoil: Callable[[Json], None], scene: Json | None = None) -> str:
-    """What the checker says about a shipped garment's plan after it was spoilt."""
+    """Return the checker's error for a shipped garment's plan after it was tampered with."""
     case = planned(name)
     plan = copy.deepcopy(case.plan)
     spoil(plan)
@@ -29,7 +29,7 @@ def nth(plan: Json, kind: str, number: int = 0) -> Json:
 
 
 def retimed(plan: Json) -> None:
-    """Start times and cost made to fit again, so that only the order is wrong."""
+    """Return a plan with consistent start times and cost, so that only its order is wrong."""
     now = 0.0
     for primitive in plan["primitives"]:
         primitive["start_s"] = now
@@ -237,7 +237,7 @@ def test_a_table_on_which_nothing_of_the_cloth_would_lie_is_caught():
 
 
 def numbers(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The paths of all numbers in JSON, truth values and indices aside."""
+    """Yield the paths of all numbers in JSON, except booleans and indices."""
     if isinstance(node, dict):
         for key, value in node.items():
             yield from numbers(value, (*path, key))

@@ -15,7 +15,7 @@ from tests.replay.joints import require_clear, require_speeds
 
 
 def pulled_tie(corner: int, by_m: float, towards_rad: float) -> Garment:
-    """A tie one of whose corners has been pulled, the folds along with it."""
+    """Return a tie one of whose corners has been pulled, along with its folds."""
     drawing = solve(drawing_of(load_garment("tie"))).drawing
     outline = list(drawing.outline)
     x, y = outline[corner].point

@@ -1,4 +1,4 @@
-"""The trajectory of every plan against the URDF: the tools are where the replay says that the grips must be."""
+"""The trajectory of every plan against the URDF: the tools are at the grips of the replay."""
 
 import math
 from functools import cache
@@ -43,7 +43,7 @@ def moment(name: str, t_s: float) -> Moment:
 
 
 def holding(name: str, number: int, arm: str) -> list[Moment]:
-    """The samples well within a primitive at which an arm's gripper is closed."""
+    """Return the samples well within a primitive at which an arm's gripper is closed."""
     primitive = planned(name).plan["primitives"][number]
     start, end = primitive["start_s"] + 1e-6, primitive["start_s"] + primitive["duration_s"] - 1e-6
     return [m for m in moments(name) if start < m.t_s < end and m.is_closed[arm]]

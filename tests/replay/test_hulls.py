@@ -1,4 +1,4 @@
-"""The independent look at collisions sees what is there to be seen."""
+"""The independent check of collisions finds those that are there."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The joints of every trajectory: within their speeds, without a jump, and clear of everything that a hull can hit."""
+"""The joints of every trajectory: within their speeds, without a jump, and clear of all hulls."""
 
 from itertools import pairwise
 
@@ -15,7 +15,7 @@ from tests.replay.joints import RATE_HZ, arm_joints, require_clear, require_spee
 from tests.replay.planned import SOLVABLE, planned
 
 CHECKED_S = 1.0 / RATE_HZ if settings.get_current_profile_name() == LONG else 0.9
-"""Hulls are compared this often (s): 1.3 ms a moment, and a plan takes half a minute."""
+"""The time between two checks of the hulls (s): a check takes 1.3 ms, and a plan half a minute."""
 
 TURNS = ("forearm_roll", "wrist_roll")
 

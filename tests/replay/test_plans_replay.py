@@ -1,4 +1,4 @@
-"""Every plan of a shipped garment, replayed by a checker that shares no code with the planner."""
+"""Every plan of a shipped garment replays in a checker that shares no code with the planner."""
 
 import pytest
 

@@ -40,7 +40,7 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
 
 
 def _backed_out(poses: list[Pose], inside: Any) -> int:
-    """The index of the way-point where the base is clear of the table, having gone straight back."""
+    """Return the index of the waypoint where the base is clear of the table, having gone straight back."""
     if not inside.contains(Point(poses[0][:2])):
         return 0
     (ax, ay, yaw), (bx, by, _) = poses[0], poses[1]
@@ -53,7 +53,7 @@ def _backed_out(poses: list[Pose], inside: Any) -> int:
 
 
 def _shortest(start: Place, goal: Place, half_x: float, half_y: float) -> float:
-    """The length of the shortest way round a rectangle, by trying every sequence of its corners."""
+    """Return the length of the shortest way round a rectangle, by trying every sequence of its corners."""
     corners = [(-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y)]
     inside = box(SLACK - half_x, SLACK - half_y, half_x - SLACK, half_y - SLACK)
     best = math.inf

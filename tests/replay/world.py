@@ -1,4 +1,4 @@
-"""The world between two primitives of a plan that is replayed, and what every primitive must obey."""
+"""The world between two primitives of a plan that is replayed, and the rules of every primitive."""
 
 import math
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ ARMS = ("left", "right")
 
 @dataclass(frozen=True)
 class Way:
-    """Where a tool must be while it holds cloth, table frame."""
+    """The pose of a tool that holds cloth, table frame."""
 
     points: tuple[Space, ...]
     is_new_grip: bool

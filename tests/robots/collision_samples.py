@@ -18,16 +18,16 @@ TORSO_M = 0.29
 
 
 def random_postures(count: int, seed: int) -> FloatArray:
-    """Both arms' joints anywhere within their limits, shape (count, 2, 7)."""
+    """Return all arms' joints anywhere within their limits, shape (count, 2, 7)."""
     rng = np.random.default_rng(seed)
     return np.array([[random_joints(CARD, arm, rng) for arm in (0, 1)] for _ in range(count)])
 
 
 def with_left(*joints: float) -> FloatArray:
-    """The left arm's joints, the right arm at home, shape (2, 7)."""
+    """Return the left arm's joints with the right arm at home, shape (2, 7)."""
     return np.array([joints, HOME[1]])
 
 
 def both(*joints: float) -> FloatArray:
-    """The left arm's joints, the right arm their mirror image, shape (2, 7)."""
+    """Return the left arm's joints with the right arm as their mirror image, shape (2, 7)."""
     return np.array([joints, np.array(joints) * MIRROR])

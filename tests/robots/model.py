@@ -1,4 +1,4 @@
-"""The PR2 as pinocchio sees it: what the closed form is held against."""
+"""The PR2 in pinocchio: the reference for the closed form."""
 
 import numpy as np
 import pinocchio as pin
@@ -12,13 +12,13 @@ DATA = MODEL.createData()
 
 
 def random_joints(card: RobotCard, arm: int, rng: np.random.Generator) -> FloatArray:
-    """Seven joints within their limits, continuous ones anywhere (rad)."""
+    """Return seven joints within their limits, continuous ones anywhere (rad)."""
     low, high = limits(card, arm)
     return rng.uniform(np.maximum(low, -6.0), np.minimum(high, 6.0))
 
 
 def limits(card: RobotCard, arm: int) -> tuple[FloatArray, FloatArray]:
-    """The lower and upper limits of an arm's joints (rad), infinite for continuous ones."""
+    """Return the lower and upper limits of an arm's joints (rad), infinite for continuous ones."""
     joints = [MODEL.joints[MODEL.getJointId(name)] for name in card.arms[arm].joint_names]
     low = [MODEL.lowerPositionLimit[j.idx_q] if j.nq == 1 else -np.inf for j in joints]
     high = [MODEL.upperPositionLimit[j.idx_q] if j.nq == 1 else np.inf for j in joints]
@@ -26,7 +26,7 @@ def limits(card: RobotCard, arm: int) -> tuple[FloatArray, FloatArray]:
 
 
 def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArray]:
-    """Position and rotation of a frame in base_footprint, with joints set by name."""
+    """Return position and rotation of a frame in base_footprint, with joints set by name."""
     q = pin.neutral(MODEL)
     for name, value in values.items():
         joint = MODEL.joints[MODEL.getJointId(name)]
@@ -37,7 +37,7 @@ def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArr
 
 
 def pin_tool_pose(card: RobotCard, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
-    """Position and rotation of an arm's tool in base_footprint."""
+    """Return position and rotation of an arm's tool in base_footprint."""
     names = card.arms[arm].joint_names
     values = {card.lift_joint: torso_m, **dict(zip(names, joints, strict=True))}
     return pin_pose(card.arms[arm].tool_frame, values)

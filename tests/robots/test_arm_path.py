@@ -1,4 +1,4 @@
-"""Joints along a tool's path: exactly on it, within their limits, without a leap, round what is forbidden."""
+"""Joints along a tool's path: exactly on it, within their limits, without a jump, round forbidden places."""
 
 import math
 from dataclasses import replace
@@ -19,13 +19,13 @@ TORSO_M, TABLE_M = 0.29, 0.79
 PITCHES_DEG = (30, 45, 60, 90)
 LEAP_RAD = 0.4
 FREE_M = 0.15
-"""A left tool may come nearer to the base's middle line than its shoulder is."""
+"""The distance to the base's middle line that a left tool may reach, nearer than its shoulder (m)."""
 
 SIDEWAYS = np.array([1.0, -1.0, 1.0])
 
 
 def line(start: tuple[float, float, float], end: tuple[float, float, float], pitch_deg: float) -> ToolPath:
-    """A straight way in steps of a centimetre, in one orientation, on which time does not press."""
+    """Return a straight path in steps of a centimetre, in one orientation, without time pressure."""
     count = math.ceil(math.dist(start, end) / 0.01) + 1
     rotation = Approach(0.0, math.radians(pitch_deg)).rotation
     return ToolPath(
@@ -37,12 +37,12 @@ def line(start: tuple[float, float, float], end: tuple[float, float, float], pit
 
 
 def across(pitch_deg: float) -> ToolPath:
-    """Over the table, from the left arm's side to the middle, 0.28 m."""
+    """Return a path over the table, from the left arm's side to the middle, 0.28 m."""
     return line((0.55, 0.35, 0.9), (0.75, FREE_M, 0.9), pitch_deg)
 
 
 def mirrored(path: ToolPath) -> ToolPath:
-    """The path that the other arm sees: y is turned round, and so is the side of the hand."""
+    """Return the mirrored path for the other arm: y is negated, and so is the side of the hand."""
     rotations = path.rotations * np.outer(SIDEWAYS, SIDEWAYS)
     return replace(path, positions=path.positions * SIDEWAYS, rotations=rotations)
 
@@ -64,7 +64,7 @@ def found_near(path: ToolPath, known: FloatArray, is_free=everywhere, arm: int =
 
 
 def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
-    """The tool is where it must be at every pose, joints are within their limits, and none leaps."""
+    """Require the tool at its pose everywhere, joints within their limits, and no jump."""
     low, high = limits(CARD, arm)
     assert joints.shape == (len(path.positions), 7)
     for at, position, rotation in zip(joints, path.positions, path.rotations, strict=True):
@@ -152,7 +152,7 @@ def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
 
 
 def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
-    # Asked for certainty nothing is free: samples may be struck out for that only where the path found collides.
+    # With `certain` nothing is free: samples may be rejected for that only where the path found collides.
     path = across(45)
 
     def doubtful(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
@@ -196,7 +196,7 @@ def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm):
     barred = known[-1, 0]
 
     def is_free(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
-        """At the last five poses the pan must not be what it was."""
+        """Forbid the pan's first value at the last five poses."""
         return (np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1)
 
     assert found_near(path, known, is_free, arm) is None

@@ -1,4 +1,4 @@
-"""Both arms along their tools' paths: exactly on them, past each other where one is in the other's way."""
+"""Both arms along their tools' paths: exactly on them, and past each other if one is in the other's way."""
 
 import math
 
@@ -16,13 +16,13 @@ LEAP_RAD = 0.4
 
 
 def line(start: tuple[float, float, float], end: tuple[float, float, float], yaw_deg: float) -> ToolPath:
-    """A straight way in 40 steps, the hand pointing down by 45 degrees."""
+    """Return a straight path in 40 steps, the hand pointing down by 45 degrees."""
     rotation = Approach(math.radians(yaw_deg), math.radians(45)).rotation
     return ToolPath(np.linspace(start, end, 41), np.broadcast_to(rotation, (41, 3, 3)), np.full(40, np.inf), (0, 41))
 
 
 def is_free(arm: int) -> IsFree:
-    """The robot stands nowhere near the table."""
+    """Return True everywhere: the robot stands nowhere near the table."""
     return lambda _, joints, is_certain: COLLISIONS.arm_free(arm, FAR, joints, is_certain=is_certain)
 
 
@@ -32,12 +32,12 @@ def along(paths: tuple[ToolPath, ToolPath], both_arms=COLLISIONS) -> FloatArray 
 
 
 def by_arm(found: FloatArray | NoPath) -> FloatArray | NoPath:
-    """Joints arm by arm, shape (n, 2, 7)."""
+    """Return joints arm by arm, shape (n, 2, 7)."""
     return found if isinstance(found, NoPath) else found.reshape(-1, 2, 7)
 
 
 def alone(paths: tuple[ToolPath, ToolPath]) -> FloatArray:
-    """How each arm would go if the other were not there."""
+    """Return each arm's path as if the other arm were not there."""
     each = enumerate(paths)
     found = [ROBOT.arm_paths({arm: path}, TORSO_M, TABLE_M, {arm: is_free(arm)}, COLLISIONS) for arm, path in each]
     return np.stack(found, axis=1)
@@ -55,7 +55,7 @@ def require_followed(paths: tuple[ToolPath, ToolPath], joints: FloatArray) -> No
 
 
 class Between:
-    """Arms in each other's way as somebody says."""
+    """Collisions between arms that a test specifies."""
 
     def __init__(self, is_apart) -> None:
         self._is_apart = is_apart

@@ -1,4 +1,4 @@
-"""What the card says, against the URDF."""
+"""The robot's card agrees with the URDF."""
 
 import xml.etree.ElementTree as ElementTree
 

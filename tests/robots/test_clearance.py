@@ -1,4 +1,4 @@
-"""Arms that are low over cloth are told from those that are not."""
+"""Arms low over cloth are distinguished from others."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ OVER_M = 0.03
 DOWN = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
 ELBOW_OUT = np.array([0.8, -0.2, 1.0, -1.8, 0.0, -1.4, 0.0])
 CLOTH = np.array([(-0.5, 0.1), (-0.3, 0.1), (-0.3, 0.4), (-0.5, 0.4)])
-"""In the base frame at `front` from 0.45 to 0.65 m ahead; the tool is in its middle at 0.55 m."""
+"""Cloth in the base frame at `front` from 0.45 to 0.65 m ahead; the tool is in its middle at 0.55 m."""
 
 
 def pointing_down(arm: int, height_m: float, ahead_m: float = 0.55) -> np.ndarray:

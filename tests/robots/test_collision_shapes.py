@@ -1,4 +1,4 @@
-"""The parts' shapes: they contain the meshes, fit tightly, and survive a broken cache."""
+"""Collision shapes: they contain the meshes, fit tightly, and survive a broken cache."""
 
 import xml.etree.ElementTree as ElementTree
 from itertools import combinations
@@ -19,7 +19,7 @@ from tests.robots.model import MODEL
 
 GRIPPER = CARD.arms[0].gripper
 ASYMMETRY_M = 0.0055
-"""The left arm's meshes stand out from the mirror images of the right one's by up to this (m)."""
+"""How far the left arm's meshes protrude from the mirror images of the right one's, at most (m)."""
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def parts(cache):
 
 
 def part_of(link: str) -> int | None:
-    """The number of the part to which a link belongs, seen from the joint that moves it."""
+    """Return the index of the part to which a link belongs, seen from the joint that moves it."""
     joints = hulls.moving_joints(link)
     if not joints:
         return 2 * EACH
@@ -55,7 +55,7 @@ def part_poses(parts, torso_m, posture):
 
 
 def distances(points: np.ndarray, hull: RoundedHull) -> np.ndarray:
-    """How far points are outside a hull, not counting its rounding (m)."""
+    """Return the distances of points outside a hull, without its rounding (m)."""
     convex, here, point = hull.convex(), coal.Transform3s.Identity(), coal.Sphere(0.0)
     request = coal.DistanceRequest()
     found = [

@@ -1,4 +1,4 @@
-"""What collides and what does not: postures whose answer geometry gives, laws, and the full meshes' hulls."""
+"""Collisions: postures whose answer geometry gives, laws, and the full meshes' hulls."""
 
 import math
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""The least driving with which hands follow their paths, against Dijkstra's search over every place in comfort."""
+"""The least driving with which hands follow their paths, against Dijkstra's search over every single place."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -22,7 +22,7 @@ AHEAD = np.array([i for i, a in enumerate(APPROACHES) if abs(a.heading_rad) < 1.
 
 @dataclass(frozen=True)
 class Case:
-    """Hands on paths, and where the base may begin."""
+    """Hands on paths, and the standoffs from which the base may begin."""
 
     arms: tuple[int, ...]
     paths: NDArray[np.float64]
@@ -31,7 +31,7 @@ class Case:
 
 
 def cases(seed: int, count: int) -> list[Case]:
-    """One or two hands that fold a flap over, away from the robot or to a side, with free hands or holding on."""
+    """Return one or two hands that fold a flap, away from the robot or to a side, with free hands or holding on."""
     rng = np.random.default_rng(seed)
     return [_case(rng) for _ in range(count)]
 
@@ -58,7 +58,7 @@ def asked(reach: Pr2Reach, case: Case) -> Driving:
 
 
 def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
-    """For each hand whether each approach has each waypoint in comfort from each back-off, one place at a time."""
+    """Return for each hand whether each approach has each waypoint in comfort from each standoff, by single queries."""
     back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
     found = []
     for arm, path, allowed in zip(case.arms, case.paths, case.approaches, strict=True):
@@ -68,7 +68,7 @@ def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
 
 
 def dijkstra(is_good: NDArray[np.bool_], begun: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The least steps to each back-off at the last waypoint; `is_good` of shape (waypoints, COUNT)."""
+    """Return the least steps to each standoff at the last waypoint; `is_good` has shape (waypoints, COUNT)."""
     graph, last = nx.DiGraph(), len(is_good) - 1
     graph.add_node("start")
     for waypoint, j in zip(*np.nonzero(is_good), strict=True):
@@ -84,14 +84,14 @@ def dijkstra(is_good: NDArray[np.bool_], begun: NDArray[np.int64]) -> NDArray[np
 
 
 def least(reach: Pr2Reach, case: Case) -> NDArray[np.int64]:
-    """The least steps to each end over all combinations of approaches."""
+    """Return the least steps to each end over all combinations of approaches."""
     hands = comfort(reach, case)
     ways = [dijkstra(np.logical_and.reduce(good), case.begun) for good in product(*hands)]
     return np.min(ways, axis=0)
 
 
 def unbeaten(steps: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The ends that cannot be had in as few steps by driving on from another."""
+    """Return the ends that cannot be had in as few steps by driving on from another."""
     beaten = [any(steps[o] + abs(o - e) <= steps[e] for o in range(COUNT) if o != e) for e in range(COUNT)]
     return np.where(beaten, IMPOSSIBLE, steps)
 

@@ -1,4 +1,4 @@
-"""The cheapest pair of chains, held against a search through all pairs of samples."""
+"""The cheapest pair of chains, against a search through all pairs of samples."""
 
 import math
 
@@ -14,7 +14,7 @@ SPEEDS = np.linspace(1.0, 2.0, 14).reshape(2, 7)
 
 
 class Question:
-    """Random samples, some of them forbidden, some of their pairs too."""
+    """Random samples, some of them forbidden, and some of their pairs."""
 
     def __init__(self, seed: int, share_allowed: float) -> None:
         rng = np.random.default_rng(seed)
@@ -37,7 +37,7 @@ class Question:
         return self.costs[0, pose, a] + self.costs[1, pose, b] if self.is_allowed[pose, a, b] else math.inf
 
     def step_cost(self, pose: int, *ways: np.ndarray) -> float:
-        """Both arms' way to a pose from the one before."""
+        """Return the cost of both arms' motion to a pose from the one before."""
         return sum(
             link_cost(
                 self.joints[arm, pose - 1, before],
@@ -49,7 +49,7 @@ class Question:
         )
 
     def least_cost(self) -> float:
-        """By Dijkstra's search through all pairs."""
+        """Return the least cost by Dijkstra's search through all pairs."""
         graph = nx.DiGraph()
         graph.add_node("start")
         for pose in range(POSES):

@@ -74,7 +74,7 @@ def test_small_steps_of_the_tool_are_small_steps_of_the_joints_unless_one_is_at_
 
 
 def _path_along_a_line(arm: int, rng: np.random.Generator) -> list[np.ndarray]:
-    """Joints at every centimetre of a line across the table, each near to those before."""
+    """Return joints at every centimetre of a line across the table, each near to those before."""
     side = 1.0 if arm == 0 else -1.0
     height, ahead = rng.uniform(0.9, 1.2), rng.uniform(0.5, 0.65)
     rotation = Approach(side * rng.uniform(-0.6, 0.3), rng.uniform(0.3, 1.0)).rotation

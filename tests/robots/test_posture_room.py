@@ -1,4 +1,4 @@
-"""What room its own body leaves an arm, and the memory in which that is kept."""
+"""Restrictions of an arm by the robot's own body, and the cache of them."""
 
 import math
 
@@ -23,18 +23,18 @@ AHEAD = (0.6, 0.188, 0.9)
 
 
 def is_in_reach(place: tuple[float, float, float], arm: int = 0) -> bool:
-    """Whether a tool point is in reach, level, and the body leaves the arm room."""
+    """Return whether a tool point is in reach, level, and the body leaves the arm room."""
     reach = ROBOT.reach(TORSO_M, 0.0)
     return bool(reach.back_offs(arm, np.array([place]), np.array([LEVEL]), 1, 0.05)[0, 0])
 
 
 def is_within_limits(place: tuple[float, float, float]) -> bool:
-    """Whether the left arm's joints allow it."""
+    """Return whether the left arm's joints allow a posture."""
     return bool(ROBOT.can_reach(0, np.array([place]), APPROACHES[LEVEL].rotation[None], TORSO_M)[0])
 
 
 def free_postures(place: tuple[float, float, float]) -> int:
-    """How many samples of the left arm's postures there are free, the right arm at home."""
+    """Return how many samples of the left arm's postures there are free, the right arm at home."""
     collisions = ROBOT.collisions(Table(), TORSO_M)
 
     def is_free(joints: np.ndarray) -> BoolArray:

@@ -1,4 +1,4 @@
-"""What the robot says it can reach, against forward kinematics and against the naive way of asking."""
+"""The robot's reach, against forward kinematics and against single queries."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ EVERY_APPROACH = np.arange(len(APPROACHES))
 
 
 def bodiless(comfort_m: float) -> Pr2Reach:
-    """The reach of the arms alone, with no body in their way: what the naive loop finds."""
+    """Return the reach of the arms alone, with no body in their way: the naive loop finds the same."""
     arms = tuple(SidedArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
     return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m)
 
@@ -181,7 +181,7 @@ def test_a_back_off_beyond_a_gap_does_not_count():
 
 
 def _connected(seeds: int, mask: int) -> int:
-    """The bits of a mask that hang together with a seed bit in it."""
+    """Return the bits of a mask that are connected with a seed bit in it."""
     found = seeds & mask
     while True:
         grown = (found | found << 1 | found >> 1) & mask
@@ -191,7 +191,7 @@ def _connected(seeds: int, mask: int) -> int:
 
 
 def _paths(rng: np.random.Generator):
-    """Half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
+    """Return half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
     for _ in range(6):
         turn = np.linspace(0.0, np.pi, 5)
         x, y, radius = rng.uniform(0.1, 0.7), rng.uniform(-0.3, 0.3), rng.uniform(0.05, 0.2)
@@ -200,7 +200,7 @@ def _paths(rng: np.random.Generator):
 
 
 def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
-    """One query for each approach, point, back-off and comfort point, nothing left out."""
+    """Return the masks by one query for each approach, point, standoff and comfort point."""
     masks = np.zeros((len(APPROACHES), len(points)), dtype=np.uint32)
     for index, comfortable in enumerate(_naive_comfort(arm, points, comfort_m)):
         row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1)]
@@ -212,7 +212,7 @@ def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
 
 
 def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
-    """Whether each approach has each point in comfort from each back-off, shape (k, n, COUNT)."""
+    """Return whether each approach has each point in comfort from each standoff, shape (k, n, COUNT)."""
     ring = comfort_m * np.array([(0, 0, 0), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
     back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
     asked = (points[:, None, None, :] + back[:, None, :] + ring).reshape(-1, 3)

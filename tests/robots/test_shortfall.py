@@ -1,4 +1,4 @@
-"""Why and by how much a point is out of reach, against the definition: displace it, and ask again."""
+"""The cause and size of a shortfall, against the definition: displace the point, and query again."""
 
 from dataclasses import replace
 
@@ -26,7 +26,7 @@ FORWARD = np.array([19])
 """Fingers ahead, 30 degrees down."""
 
 STANDS = np.arange(5)[:, None] * np.array([0.05, 0.0, 0.0])
-"""How a base that backs off in steps of 5 cm displaces what it sees."""
+"""The displacements of points, as the base sees them, when it backs off in steps of 5 cm."""
 
 
 def test_the_approach_called_forward_is_that():
@@ -265,7 +265,7 @@ def test_a_shortfall_that_is_none_is_refused(wrong):
 
 
 def _shells(furthest: float) -> np.ndarray:
-    """Distances from 0 on, 2 mm from one to the next or 3 % of the distance, up to a limit (m)."""
+    """Return distances from 0 on, each 2 mm or 3 % of the distance beyond the last, up to a limit (m)."""
     found = [0.0]
     while found[-1] < furthest:
         found.append(found[-1] + max(0.002, 0.03 * found[-1]))
@@ -273,12 +273,12 @@ def _shells(furthest: float) -> np.ndarray:
 
 
 def _points(rng: np.random.Generator, count: int) -> np.ndarray:
-    """Places over a table and around it, on the grid of the queries (m)."""
+    """Return places over a table and around it, on the grid of the queries (m)."""
     return np.round(rng.uniform((-0.2, -0.8, 0.7), (1.3, 0.8, 1.3), (count, 3)), 5)
 
 
 def _displaced(reach, arm: int, approaches: np.ndarray) -> list[tuple[np.ndarray, Shortfall]]:
-    """Points out of reach for which a displacement that helps was found."""
+    """Yield points out of reach for which a displacement that helps was found."""
     asked = [(point, reach.shortfall(arm, point, approaches)) for point in _points(np.random.default_rng(30), 60)]
     found = [(p, f) for p, f in asked if f is not None and not f.is_at_least]
     assert len(found) >= 15

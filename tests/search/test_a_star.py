@@ -1,4 +1,4 @@
-"""A* on problems that know no cloth: a number line, and random graphs against Dijkstra's search."""
+"""A* on problems without cloth: a number line, and random graphs against Dijkstra's search."""
 
 import math
 import random
@@ -26,7 +26,7 @@ def search(
 
 
 def number_line(n: int) -> list[Edge[int, int]]:
-    """One step up or down costs 1, five steps up cost 3."""
+    """Return successors on a number line: one step up or down costs 1, five steps up cost 3."""
     return [Edge(1, 1.0, n + 1), Edge(-1, 1.0, n - 1), Edge(5, 3.0, n + 5)]
 
 

@@ -1,4 +1,4 @@
-"""Plans as JSON: read back the same, here and in a process without the planner, and refused where they are none."""
+"""Plans as JSON: read back equal, here and in a process without the planner, and refused when invalid."""
 
 import json
 import pickle
@@ -23,7 +23,7 @@ from tests.replay.planned import planned
 
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")
 HELD = ("letter-towel", "big-towel")
-"""In these cloth is held from one step to the next: for a red fold, and out beyond the table's edge."""
+"""Garments whose cloth is held from one step to the next: for a red fold, and out beyond the table's edge."""
 
 RATE_HZ = 50.0
 

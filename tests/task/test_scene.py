@@ -1,4 +1,4 @@
-"""Scenes: defaults, JSON, and a refusal for what is none."""
+"""Scenes: defaults, JSON, and refusals of invalid ones."""
 
 import math
 

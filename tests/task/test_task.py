@@ -1,4 +1,4 @@
-"""Tasks as JSON: read back the same, and refused where they are none."""
+"""Tasks as JSON: read back equal, and refused when invalid."""
 
 import json
 import subprocess
@@ -30,7 +30,7 @@ print(json.dumps([name for name in ("numba", "pinocchio") if name in sys.modules
 
 
 def tasks() -> dict[str, Task]:
-    """Tasks whose every field is another than usual in one of them."""
+    """Return tasks such that every field differs from its default in one of them."""
     towel = load_garment("hand-towel")
     held = (HeldPoint("left", (0.1, 0.2)), HeldPoint("right", (0.3, 0.2)))
     elsewhere = BaseStop(None, 0.0, -1.2, 0.3, 0.1)

@@ -1,4 +1,4 @@
-"""Drawings that tests begin with."""
+"""Drawings that tests start from."""
 
 from dataclasses import replace
 from typing import Any
@@ -12,7 +12,7 @@ from tests.app.samples import towel
 
 
 def towel_drawing(*folds: Crease, **changes: Any) -> Drawing:
-    """A towel of 0.4 x 0.3 m; unless told otherwise its near half goes up over y = 0.15."""
+    """Return a towel of 0.4 x 0.3 m; by default its near half is folded over y = 0.15."""
     drawing = solve(drawing_of(Garment.from_dict(towel(**changes)))).drawing
     return replace(drawing, folds=folds) if folds else drawing
 
@@ -27,7 +27,7 @@ def tied(point: Point2, tie: Tie) -> End:
 
 
 def pulled(drawing: Drawing, corner: int, dx_m: float, dy_m: float) -> Drawing:
-    """The drawing with one corner pulled."""
+    """Return the drawing with one corner pulled."""
     x, y = drawing.outline[corner].point
     return with_corner(drawing, corner, (x + dx_m, y + dy_m))
 
@@ -39,5 +39,5 @@ def with_corner(drawing: Drawing, corner: int, point: Point2) -> Drawing:
 
 
 def outlined(drawing: Drawing, *points: Point2) -> Drawing:
-    """The drawing with another outline."""
+    """Return the drawing with another outline."""
     return replace(drawing, outline=tuple(Corner(f"v{i}", point) for i, point in enumerate(points)))

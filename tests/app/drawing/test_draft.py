@@ -14,7 +14,7 @@ TOWEL = towel_drawing(folds=[])
 
 
 def moved(steps: int) -> Drawing:
-    """The towel with its first corner so many millimetres further left."""
+    """Return the towel with its first corner moved left by some millimetres."""
     return pulled(TOWEL, 0, -0.001 * steps, 0.0)
 
 

@@ -1,4 +1,4 @@
-"""What is offered for a drawing that cannot be planned, tried out: the problem is gone, or it is not offered."""
+"""Quick fixes of a drawing that cannot be planned: each one that is offered removes the problem."""
 
 import math
 from dataclasses import replace

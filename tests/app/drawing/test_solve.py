@@ -1,4 +1,4 @@
-"""Where folds are on a towel of 0.4 x 0.3 m, and that nothing drawn is lost."""
+"""The position of folds on a towel of 0.4 x 0.3 m; nothing drawn is lost."""
 
 from dataclasses import replace
 from itertools import permutations
@@ -183,7 +183,7 @@ def test_a_red_fold_sees_the_flap_alone():
 
 
 def reordered(drawing: Drawing, index: int, to: int) -> Drawing:
-    """The drawing with one fold made at another time."""
+    """Return the drawing with one fold made at another time."""
     folds = list(drawing.folds)
     folds.insert(to, folds.pop(index))
     return replace(drawing, folds=tuple(folds))

@@ -1,4 +1,4 @@
-"""A drawing that has been solved is the same when it is solved again, whatever led to it: undo and restarts do that."""
+"""Solving a solved drawing again changes nothing, whatever led to it: undo and restarts do so."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ pulls_m = st.floats(-0.03, 0.03)
 
 
 class SolvedAgain(RuleBasedStateMachine):
-    """A towel that people work on."""
+    """A towel under random edits."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -52,7 +52,7 @@ class SolvedAgain(RuleBasedStateMachine):
     @precondition(lambda self: self.solution.steps and len(self.solution.drawing.folds) < FOLDS_MAX)
     @rule(first=numbers, second=numbers, from_share=shares, to_share=shares, is_red=st.booleans())
     def draw_a_fold(self, first: int, second: int, from_share: float, to_share: float, is_red: bool) -> None:
-        """From edge to edge of the cloth as it lies then; one that is illegal is not kept."""
+        """Draw a fold from edge to edge of the cloth as it lies; drop it if it is illegal."""
         rings = self.solution.steps[-1]["flap" if is_red else "silhouette"]
         if not rings:
             return

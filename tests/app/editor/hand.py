@@ -1,4 +1,4 @@
-"""A hand for tests: it points at places of the table as a pointer in the picture does."""
+"""A pointer for tests: it points at places of the table as in the picture."""
 
 import itertools
 
@@ -11,7 +11,7 @@ from app.ui.editor.mode import Mode
 from planner.geometry.pose import Point2
 
 PIXEL_M = 0.003
-"""So much of the table one pixel covers, as in a picture of 500 pixels that shows 1.5 m."""
+"""The size of a pixel on the table (m), as in a picture of 500 pixels that shows 1.5 m."""
 
 
 def at(point: Point2) -> Aim:
@@ -19,7 +19,7 @@ def at(point: Point2) -> Aim:
 
 
 def seat(drawing: Drawing, mode: Mode) -> tuple[Document, Editor]:
-    """A document, and an editor in a mode."""
+    """Return a document and an editor in a mode."""
     document = Document(draft_of(drawing))
     editor = Editor(document, "hand")
     editor.choose(mode)
@@ -27,7 +27,7 @@ def seat(drawing: Drawing, mode: Mode) -> tuple[Document, Editor]:
 
 
 def drag(editor: Editor, *points: Point2, steps: int = 3) -> None:
-    """Press at the first point and let go at the last; between neighbours the pointer is seen so many times."""
+    """Press at the first point and release at the last, with some pointer events between neighbours."""
     editor.press(at(points[0]))
     for (ax, ay), (bx, by) in itertools.pairwise(points):
         for step in range(1, steps + 1):

@@ -1,4 +1,4 @@
-"""Editing over the wire: what viser's page says, through the stage's own thread, to the document and back."""
+"""Editing over the wire: messages of viser's page, through the stage's own thread, to the document and back."""
 
 import math
 import time
@@ -52,7 +52,7 @@ def visitor(opened: tuple[Document, Stage], document: Document) -> Iterator[Visi
 
 
 def grown(drawing: Drawing) -> bool:
-    """Whether the far corner is where the drags below take it."""
+    """Return whether the far corner is where the drags below take it."""
     return drawing.outline[2].point == pytest.approx((0.5, 0.35))
 
 
@@ -238,7 +238,7 @@ def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest
 
 @pytest.fixture(scope="module")
 def driven() -> Iterator[tuple[Document, Stage]]:
-    """A document with a plan that drives to the table's left, and its stage."""
+    """Open a document with a plan that drives to the table's left, and its stage."""
     plan = planned("jeans").answer
     document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
     task = document.state.task
@@ -251,7 +251,7 @@ def driven() -> Iterator[tuple[Document, Stage]]:
 
 
 def time_at_side(document: Document) -> float:
-    """A time at which the robot stands beside the table (s)."""
+    """Return a time at which the robot stands beside the table (s)."""
     film = document.state.film
     assert film is not None
     times = (move.start_s + move.duration_s for move in film.plan.primitives if move.kind == "move")

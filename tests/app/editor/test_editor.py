@@ -22,7 +22,7 @@ def plan() -> Plan:
 
 
 def playing(plan: Plan) -> Document:
-    """A document in the middle of its film."""
+    """Open a document and start its playback."""
     document = Document(draft_of(towel_drawing()))
     task = document.state.task
     assert task is not None

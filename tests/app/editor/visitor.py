@@ -1,4 +1,4 @@
-"""A visitor of a stage without a browser: says over the wire what viser's own page says, and reads what that reads."""
+"""A visitor of a stage without a browser: it sends the messages of viser's page, and reads what the page reads."""
 
 import time
 from collections.abc import Callable
@@ -20,7 +20,7 @@ PATIENCE_S = 20.0
 
 
 class Visitor:
-    """Looks at the middle of the table from 2 m above it, unless its camera is said to be elsewhere.
+    """A visitor who looks at the middle of the table from 2 m above it, unless its camera is set.
 
     Attributes:
         nodes: the scene as it is shown, by name: properties, and whether it is visible.
@@ -42,7 +42,7 @@ class Visitor:
         self.look(eye, size)
 
     def look(self, eye: Point3, size: tuple[int, int]) -> None:
-        """Say that the camera is there, and the picture's width and height (px)."""
+        """Report the camera's pose, and the picture's width and height (px)."""
         self._say(
             "ViewerCameraMessage",
             wxyz=(0.0, 1.0, 0.0, 0.0),
@@ -63,14 +63,14 @@ class Visitor:
         self._socket.close()
 
     def until(self, condition: Callable[[], Any]) -> None:
-        """Read on until something is the case."""
+        """Read on until a condition holds."""
         deadline = time.monotonic() + PATIENCE_S
         while not condition():
             assert time.monotonic() < deadline
             self._read()
 
     def choose(self, label: str, value: str) -> None:
-        """Choose something in a list of the panel, or press the button in a group that says so."""
+        """Choose an entry in a list of the panel, or press the button of that name in a group."""
         self.until(lambda: label in self.controls)
         self._say("GuiUpdateMessage", uuid=self.controls[label]["uuid"], updates={"value": value})
 
@@ -83,7 +83,7 @@ class Visitor:
         return node in self.nodes and bool(self.nodes[node]["visible"])
 
     def touch(self, phase: str, start: Point2, end: Point2, modifier: str | None = None) -> None:
-        """Drag on the glass: where on the cloth the pointer went down, where it is, and what keys are held."""
+        """Drag on the glass: report where the pointer went down on the cloth, where it is, and the keys held."""
         places = {"start_position": beyond(start), "end_position": beyond(end)}
         screen = {"start_screen_pos": (0.5, 0.5), "end_screen_pos": (0.5, 0.5)}
         self._say(
@@ -145,7 +145,7 @@ class Visitor:
 
 
 def beyond(point: Point2) -> tuple[float, float, float]:
-    """Where the ray through a point of the cloth meets the glass: a thousand times as far from the eye."""
+    """Return where the ray through a point of the cloth meets the glass: a thousand times as far from the eye."""
     x, y, z = EYE
     u, v = point
     return (x + 1000 * (u - x), y + 1000 * (v - y), z + 1000 * (CLOTH_HEIGHT_M - z))

@@ -1,6 +1,6 @@
-"""Checks a FOLD file against the specification, version 1.2, knowing nothing of how it was written.
+"""A checker of FOLD files against the specification, version 1.2, independent of the exporter.
 
-What is checked: keys and lists as the specification has them; the mesh hangs together and is oriented; every frame
+It checks keys and lists as the specification has them; the mesh hangs together and is oriented; every frame
 moves every face rigidly; mountains, valleys and flat creases are where the faces say; the order of faces covers
 exactly those that overlap, contradicts neither itself nor the creases.
 """
@@ -34,7 +34,7 @@ SLIVER_M2 = 2e-5
 
 
 def frames_of(file: dict[str, Any]) -> list[dict[str, Any]]:
-    """The key frame and all others, what they inherit filled in."""
+    """Return the key frame and all others, with inherited fields filled in."""
     key = {name: value for name, value in file.items() if not name.startswith("file_")}
     frames = [key]
     for frame in file["file_frames"]:
@@ -71,7 +71,7 @@ def signed_area(ring: np.ndarray) -> float:
 
 
 def sides(frame: dict[str, Any]) -> dict[tuple[int, int], int]:
-    """Each directed side of a face, and the face."""
+    """Return each directed side of a face, and the face."""
     found = {}
     for number, face in enumerate(frame["faces_vertices"]):
         assert len(set(face)) == len(face) >= 3

@@ -1,4 +1,4 @@
-"""Fold lines as people draw them: over the outline, a little short of it, or all on the flat cloth."""
+"""Fold lines as people draw them: beyond the outline, a little short of it, or all on the flat cloth."""
 
 import pytest
 
@@ -11,7 +11,7 @@ from planner.geometry.pose import Point2
 
 TOWEL: list[Point2] = [(0.0, 0.0), (0.6, 0.0), (0.6, 0.4), (0.0, 0.4)]
 HALVED = ("blue", (0.3, 0.0), (0.3, 0.4))
-"""The left half moves, so that the cloth lies from x = 0.3 to 0.6."""
+"""A fold by which the left half moves, so that the cloth lies from x = 0.3 to 0.6."""
 
 
 def drawn(*lines: tuple[str, Point2, Point2]) -> list[DrawnFold]:

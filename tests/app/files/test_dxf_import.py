@@ -37,7 +37,7 @@ def lines(imported: Imported) -> list[tuple[str, list[float], list[float]]]:
 
 
 def pattern_piece(made: Drawing, width: float, height: float, name: str = "FRONT", x: float = 1000.0) -> None:
-    """A rectangle as ASTM D6673 has a piece: a block with numbered layers, inserted once."""
+    """Write a rectangle in the form of an ASTM D6673 piece: a block with numbered layers, inserted once."""
     block = made.blocks.new(name)
     corners = [(0, 0), (width, 0), (width, height), (0, height), (0, 0)]
     block.add_polyline2d(corners, dxfattribs={"layer": "1", "color": 1})

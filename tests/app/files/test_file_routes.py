@@ -29,7 +29,7 @@ async def created(client: httpx.AsyncClient, **changes: Any) -> str:
 
 
 async def planned(client: httpx.AsyncClient, **changes: Any) -> str:
-    """A document whose files are all as they will be."""
+    """Open a document that is planned, so that all files are available."""
     document_id = await created(client, **changes)
     for _ in range(600):
         entries = (await client.get(f"/api/documents/{document_id}/files")).json()

@@ -1,4 +1,4 @@
-"""Whatever somebody's file holds, it is imported or refused by name: no other error, no warning."""
+"""Any file is imported, or refused with the field's name: no other error, no warning."""
 
 import re
 

@@ -29,7 +29,7 @@ def hand_towel() -> Plan:
 
 @pytest.fixture(scope="module")
 def big_towel() -> Plan:
-    """Its plan drags, lets the base drive while it folds, and folds while held."""
+    """Plan the big towel, which drags, drives while it folds, and folds while held."""
     return make_plan(load_garment("big-towel"))
 
 

@@ -26,7 +26,7 @@ def page(plan: Plan) -> str:
 
 @pytest.fixture(scope="module")
 def film(page: str) -> dict[str, Any]:
-    """What the page plays, as viser packs it: sizes, then messages with their times, then numbers."""
+    """Return the recording that the page plays, in viser's format: sizes, messages with their times, numbers."""
     packed = base64.b64decode(DATA.search(page).group(1))
     whole = zstandard.ZstdDecompressor().decompress(packed[8:])
     length = int.from_bytes(whole[:8], "little")

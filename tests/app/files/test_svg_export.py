@@ -20,7 +20,7 @@ def round_trip(cloth: Garment) -> Garment:
 
 
 def require_same(one: Garment, other: Garment) -> None:
-    """To a micrometre, and all that is no length exactly."""
+    """Compare lengths to a micrometre, and everything else exactly."""
     assert np.allclose(one.outline, other.outline, rtol=0.0, atol=1e-6)
     for a, b in zip(one.folds, other.folds, strict=True):
         assert np.allclose([a.start, a.end], [b.start, b.end], rtol=0.0, atol=1e-6)

@@ -16,7 +16,7 @@ from planner.task.plan import Plan
 
 
 def planned(name: str) -> tuple[Document, Plan]:
-    """A document with its plan and film, without a planner of its own."""
+    """Return a document with its plan and trajectory, without a planner of its own."""
     document = Document(draft_of(drawing_of(load_garment(name))))
     state = document.state
     plan = make_plan(load_garment(name))
@@ -36,7 +36,7 @@ def shirt() -> tuple[Document, Plan]:
 
 @pytest.fixture(scope="module")
 def jeans() -> tuple[Document, Plan]:
-    """Its plan begins with a way round the table."""
+    """Plan the jeans; the plan begins with a drive round the table."""
     return planned("jeans")
 
 

@@ -28,7 +28,7 @@ async def overlays(client: httpx.AsyncClient, document_id: str, query: str = "")
 
 
 async def filmed(client: httpx.AsyncClient) -> str:
-    """A document whose plan can be played."""
+    """Open a document whose plan can be played."""
     document_id = await created(client)
     for _ in range(600):
         if (await overlays(client, document_id, "?show=slip"))["plan_version"] is not None:

@@ -29,7 +29,7 @@ def lack(point: tuple[float, float, float], approach: int) -> Lack:
 
 
 def towards(lacking: Lack) -> FloatArray:
-    """The direction in which a point would have to be displaced, base frame."""
+    """Return the direction in which a point would have to be displaced, base frame."""
     reach = load_robot("pr2").reach(TORSO_M, COMFORT_M)
     approach = np.array([reach.approaches.index(lacking.approach)])
     found = reach.shortfall(lacking.arm, np.array([lacking.seen]), approach)
@@ -90,7 +90,7 @@ def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it
 
 
 async def refused(client: httpx.AsyncClient, garment: Any, **drawing: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The first reason with a place why a document has no plan, and what is told of the reach there."""
+    """Return the first reason with a place why a document has no plan, and the overlay of the reach there."""
     state = (await client.post("/api/documents", json={"garment": garment})).json()
     body = {"base_version": state["version"], "label": "Begin", "drawing": {**state["drawing"], **drawing}}
     await client.put(f"/api/documents/{state['id']}/drawing", json=body)

@@ -21,7 +21,7 @@ def lying(cloth: ClothState, placement: Pose2, friction: float = 1.0) -> Moment:
 
 
 def folded_over(width_m: float, length_m: float, at_m: float) -> ClothState:
-    """A strip from y = 0 to its length, what is below `at_m` folded up over it."""
+    """Return a strip from y = 0 to its length, with the part below `at_m` folded up over it."""
     return fold_cloth(
         spread(rectangle_points(width_m, length_m)), Segment((width_m, at_m), (0.0, at_m)), is_red=False
     ).cloth
@@ -69,7 +69,7 @@ def test_the_lines_are_where_the_planner_says_that_the_cloth_slips():
 
 
 def laid(edge: str, line: list[Point2], further_m: float, scene: Scene) -> Pose2:
-    """The placement that brings the middle of a line onto that of a table edge, and the cloth out by so much more."""
+    """Return the placement that puts the middle of a line on that of a table edge, and the cloth further out."""
     outwards = {"right": (0.0, -1.0), "far": (1.0, 0.0), "left": (0.0, 1.0), "near": (-1.0, 0.0)}[edge]
     half = scene.table.depth_m / 2 if outwards[0] else scene.table.width_m / 2
     target = np.array(outwards) * (half + further_m)

@@ -1,4 +1,4 @@
-"""Drafts to be kept, and documents as they were written before there were journals."""
+"""Drafts to be stored, and documents in the format from before journals."""
 
 import json
 import random
@@ -22,7 +22,7 @@ def moved(millimetres: int) -> Drawing:
 
 
 def worked_on(seed: int, count: int) -> Iterator[Draft]:
-    """Drafts as a person makes them one after the other: commits, runs, previews, undo, redo."""
+    """Return drafts as a person makes them one after the other: commits, coalesced edits, previews, undo, redo."""
     rng, draft, now_s = random.Random(seed), TOWEL, 0.0
     for number in range(count):
         now_s += rng.choice([0.1, 5.0])
@@ -39,7 +39,7 @@ def worked_on(seed: int, count: int) -> Iterator[Draft]:
 
 
 def older_file(document_id: str, version: int, draft: Draft, format_: int = 1) -> str:
-    """A document's file of format 1."""
+    """Return a document's file of format 1."""
     header = {
         "format": format_,
         "id": document_id,

@@ -1,4 +1,4 @@
-"""One server at a time uses a data folder; who comes second is told who was first."""
+"""One server at a time uses a data folder; a second server is told which one does."""
 
 import json
 import os

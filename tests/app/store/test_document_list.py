@@ -9,7 +9,7 @@ from app.store.document_list import DocumentEntry, DocumentList
 
 
 class Folder:
-    """Files named like documents, and how often each was looked at."""
+    """Files named like documents, with a count of the reads of each."""
 
     def __init__(self, path: Path, count: int) -> None:
         self.path = path

@@ -31,7 +31,7 @@ def kept_document(shelf: DocumentShelf) -> tuple[str, Document]:
 
 
 def restored(shelf: DocumentShelf, document_id: str, tmp_path: Path) -> tuple[int, Draft]:
-    """What a server finds that starts after this one was killed."""
+    """Return the state that a server finds if it starts after this one was killed."""
     kept = DocumentShelf(tmp_path / "documents").kept(document_id)
     return kept.version, kept.draft
 
@@ -163,7 +163,7 @@ def test_a_change_that_cannot_be_written_says_so_and_is_not_made(shelf: Document
 
 
 def put_older(tmp_path: Path, document_id: str, draft: Draft, format_: int = 1) -> Path:
-    """A document of format 1, or one that says it is of another."""
+    """Write a document of format 1, or one with another format number."""
     path = tmp_path / "documents" / f"{document_id}.json"
     path.parent.mkdir(exist_ok=True)
     path.write_text(older_file(document_id, 7, draft, format_))
@@ -195,7 +195,7 @@ def test_a_spoilt_drawing_in_an_older_file_is_told_of_by_its_field(shelf: Docume
 
 
 def newer_files(shelf: DocumentShelf, tmp_path: Path) -> dict[str, int]:
-    """Documents of formats to come, cut off or reordered as may be, with their formats."""
+    """Return documents of future formats, possibly cut off or reordered, with their formats."""
     put_older(tmp_path, "newerabc", TOWEL, 2)
     cut = put_older(tmp_path, "newercut", TOWEL, 17)
     cut.write_bytes(cut.read_bytes()[:-40])

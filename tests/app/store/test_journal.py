@@ -1,4 +1,4 @@
-"""A journal cut off anywhere has all that had been written whole; one that is damaged within says so."""
+"""A journal cut off anywhere restores every complete line; one that is damaged inside reports it."""
 
 import pytest
 from hypothesis import given, settings
@@ -11,7 +11,7 @@ from tests.app.store.drafts import TOWEL, moved, worked_on
 
 
 def written(seed: int, count: int) -> tuple[list[bytes], list[Tape]]:
-    """A journal's lines, and the tape after each but the first."""
+    """Return a journal's lines, and the tape after each but the first."""
     tapes = [tape_of(draft.drawing, draft.history) for draft in worked_on(seed, count)]
     lines = [start_line("abcdefgh", 0), change_line(1, "then", whole(tapes[0]))]
     for number, after in enumerate(tapes[1:]):

@@ -1,4 +1,4 @@
-"""A process that is killed while it writes has lost nothing that it has acknowledged."""
+"""A process that is killed while it writes loses nothing that it has acknowledged."""
 
 import itertools
 import subprocess
@@ -15,7 +15,7 @@ _DRAWINGS = [moved(millimetres) for millimetres in range(1, 8)]
 
 
 def edit_for_ever(folder: Path) -> None:
-    """Change a document, new or old, and say each version once it is kept."""
+    """Change a document, new or old, and print each version once it is stored."""
     shelf = DocumentShelf(folder)
     if (folder / f"{ID}.journal").exists():
         kept = shelf.kept(ID)

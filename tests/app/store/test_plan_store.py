@@ -1,4 +1,4 @@
-"""Plans kept by id: the newest thousand can be read and played, and only a few of them weigh anything."""
+"""Plans stored by id: the newest thousand can be read and played, and only a few of them use memory."""
 
 import gc
 import threading
@@ -20,7 +20,7 @@ def plan() -> Plan:
 
 @pytest.fixture
 def copies(plan: Plan) -> Iterator[Plan]:
-    """Plans that are told apart by what they cost in states."""
+    """Return plans that differ in the number of expanded states."""
     return (replace(plan, statistics=replace(plan.statistics, expanded=number)) for number in range(10_000))
 
 

@@ -1,4 +1,4 @@
-"""A document's drawings in a row: nothing of a history is lost, and a change is as small as what was done."""
+"""The tape of a document's drawings: no history is lost, and each change is as small as the edit."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""One window for all tests of a module, since it takes its time to load, and articles laid out in it."""
+"""A window for all tests of a module, since loading takes long, and articles laid out in it."""
 
 from collections.abc import Iterator
 
@@ -28,7 +28,7 @@ def shirt(page: Page, desk: Desk) -> Desk:
 
 @pytest.fixture
 def cloth(page: Page, desk: Desk) -> Desk:
-    """The T-shirt's outline without its folds: nothing to be planned."""
+    """Return the T-shirt's outline without its folds, so that nothing is planned."""
     desk.lay({**desk.garment("t-shirt"), "folds": []})
     return desk
 

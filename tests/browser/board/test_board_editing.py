@@ -1,4 +1,4 @@
-"""The outline is changed by hand: corners dragged, nudged, typed, snapped, mirrored, dropped, undone."""
+"""Editing the outline by hand: corners dragged, nudged, typed, snapped, mirrored, dropped, undone."""
 
 import pytest
 from playwright.sync_api import Page, expect

@@ -1,4 +1,4 @@
-"""Garments come from templates and files and leave as files; dialogs say what is wrong."""
+"""Garments from templates and files, and exports; dialogs say what is wrong."""
 
 import io
 import json

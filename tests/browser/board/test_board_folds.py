@@ -1,4 +1,4 @@
-"""Folds on the board: dragged, flipped, mirrored, made by dropping cloth where it shall come to lie."""
+"""Folds on the board: dragged, flipped, mirrored, made by dropping cloth where it is to lie."""
 
 import pytest
 from playwright.sync_api import Page, expect

@@ -1,4 +1,4 @@
-"""The legend says what the overlays' shades and lines mean, of all that is drawn and of nothing else."""
+"""The legend explains every shade and line of the overlays that are drawn, and no other."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ SWITCHES = ["Reach", "Grips", "Hand paths", "Base path", "Slip limit", "Cost map
 
 @pytest.fixture
 def legend(page: Page, towel: Desk) -> Iterator[Locator]:
-    """The legend of a planned towel; what has been switched on is switched off again."""
+    """Return the legend of a planned towel; overlays switched on are switched off afterwards."""
     expect_planned(page)
     yield page.get_by_role("list", name="Legend")
     page.unroute_all()

@@ -1,4 +1,4 @@
-"""Numbers at the selection and at the pointer: what is typed is where it is, once, and to the last digit."""
+"""Number fields at the selection and at the pointer: a typed number is applied once, to the last digit."""
 
 import pytest
 from playwright.sync_api import Page, expect

@@ -1,4 +1,4 @@
-"""What the board shows over the drawing: what must be held, where hands reach, where and how far they fall short."""
+"""Overlays on the board: corners that must be held, the reach of hands, and shortfalls."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from tests.browser.status_pill import expect_planned
 
 @pytest.fixture
 def moved_desk(desk: Desk) -> Iterator[Desk]:
-    """The same, to be put into another scene; it comes back."""
+    """Return the desk in another scene; the default scene is restored afterwards."""
     scene = desk.drawing["scene"]
     yield desk
     desk.edit(lambda drawing: drawing.update(scene=scene))
@@ -123,7 +123,7 @@ def test_what_is_short_at_least_is_marked_so_and_the_words_stay_on_the_board(pag
 
 
 def middle(page: Page, selector: str) -> tuple[float, float]:
-    """The middle of what is drawn on the board (px)."""
+    """Return the middle of the drawing on the board (px)."""
     box = page.locator(selector).bounding_box()
     assert box is not None
     return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)

@@ -158,7 +158,7 @@ def scale(page: Page) -> str | None:
 
 
 def is_all_seen(page: Page, garment: Garment) -> bool:
-    """Whether a garment lies within the board."""
+    """Return whether a garment lies within the board."""
     board, hand = page.get_by_role("application", name="Drafting board").bounding_box(), Hand(page)
     assert board is not None
     return all(

@@ -1,4 +1,4 @@
-"""An outline that is not closed yet survives what a hand does by mistake."""
+"""An outline that is not closed yet survives mistakes of the hand."""
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
@@ -12,7 +12,7 @@ CORNERS = [(0.1, 0.1), (0.4, 0.1), (0.4, 0.3), (0.1, 0.3)]
 
 
 def begun(page: Page) -> Hand:
-    """Four corners of an outline, not closed."""
+    """Draw four corners of an outline, not closed."""
     hand = Hand(page)
     hand.tool("Draw outline")
     for corner in CORNERS:
