@@ -31,7 +31,7 @@ def dag(garment: SourceArgument, json_to: JsonOption = None) -> None:
 
 @cli.command()
 def check(garment: SourceArgument, json_to: JsonOption = None) -> None:
-    """Check that a garment file is good, its folds are legal, and each can be held by two grippers."""
+    """Check that a garment file is good, its folds are legal, and each can be held by the robot's grippers."""
     chosen = garment_of(garment)
     with blaming(garment):
         report = check_garment(chosen)
@@ -40,6 +40,6 @@ def check(garment: SourceArgument, json_to: JsonOption = None) -> None:
         output.print(check_table(chosen, report))
     for index, fold in enumerate(report.folds):
         if fold.problem is not None:
-            errors.print(f"{garment}: folds[{index}]: two grippers cannot hold it: {fold.problem}")
+            errors.print(f"{garment}: folds[{index}]: the grippers cannot hold it: {fold.problem}")
     if not report.is_holdable:
         raise typer.Exit(NO_PLAN)

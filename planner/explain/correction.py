@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.explain.reason_grips import needed_radius
-from planner.explain.reason_words import reached_with_comfort, reached_with_cone
+from planner.explain.reason_words import counted_hands, reached_with_comfort, reached_with_cone
 from planner.explain.relaxed import Relaxed
 from planner.explain.suggestion_grid import Room
 from planner.geometry.pose import Point3
@@ -202,7 +202,7 @@ def _third_hand(context: Context, fold: int) -> Way:
 
     def told(reason: Reason, _: float) -> Reason:
         label = context.sequence.folds[fold].label
-        text = f"{label}: must be held at more points than {hands} hands can; one more would do"
+        text = f"{label}: must be held at more points than {counted_hands(hands)} can; one more would do"
         return replace(reason, says=Message("one_more_hand", text, {"hands": hands}), needed_grip_radius_m=None)
 
     return Way("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_dream=True)

@@ -6,12 +6,15 @@ worst point is least out of reach decides. The checks get stricter until one of 
 1. start, apex and end of each hand's path, each from the standoff that suits it best;
 2. all waypoints of each hand's path;
 3. whether the base can drive from standoff to standoff while the hand rests;
-4. both hands' paths at once, from common standoffs.
+4. all hands' paths at once, from common standoffs.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import reduce
+from itertools import product
+from operator import and_
 
 import numpy as np
 from numpy.typing import NDArray
@@ -196,25 +199,25 @@ class _Attempt:
         """Return what the hands lack together though each alone has a path; None if they lack nothing."""
         if len(masks) < 2:
             return None
-        left, right = (self._followed(of_hand)[:_PAIRED_MAX] for of_hand in masks)
         misses: list[Miss | None] = []
-        for i in left:
-            for j in right:
-                stuck = self._stuck(masks[0][i] & masks[1][j])
-                if stuck is None:
-                    return None
-                misses += self._held_up(stuck, (masks[0][i], masks[1][j]), (i, j))
+        for orientations in product(*(self._followed(of_hand)[:_PAIRED_MAX] for of_hand in masks)):
+            rows = [of_hand[number] for of_hand, number in zip(masks, orientations, strict=True)]
+            stuck = self._stuck(np.bitwise_and.reduce(rows))
+            if stuck is None:
+                return None
+            misses += self._held_up(stuck, rows, orientations)
         return _least(misses)
 
     def _held_up(
-        self, stuck: tuple[int, int], rows: tuple[NDArray[np.uint32], NDArray[np.uint32]], orientations: tuple[int, int]
+        self, stuck: tuple[int, int], rows: Sequence[NDArray[np.uint32]], orientations: tuple[int, ...]
     ) -> Iterator[Miss | None]:
-        """Yield what either hand lacks where both get stuck, from where the other has what it needs."""
+        """Yield what each hand lacks where all get stuck, from where the others have what they need."""
         waypoint, before = stuck
-        for hand, other in ((0, 1), (1, 0)):
-            stands = _spread(before, int(rows[other][waypoint]))
+        for hand, orientation in enumerate(orientations):
+            of_others = [int(row[waypoint]) for other, row in enumerate(rows) if other != hand]
+            stands = _spread(before, reduce(and_, of_others))
             if stands:
-                yield self._lacking(hand, orientations[hand], waypoint, stands, Demand.WITH_THE_OTHER_HAND)
+                yield self._lacking(hand, orientation, waypoint, stands, Demand.WITH_THE_OTHER_HAND)
 
 
 def _bits(mask: int) -> list[int]:

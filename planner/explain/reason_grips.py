@@ -2,7 +2,8 @@
 
 If two discs cover points in convex position, each disc can be given a sequence of neighbours, since the line halfway
 between the centres separates them. The points to hold are corners of a convex hull. So it is enough to try all ways to
-cut their ring into two sequences, with the best grip for each.
+cut their ring into two sequences, with the best grip for each. For three grips and more such cuts are enough to hold
+all, though a grip between two others might do with a little less.
 """
 
 import math
@@ -24,13 +25,13 @@ _ALL_MAX, _PAIRS_MAX = 32, 64
 
 
 def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips: int) -> float:
-    """Return a grip radius with which the grips hold all vertices (m): the least, or slightly more for many vertices.
+    """Return a grip radius with which the grips hold all vertices (m): the least, or slightly more for many of them.
 
     Args:
         piece: the cloth whose boundary is gripped.
         baseline: the part of its boundary that stays in place, where no grip goes.
         vertices: what must be held, shape (n, 2), m, at least one.
-        grips: the number of hands; of more than two only two are counted on.
+        grips: the number of hands.
     """
     candidates = _candidates(piece, baseline, vertices)
     middle = vertices.mean(axis=0)
@@ -38,7 +39,7 @@ def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips:
     distances = np.hypot(*(candidates[:, None] - ring[None]).transpose(2, 0, 1))
     if grips == 1:
         return float(distances.max(axis=1).min())
-    return _in_two_runs(distances)
+    return _in_runs(distances, grips)
 
 
 def held_radius(held: Cover, vertices: FloatArray) -> float:
@@ -66,17 +67,25 @@ def _candidates(piece: Region, baseline: Segment, vertices: FloatArray) -> Float
     return np.asarray(found[baseline.distances(found) > LENGTH_M])
 
 
-def _in_two_runs(distances: FloatArray) -> float:
-    """Return the least radius for two grips, from the distances of candidates to the ring of vertices, shape (m, n)."""
+def _in_runs(distances: FloatArray, grips: int) -> float:
+    """Return the least radius for some grips, each holding neighbours on the ring of vertices.
+
+    Args:
+        distances: from candidates to the ring of vertices, shape (m, n), m.
+        grips: the number of grips, two or more.
+    """
     count = distances.shape[1]
-    least = np.empty((count, count))
-    """The least radius for a sequence that begins at the first index and has one more vertex than the second."""
+    alone = np.empty((count, count))
+    """The least radius for one sequence that begins at the first index and has one more vertex than the second."""
     for start in range(count):
         run = np.maximum.accumulate(np.roll(distances, -start, axis=1), axis=1)
-        least[start] = run.min(axis=0)
-    best = float(least[0, -1])
-    for start in range(count):
-        for length in range(1, count):
-            rest = least[(start + length) % count, count - length - 1]
-            best = min(best, max(float(least[start, length - 1]), float(rest)))
-    return best
+        alone[start] = run.min(axis=0)
+    least = alone
+    for _ in range(grips - 1):
+        more = least.copy()
+        for start in range(count):
+            for length in range(1, count):
+                rest = least[(start + length) % count, : count - length]
+                more[start, length:] = np.minimum(more[start, length:], np.maximum(alone[start, length - 1], rest))
+        least = more
+    return float(least[:, -1].min())

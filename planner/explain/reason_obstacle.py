@@ -7,7 +7,7 @@ import numpy as np
 
 from planner.explain.reason_collision import collision_reason
 from planner.explain.reason_grips import farthest_from, held_radius, needed_radius
-from planner.explain.reason_words import carried, dragged
+from planner.explain.reason_words import carried, counted_hands, dragged
 from planner.geometry.pose import FloatArray, Point2, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message, plain_points
@@ -111,7 +111,7 @@ def _too_many_grips(context: Context, fold: int) -> Reason:
     ordered = vertices[np.argsort(drawn.line.positions(vertices), kind="stable")]
     where = _along(ordered)
     text = (
-        f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {arms} hands "
+        f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {counted_hands(arms)} "
         f"can when each holds what is within {drawn.grip_radius_m:g} m of it; a grip radius of {_up(needed)} m would "
         "do, or a fold that moves less"
     )

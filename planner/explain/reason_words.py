@@ -24,6 +24,11 @@ _OBLIQUE = 0.5
 """A direction component below this is left out of the words."""
 
 
+def counted_hands(count: int) -> str:
+    """Return a number of hands in words."""
+    return "one hand" if count == 1 else f"{count} hands"
+
+
 def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     """Return what the closest attempt lacked, as a reason."""
     miss = explained(context, miss)

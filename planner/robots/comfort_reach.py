@@ -156,7 +156,7 @@ class ComfortReach:
         """Return hands that are to follow paths, each in one approach.
 
         Args:
-            arms: for each hand its index into `arm_names`; one or two.
+            arms: for each hand its index into `arm_names`.
             paths: for each hand its tool points in the base frame at standoff 0 (m), shape (hands, n, 3).
             approaches: for each hand indices into `approaches`, best first.
             step_m: the distance between standoffs (m).

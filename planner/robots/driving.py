@@ -86,21 +86,16 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
     for j in range(count):
         near |= (1 if best.near[j] <= most else 0) << j
     more = most + 1 if best.near.max() > most else IMPOSSIBLE
-    masks = np.full((2, task.labels.shape[1], 3), near, dtype=np.int64)
+    masks = np.empty((hands, task.labels.shape[1], 3), dtype=np.int64)
     for hand in range(hands):
         masks[hand] = at_extremes(task, arcs, hand, near)
         if not masks[hand].any():
             return answer, more
-    pairs, bounds = _pairs(masks, hands, best)
-    chosen = np.empty(hands, dtype=np.int64)
+    choices, shared, bounds = _choices(masks, best)
     for number in np.argsort(bounds, kind="mergesort"):
-        one, other = pairs[number]
-        begin, apex, end = masks[0, one] & masks[1, other]
+        begin, apex, end = shared[number]
         if bounds[number] < IMPOSSIBLE and least_steps(best.begun, best.useful, begin, apex, end) < IMPOSSIBLE:
-            chosen[0] = one
-            if hands == 2:
-                chosen[1] = other
-            if _follow(task, arcs, chosen, best, answer):
+            if _follow(task, arcs, choices[number], best, answer):
                 more = min(more, most + 1)
         elif bounds[number] == IMPOSSIBLE and best.useful[-1] != 0:
             more = min(more, most + 1)
@@ -110,26 +105,46 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
 
 
 @njit(cache=True, nogil=True)
-def _pairs(masks: NDArray[np.int64], hands: int, best: Incumbents) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the feasible choices of approaches and a lower bound on the steps of each; record the possible ends."""
-    ones = np.flatnonzero(masks[0, :, 0])
-    others = np.flatnonzero(masks[1, :, 0]) if hands == 2 else np.zeros(1, dtype=np.int64)
-    pairs = np.empty((len(ones) * len(others), 2), dtype=np.int64)
-    bounds = np.empty(len(pairs), dtype=np.int64)
-    count, best.possible[0] = 0, 0
-    for one in ones:
-        for other in others:
-            begin, apex, end = masks[0, one] & masks[1, other]
-            if begin and apex and end:
-                pairs[count] = one, other
-                best.possible[0] |= end
-                count += 1
+def _choices(
+    masks: NDArray[np.int64], best: Incumbents
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the feasible choices of approaches, the standoffs at which all hands are within reach, and lower bounds.
+
+    Those standoffs are at the beginning, apex and end of the path. The bounds are on the steps of each choice. The
+    possible ends are recorded.
+    """
+    hands, (choices, shared) = len(masks), _of_first_hand(masks)
+    for hand in range(1, hands):
+        able, count = np.flatnonzero(masks[hand, :, 0]), 0
+        more = np.empty((len(choices) * len(able), hands), dtype=np.int64)
+        both = np.empty((len(more), 3), dtype=np.int64)
+        for number in range(len(choices)):
+            for one in able:
+                begin, apex, end = shared[number] & masks[hand, one]
+                if begin and apex and end:
+                    more[count], both[count] = choices[number], (begin, apex, end)
+                    more[count, hand] = one
+                    count += 1
+        choices, shared = more[:count], both[:count]
+    best.possible[0] = 0
+    for _, _, end in shared:
+        best.possible[0] |= end
     tell_useful(best)
-    for number in range(count):
-        one, other = pairs[number]
-        begin, apex, end = masks[0, one] & masks[1, other]
+    bounds = np.empty(len(choices), dtype=np.int64)
+    for number in range(len(choices)):
+        begin, apex, end = shared[number]
         bounds[number] = least_steps(best.begun, best.useful, begin, apex, end)
-    return pairs[:count], bounds[:count]
+    return choices, shared, bounds
+
+
+@njit(cache=True, nogil=True)
+def _of_first_hand(masks: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the choices of the first hand's approach alone, and the standoffs within its reach."""
+    able = np.flatnonzero(masks[0, :, 0])
+    choices, shared = np.zeros((len(able), len(masks)), dtype=np.int64), np.empty((len(able), 3), dtype=np.int64)
+    for number in range(len(able)):
+        choices[number, 0], shared[number] = able[number], masks[0, able[number]]
+    return choices, shared
 
 
 @njit(cache=True, nogil=True)

@@ -42,7 +42,7 @@ class Task(NamedTuple):
         axes: all approach axes, shape (m, 3).
         labels: for each hand the memory's labels of the approaches it may use, best first, 0 after the last; shape
             (hands, k).
-        places: for each hand, one or two, and waypoint the place, in steps of `LENGTH_M`, shape (hands, n, 3).
+        places: for each hand and waypoint the place, in steps of `LENGTH_M`, shape (hands, n, 3).
         cells: for each hand and waypoint the place's cell in its row, shape (hands, n).
         slots: for each hand, approach and waypoint the row's slot in the memory, if the base drives by the row's step;
             `UNSEEN` until it is looked up. Shape (hands, k, n); added to.

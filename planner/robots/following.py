@@ -15,7 +15,7 @@ _WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
 
 
 class Following:
-    """One or two hands that follow paths."""
+    """Hands that follow paths."""
 
     def __init__(self, task: Task, charge: Callable[[float], None]) -> None:
         """Take the task; `charge` is called with the time spent on each query (s)."""

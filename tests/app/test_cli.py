@@ -151,7 +151,7 @@ def test_check_of_a_fold_that_two_grippers_cannot_hold_is_status_3_and_says_what
     path = saved(tmp_path, house)
     result = pleat("check", path)
     assert result.exit_code == 3
-    assert "towel.json: folds[0]: two grippers cannot hold it" in result.stderr
+    assert "towel.json: folds[0]: the grippers cannot hold it" in result.stderr
     assert "3 points of its edge must be held" in result.stderr
     assert "a grip radius of 0.112 m would do" in result.stderr
     assert json.loads(pleat("check", path, "--json", "-").stdout)["is_holdable"] is False

@@ -113,6 +113,13 @@ def test_the_needed_radius_is_that_of_an_exhaustive_search():
         pairs = np.minimum(gaps[:, None], gaps[None]).max(axis=2).min()
         assert needed_radius(piece, baseline, vertices, 2) == pytest.approx(pairs)
         assert needed_radius(piece, baseline, vertices, 1) == pytest.approx(gaps.max(axis=1).min())
+        threes = min(np.minimum(pair, gaps).max(axis=1).min() for pair in _least_of_pairs(gaps))
+        assert needed_radius(piece, baseline, vertices, 3) == pytest.approx(threes)
+
+
+def _least_of_pairs(gaps):
+    """For each two places the distance from every vertex to the nearer one."""
+    return (np.minimum(a, b) for a, b in combinations(gaps, 2))
 
 
 def _centre(a, b, c):

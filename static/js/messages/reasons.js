@@ -38,6 +38,9 @@ const SIDES = [
   ["higher", "lower"],
 ];
 
+/** A number of hands. @param {number} count */
+const countedHands = (count) => (count === 1 ? "one hand" : `${count} hands`);
+
 /** @type {import("./in_words.js").Catalogue} */
 export const REASONS = {
   out_of_reach: (says) => {
@@ -48,7 +51,7 @@ export const REASONS = {
     );
   },
   too_many_grips: ({ points, hands, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
-    `${points.length} points of its edge must be held, ${outermost(points)}: more than ${hands} hands can when each ` +
+    `${points.length} points of its edge must be held, ${outermost(points)}: more than ${countedHands(hands)} can when each ` +
     `holds what is within ${length(radius)} of it. A grip radius of ${enough(needed)} would do, or a fold that moves less`,
   grips_too_close: ({ points, apart_m, needed_apart_m, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
     `its grips, at ${several(points)}, are ${length(apart_m)} apart, and two hands need ${length(needed_apart_m)}. ` +
@@ -93,7 +96,7 @@ export const REASONS = {
     `a grip radius of ${enough(needed)}${isInDrags ? ", in drags too," : ""} would do, now ${length(radius)}`,
   stiffer_cloth: ({ support_angle_rad: angle, needed_support_angle_rad: needed }) =>
     `too many points must be held, unless cloth holds itself within ${degrees(needed)} of upright, now ${degrees(angle)}`,
-  one_more_hand: ({ hands }) => `must be held at more points than ${hands} hands can. One more would do`,
+  one_more_hand: ({ hands }) => `must be held at more points than ${countedHands(hands)} can. One more would do`,
   waits_for: ({ folds: roots }, folds) =>
     `waits for ${listed(roots.map((/** @type {number} */ root) => called(folds, root)))}, which cannot be done`,
   not_with_the_others: () => "can be done, but not together with the others",

@@ -1,0 +1,98 @@
+"""Robots with one arm, with arms that differ in their joints, and with three arms, planned for like any other."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pytest
+
+from planner import Plan, Scene, load_garment
+from planner.cloth.garment import Garment
+from planner.planning import problem
+from planner.planning.found_plan import FoundPlan
+from planner.planning.plan_check import require_replay
+from planner.planning.warm_up import compile_kernels
+from planner.plans import find_plan, quick_plan
+from planner.task.reason import Code
+from planner.task.task import Task
+from tests.builders import fold, garment
+from tests.replay.planned import planned
+from tests.robots.remade import ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
+
+FRONT_ONLY = Scene(stations=Scene().stations[:1])
+
+Planning = Callable[[RemadeRobot, Garment], FoundPlan]
+
+
+@pytest.fixture
+def found_for(monkeypatch) -> Iterator[Planning]:
+    compile_kernels()
+
+    def found(robot: RemadeRobot, what: Garment) -> FoundPlan:
+        monkeypatch.setattr(problem, "load_robot", lambda name: robot)
+        return find_plan(Task.of(what, FRONT_ONLY, time_limit_s=60.0))
+
+    yield found
+
+
+def arms_of(plan: Plan) -> list[list[str]]:
+    return [[grip.arm for grip in step.grips] for step in plan.steps if step.kind == "fold"]
+
+
+def require_performed(plan: Plan, robot: RemadeRobot) -> None:
+    """The plan can be performed, joint paths and all, and is told in the joints and arms of this robot alone."""
+    assert plan.is_solved and plan.trajectory is not None
+    assert plan.trajectory.arms.names == tuple(name for arm in robot.card.arms for name in arm.joint_names)
+    assert [track.arm for track in plan.trajectory.grippers] == [arm.name for arm in robot.card.arms]
+    again = Plan.from_dict(plan.to_dict())
+    assert again == plan
+    require_replay(again)
+
+
+@pytest.mark.parametrize("name", ["tie", "scarf"])
+def test_one_arm_folds_what_one_grip_can_hold(found_for: Planning, name: str):
+    plan = found_for(ONE_ARM, load_garment(name)).plan
+    require_performed(plan, ONE_ARM)
+    assert {arm for arms in arms_of(plan) for arm in arms} == {"single"}
+
+
+def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning):
+    plan = found_for(ONE_ARM, load_garment("hand-towel")).plan
+    first, *_ = plan.reasons
+    assert (first.fold, first.code) == (0, Code.TOO_MANY_GRIPS)
+    assert "more than one hand can" in first.message
+
+
+def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning):
+    plan, usual = found_for(UNLIKE, load_garment("hand-towel")).plan, planned("hand-towel").answer
+    require_performed(plan, UNLIKE)
+    assert len(plan.trajectory.arms.names) == 15
+    assert plan.cost_s == pytest.approx(usual.cost_s)
+    assert arms_of(plan) == arms_of(usual)
+
+
+def test_of_three_arms_those_two_fold_that_are_nearest(found_for: Planning):
+    towel = load_garment("hand-towel")
+    beside = replace(towel, placement=towel.placement.moved(0.0, 0.3))
+    plan = found_for(THREE_ARMS, beside).plan
+    require_performed(plan, THREE_ARMS)
+    assert arms_of(plan)[0] == ["outer", "left"]
+    assert not found_for(ONE_ARM, beside).plan.is_solved
+
+
+def test_three_arms_hold_what_takes_three_grips(found_for: Planning):
+    # Corners 35 cm from each other, along the robot's front.
+    outline = [(0.0, 0.0), (0.7, 0.0), (0.7, 0.14), (0.35, 0.2), (0.0, 0.14)]
+    up = fold((0.0, 0.05), (0.7, 0.05), radius_m=0.08)
+    tab = garment(outline, up, placement=replace(load_garment("hand-towel").placement, x_m=-0.65, y_m=0.4))
+    plan = found_for(THREE_ARMS, tab).plan
+    require_performed(plan, THREE_ARMS)
+    assert arms_of(plan) == [["outer", "left", "right"]]
+
+
+def test_a_plan_of_one_arm_is_adapted_to_cloth_that_lies_a_little_elsewhere(found_for: Planning):
+    scarf = load_garment("scarf")
+    known = found_for(ONE_ARM, scarf)
+    moved = replace(scarf, placement=scarf.placement.moved(0.02, 0.01))
+    quick = quick_plan(Task.of(moved, FRONT_ONLY), like=[known])
+    assert quick is not None
+    require_performed(quick.plan, ONE_ARM)

@@ -1,0 +1,267 @@
+"""Robots of any number of arms, each one of a PR2's, mounted where somebody says: for tests of what counts arms.
+
+An arm is that of a PR2 that stands elsewhere, so its kinematics and its collisions with the table are a PR2's. What
+touches what among these arms is simple: the hands of arms of one PR2 as theirs do, hands of others if they are not in
+the order of their arms from left to right, `HANDS_APART_M` apart. An arm may have joints that do nothing.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
+from planner.geometry.shortfall import Shortfall
+from planner.geometry.table import Table
+from planner.robots.arm_paths import Together, arm_paths
+from planner.robots.card import ArmCard, RobotCard
+from planner.robots.collision.clearance import Clearance
+from planner.robots.collision.collisions import Collisions
+from planner.robots.collision.contact import Contact
+from planner.robots.joint_layout import JointLayout
+from planner.robots.pr2 import Pr2
+from planner.robots.reach import Pr2Reach
+from planner.robots.sided_arm import SidedArm
+from planner.robots.tool_path import IsFree, NoPath, ToolPath
+
+HANDS_APART_M = 0.2
+
+
+@dataclass(frozen=True, slots=True)
+class Mounted:
+    """An arm of a robot.
+
+    Attributes:
+        name: its name.
+        of: the PR2's arm that it is: 0 the left one, 1 the right one.
+        aside_m: how far further left it is mounted (m).
+        idle: how many joints it has that do nothing.
+    """
+
+    name: str
+    of: int
+    aside_m: float = 0.0
+    idle: int = 0
+
+    @property
+    def mount(self) -> FloatArray:
+        return np.array([0.0, self.aside_m, 0.0])
+
+    def stand(self, bases: Pose2 | FloatArray) -> FloatArray:
+        """Where the PR2 stands whose arm it is, shape (n, 3)."""
+        rows = np.array([[bases.x_m, bases.y_m, bases.yaw_rad]]) if isinstance(bases, Pose2) else np.array(bases)
+        rows[:, 0] -= np.sin(rows[:, 2]) * self.aside_m
+        rows[:, 1] += np.cos(rows[:, 2]) * self.aside_m
+        return rows
+
+    def bent(self, joints: FloatArray) -> FloatArray:
+        """The PR2's joints among its own."""
+        return np.ascontiguousarray(joints[..., : joints.shape[-1] - self.idle])
+
+    def own(self, joints: FloatArray) -> FloatArray:
+        """Its joints, those that do nothing at 0."""
+        return np.concatenate([joints, np.zeros((*joints.shape[:-1], self.idle))], axis=-1)
+
+    def card(self, arm: ArmCard) -> ArmCard:
+        names = tuple(f"{self.name}_{joint}" for joint in (*arm.joint_names, *(f"idle_{n}" for n in range(self.idle))))
+        return replace(
+            arm,
+            name=self.name,
+            joint_names=names,
+            speeds_rad_s=(*arm.speeds_rad_s, *(1.0,) * self.idle),
+            is_continuous=(*arm.is_continuous, *(False,) * self.idle),
+            home=(*arm.home, *(0.0,) * self.idle),
+            lifting=tuple(f"{self.name}_{joint}" for joint in arm.lifting),
+            gripper=replace(arm.gripper, joint_name=f"{self.name}_{arm.gripper.joint_name}"),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class ShiftedArm(SidedArm):
+    """A PR2's arm, asked in the frame of a base from which it is mounted further left."""
+
+    aside_m: float = 0.0
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        return SidedArm.mirrored_places(self, places - np.array([0.0, self.aside_m, 0.0]))
+
+
+class RemadeReach(Pr2Reach):
+    """The reach of several arms."""
+
+    @property
+    def shoulders(self) -> tuple[Point3, ...]:
+        plain = [SidedArm(arm.shape, arm.is_mirrored) for arm in self._arms]
+        found = [arm.mirrored_places(arm.shoulder(self._torso_m)) for arm in plain]
+        return tuple(
+            (float(x), float(y) + arm.aside_m, float(z)) for arm, (x, y, z) in zip(self._arms, found, strict=True)
+        )
+
+    def shortfall(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
+    ) -> Shortfall | None:
+        found = super().shortfall(arm, points, approaches, at_most_m)
+        if found is None:
+            return None
+        x, y, z = found.towards
+        shift = self._arms[arm].aside_m  # the direction was seen as if it were a place
+        return replace(found, towards=(x, y + shift if not self._arms[arm].is_mirrored else y - shift, z))
+
+
+class RemadeRobot:
+    """A robot that has these arms, from left to right."""
+
+    def __init__(self, *arms: Mounted) -> None:
+        self.arms = arms
+        self.pr2 = Pr2()
+        cards = tuple(arm.card(self.pr2.card.arms[arm.of]) for arm in arms)
+        self.card: RobotCard = replace(self.pr2.card, name="remade", arms=cards)
+        shape = self.pr2._arms[0].shape
+        self._kinematics = tuple(ShiftedArm(shape, arm.of == 1, arm.aside_m) for arm in arms)
+
+    def reach(self, torso_m: float, comfort_m: float) -> RemadeReach:
+        names = tuple(arm.name for arm in self.arms)
+        return RemadeReach(names, self._kinematics, torso_m, comfort_m, self.pr2._room(torso_m))
+
+    def collisions(self, table: Table, torso_m: float, **options: Any) -> "RemadeCollisions":
+        return RemadeCollisions(self, self.pr2.collisions(table, torso_m, **options), torso_m)
+
+    def arm_paths(
+        self,
+        paths: Mapping[int, ToolPath],
+        torso_m: float,
+        floor_m: float,
+        are_free: Mapping[int, IsFree],
+        together: Together,
+    ) -> FloatArray | NoPath:
+        searches = {}
+        for number, path in paths.items():
+            arm = self.arms[number]
+            searches[number] = self.pr2._search(
+                arm.of, self._seen(arm, path), torso_m, floor_m, self._own(arm, are_free[number])
+            )
+        found = arm_paths(searches, _Bent(self.arms, together))
+        if isinstance(found, NoPath):
+            return found
+        parts = np.split(found, len(searches), axis=1)
+        return np.hstack([self.arms[number].own(part) for number, part in zip(searches, parts, strict=True)])
+
+    def arm_path_near(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
+    ) -> FloatArray | None:
+        one = self.arms[arm]
+        found = self.pr2.arm_path_near(one.of, self._seen(one, path), torso_m, self._own(one, is_free), one.bent(known))
+        return None if found is None else one.own(found)
+
+    def free_postures(
+        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, is_free
+    ) -> FloatArray:
+        one = self.arms[arm]
+        found = self.pr2.free_postures(
+            one.of, position - one.mount, rotation, torso_m, lambda joints: is_free(one.own(joints))
+        )
+        return one.own(found)
+
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        one = self.arms[arm]
+        position, rotation = self.pr2.tool_pose(one.of, one.bent(joints), torso_m)
+        return position + one.mount, rotation
+
+    def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
+        one = self.arms[arm]
+        return self.pr2.tool_places(one.of, one.bent(joints), torso_m) + one.mount
+
+    @staticmethod
+    def _seen(arm: Mounted, path: ToolPath) -> ToolPath:
+        return replace(path, positions=path.positions - arm.mount)
+
+    @staticmethod
+    def _own(arm: Mounted, is_free: IsFree) -> IsFree:
+        return lambda steps, joints, is_certain: is_free(steps, arm.own(joints), is_certain)
+
+
+class _Bent:
+    """Which arms are apart, asked without the joints that do nothing."""
+
+    def __init__(self, arms: Sequence[Mounted], real: Together) -> None:
+        self._arms = arms
+        self._real = real
+
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
+        parts = np.split(joints, len(arms), axis=1)
+        own = [self._arms[arm].own(part) for arm, part in zip(arms, parts, strict=True)]
+        return self._real.arms_apart(arms, np.hstack(own))
+
+    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
+        one, other = (self._arms[arm] for arm in arms)
+        return self._real.postures_apart(arms, one.own(first), other.own(second))
+
+
+class RemadeClearance:
+    """Arms high above cloth, each seen from its PR2."""
+
+    def __init__(self, arms: Sequence[Mounted], real: Clearance) -> None:
+        self._arms = arms
+        self._real = real
+
+    def arm_clear(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, **how: bool) -> BoolArray:
+        one = self._arms[arm]
+        return self._real.arm_clear(one.of, one.stand(bases), one.bent(joints), **how)
+
+
+class RemadeCollisions:
+    """What several arms touch."""
+
+    def __init__(self, robot: RemadeRobot, real: Collisions, torso_m: float) -> None:
+        self._robot = robot
+        self._arms = robot.arms
+        self._layout = JointLayout.of(robot.card)
+        self._real = real
+        self._torso_m = torso_m
+
+    def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, **how: bool) -> BoolArray:
+        one = self._arms[arm]
+        return self._real.arm_free(one.of, one.stand(bases), one.bent(joints), **how)
+
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, **how: bool) -> BoolArray:
+        counts = [len(self._robot.card.arms[arm].joint_names) for arm in arms]
+        assert joints.shape[1] == sum(counts)
+        of_arm = dict(zip(arms, np.split(joints, np.cumsum(counts)[:-1], axis=1), strict=True))
+        apart = np.ones(len(joints), dtype=bool)
+        for pair in combinations(arms, 2):
+            apart &= self._pair_apart(pair, *(of_arm[arm] for arm in pair), **how)
+        return apart
+
+    def _pair_apart(self, pair: tuple[int, int], first: FloatArray, second: FloatArray, **how: bool) -> BoolArray:
+        one, other = (self._arms[arm] for arm in pair)
+        if (one.of, other.of) == (0, 1) and one.aside_m == other.aside_m:
+            return self._real.arms_apart((0, 1), np.hstack([one.bent(first), other.bent(second)]), **how)
+        tools = [self._robot.tool_places(arm, q, self._torso_m) for arm, q in zip(pair, (first, second), strict=True)]
+        return np.asarray(tools[0][:, 1] - tools[1][:, 1] > HANDS_APART_M)
+
+    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
+        pairs = [self._pair_apart(arms, row[None].repeat(len(second), 0), second, is_certain=True) for row in first]
+        return np.array(pairs, dtype=bool).reshape(len(first), len(second))
+
+    def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
+        return bool(self.postures_apart(arms, first, second).any())
+
+    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        alone = (self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]).all() for arm in self._layout.arms)
+        return all(alone) and bool(self.arms_apart(tuple(self._layout.arms), joints).all())
+
+    def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> RemadeClearance:
+        return RemadeClearance(self._arms, self._real.over_cloth(pieces, over_m))
+
+    def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
+        if self.are_all_free(base_in_table, joints[None]):
+            return None
+        return Contact(f"{self._arms[0].name} palm", f"{self._arms[-1].name} palm", 0.01)
+
+
+ONE_ARM = RemadeRobot(Mounted("single", of=0))
+UNLIKE = RemadeRobot(Mounted("left", of=0, idle=1), Mounted("right", of=1))
+THREE_ARMS = RemadeRobot(Mounted("outer", of=0, aside_m=0.45), Mounted("left", of=0), Mounted("right", of=1, idle=2))
