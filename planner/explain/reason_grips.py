@@ -80,12 +80,13 @@ def _in_runs(distances: FloatArray, grips: int) -> float:
     for start in range(count):
         run = np.maximum.accumulate(np.roll(distances, -start, axis=1), axis=1)
         alone[start] = run.min(axis=0)
-    least = alone
-    for _ in range(grips - 1):
+    least, starts = alone, np.arange(count)
+    for _ in range(grips - 2):
         more = least.copy()
-        for start in range(count):
-            for length in range(1, count):
-                rest = least[(start + length) % count, : count - length]
-                more[start, length:] = np.minimum(more[start, length:], np.maximum(alone[start, length - 1], rest))
+        for length in range(1, count):
+            rest = least[(starts + length) % count, : count - length]
+            more[:, length:] = np.minimum(more[:, length:], np.maximum(alone[:, length - 1, None], rest))
         least = more
-    return float(least[:, -1].min())
+    rests = (least[(starts + length) % count, count - length - 1] for length in range(1, count))
+    all_round = [np.maximum(alone[:, length], rest).min() for length, rest in enumerate(rests)]
+    return float(min([alone[0, -1], *all_round]))
