@@ -22,7 +22,7 @@ def line(start: tuple[float, float, float], end: tuple[float, float, float], yaw
 
 
 def is_free(arm: int) -> IsFree:
-    """Return True everywhere: the robot stands nowhere near the table."""
+    """Return the collision check of an arm while the robot stands nowhere near the table."""
     return lambda _, joints, is_certain: COLLISIONS.arm_free(arm, FAR, joints, is_certain=is_certain)
 
 
