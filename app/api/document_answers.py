@@ -154,7 +154,7 @@ class StepsAnswer(BaseModel):
     steps: list[LayersAnswer]
 
 
-class MendAnswer(BaseModel):
+class QuickFixAnswer(BaseModel):
     """A change that removes a problem of a drawing: its label, and the drawing afterwards."""
 
     label: str
@@ -162,8 +162,8 @@ class MendAnswer(BaseModel):
     drawing: DrawingAnswer
 
 
-class MendsAnswer(BaseModel):
+class QuickFixesAnswer(BaseModel):
     """The quick fixes of a drawing's first problem."""
 
     version: int
-    mends: list[MendAnswer]
+    quick_fixes: list[QuickFixAnswer]

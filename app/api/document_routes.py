@@ -18,8 +18,8 @@ from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
     DocumentEntryAnswer,
-    MendsAnswer,
     PlaybackAnswer,
+    QuickFixesAnswer,
     StepsAnswer,
 )
 from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest, NewDocument, TravelRequest
@@ -33,8 +33,8 @@ from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
-from app.drawing.mends import mends
 from app.drawing.place_crease import PlacedCrease, along_line, grab_and_drop
+from app.drawing.quick_fixes import quick_fixes
 from app.open_document import OpenDocument
 from app.workspace import Workspace
 from planner.errors import FieldError, RequestError
@@ -167,13 +167,15 @@ async def read_steps(request: Request, document_id: str) -> JSONResponse:
     return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
 
 
-@router.get("/{document_id}/mends", responses={200: {"model": MendsAnswer}, **problems(403, 404, 409, 422, 503)})
-async def read_mends(request: Request, document_id: str) -> JSONResponse:
+@router.get(
+    "/{document_id}/quick-fixes", responses={200: {"model": QuickFixesAnswer}, **problems(403, 404, 409, 422, 503)}
+)
+async def read_quick_fixes(request: Request, document_id: str) -> JSONResponse:
     """Return the quick fixes of the drawing's first problem, best first; none if it has no problems."""
     opened = await _opened(request, document_id)
     state = opened.document.state
-    found = await quick_answer(request, mends, state.draft)
-    return JSONResponse({"version": state.version, "mends": [mend.to_dict() for mend in found]})
+    found = await quick_answer(request, quick_fixes, state.draft)
+    return JSONResponse({"version": state.version, "quick_fixes": [quick_fix.to_dict() for quick_fix in found]})
 
 
 def _place(after: str | None) -> tuple[str, str] | None:

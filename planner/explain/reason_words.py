@@ -37,7 +37,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     station, pose = context.scene.stations[miss.state.station]
     arm = context.reach.arm_names[trial.arms[miss.grip]]
     point = _point(trial.tools[miss.grip, miss.waypoint])
-    mending = None if found.is_at_least else remedy(context, miss)
+    needed = None if found.is_at_least else remedy(context, miss)
     text = (
         f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {height_words(point[2])} "
         f"{_AT[_moment(miss)]}, {_lack(context, miss)}; "
@@ -80,8 +80,8 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         back_off_m=miss.back_off / BACK_OFFS_PER_M,
         approach=context.reach.approaches[found.approach],
         offset_m=miss.state.offset,
-        shift_m=None if mending is None else mending.distance_m,
-        shift_towards=None if mending is None else _turned(pose, mending.towards),
+        shift_m=None if needed is None else needed.distance_m,
+        shift_towards=None if needed is None else _turned(pose, needed.towards),
         comfort_m=found.comfort_m,
     )
 
@@ -151,7 +151,7 @@ def _lack(context: Context, miss: Miss) -> str:
     return f"is {by} m out of reach{demand} ({because})"
 
 
-def mended_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
+def remedied_by(reason: Reason, pose: Pose2, kinds: tuple[str, ...]) -> Reason:
     """Return what was out of reach, with the repair that was tried and works.
 
     Args:

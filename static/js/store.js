@@ -17,7 +17,7 @@ import { Live } from "./live.js";
  * @typedef {{kind: "vertex"|"edge"|"fold"|"garment", ids: string[]}} Selection
  * An edge is named by the vertex that it starts at.
  */
-/** @typedef {PlanChange & {drawing?: Drawing, version?: number}} Preview what a suggestion or a mend would change */
+/** @typedef {PlanChange & {drawing?: Drawing, version?: number}} Preview what a suggestion or a quick fix would change */
 
 export class Store extends EventTarget {
   /** @param {string} id the document's */

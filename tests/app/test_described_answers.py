@@ -12,8 +12,8 @@ from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
     DocumentEntryAnswer,
-    MendsAnswer,
     PlaybackAnswer,
+    QuickFixesAnswer,
     StepsAnswer,
 )
 from app.api.file_routes import FileEntry, ImportAnswer
@@ -65,7 +65,7 @@ async def test_what_is_made_and_imported_is_as_described(client: httpx.AsyncClie
 
 
 @pytest.mark.parametrize(
-    ("name", "shape"), [("steps", StepsAnswer), ("mends", MendsAnswer), ("files", list[FileEntry])]
+    ("name", "shape"), [("steps", StepsAnswer), ("quick-fixes", QuickFixesAnswer), ("files", list[FileEntry])]
 )
 async def test_what_belongs_to_a_document_is_as_described(client: httpx.AsyncClient, name: str, shape: Any) -> None:
     for outline in (towel()["outline"], CROSSED):

@@ -131,7 +131,7 @@ def test_the_same_drawing_again_has_the_same_plan_at_once(plan: Plan) -> None:
     assert not state.is_planning
 
 
-def test_with_something_wrong_there_is_no_plan_and_with_it_mended_the_old_one_is_back(plan: Plan) -> None:
+def test_with_something_wrong_there_is_no_plan_and_with_it_fixed_the_old_one_is_back(plan: Plan) -> None:
     changed = answered(plan)
     state = changed.edit(Edit("Spoil", SPOILT))
     assert plan_message(state)["plan"] is None
@@ -201,7 +201,7 @@ def test_an_answer_that_comes_when_something_is_wrong_by_now_is_not_played(plan:
     assert changed.state.playback.duration_s == 0.0
 
 
-def test_with_what_was_wrong_mended_the_old_plan_is_played_again(plan: Plan) -> None:
+def test_with_what_was_wrong_fixed_the_old_plan_is_played_again(plan: Plan) -> None:
     changed = answered(plan)
     assert changed.edit(Edit("Spoil", SPOILT)).film is None
     film = changed.undo().film

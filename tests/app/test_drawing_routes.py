@@ -143,18 +143,18 @@ async def test_a_change_that_cannot_be_kept_is_told_of(client: httpx.AsyncClient
     assert (await client.get(f"/api/documents/{state['id']}")).json() == state
 
 
-async def test_what_would_mend_a_drawing_can_be_committed_and_undone(client: httpx.AsyncClient) -> None:
+async def test_a_quick_fix_can_be_committed_and_undone(client: httpx.AsyncClient) -> None:
     state = await created(client)
     path = f"/api/documents/{state['id']}"
-    assert (await client.get(f"{path}/mends")).json() == {"version": 1, "mends": []}
+    assert (await client.get(f"{path}/quick-fixes")).json() == {"version": 1, "quick_fixes": []}
     fold = {**state["drawing"]["folds"][0], "kind": "red"}
     spoilt = (await put(client, state, {**state["drawing"], "folds": [fold]})).json()
-    answer = (await client.get(f"{path}/mends")).json()
+    answer = (await client.get(f"{path}/quick-fixes")).json()
     assert answer["version"] == spoilt["version"]
-    first = answer["mends"][0]
+    first = answer["quick_fixes"][0]
     assert set(first) == {"label", "says", "drawing"}
-    mended = (await put(client, spoilt, first["drawing"], label=first["label"])).json()
-    assert mended["problems"] == []
-    assert mended["history"]["can_undo"] == "Make fold 0 'half' blue"
+    fixed = (await put(client, spoilt, first["drawing"], label=first["label"])).json()
+    assert fixed["problems"] == []
+    assert fixed["history"]["can_undo"] == "Make fold 0 'half' blue"
     undone = (await client.post(f"{path}/undo")).json()
     assert undone["problems"] == spoilt["problems"]

@@ -45,7 +45,7 @@ async def test_short_work_is_answered_while_all_searches_are_taken(client: httpx
     async with endless_plans(client, 8), asyncio.timeout(30.0):
         assert (await client.post("/api/dag", json={"garment": "t-shirt"})).status_code == 200
         assert (await client.put(f"{path}/drawing", json=edit)).status_code == 200
-        for part in ("steps", "mends", "overlays?station=front&show=slip"):
+        for part in ("steps", "quick-fixes", "overlays?station=front&show=slip"):
             assert (await client.get(f"{path}/{part}")).status_code == 200
         drawing = (
             b'<svg xmlns="http://www.w3.org/2000/svg" width="10cm" height="10cm"><path d="M0 0h90v90h-90z"/></svg>'

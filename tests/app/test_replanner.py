@@ -83,14 +83,14 @@ def test_undo_finds_its_plan_again_at_once(desk: Desk) -> None:
     assert desk.document.state.answer.plan is first
 
 
-def test_a_drawing_that_was_spoilt_and_is_mended_has_its_plan_and_film_again(desk: Desk) -> None:
+def test_a_drawing_that_was_spoilt_and_is_fixed_has_its_plan_and_playback_again(desk: Desk) -> None:
     desk.rest()
     assert desk.document.state.answer is not None
     first = desk.document.state.answer.plan
     one, other, *rest = TOWEL.outline
     state = desk.document.edit(Edit("Spoil", replace(TOWEL, outline=(other, one, *rest))))
     assert state.solution.problems and state.film is None
-    desk.document.edit(Edit("Mend", TOWEL))
+    desk.document.edit(Edit("Fix", TOWEL))
     desk.rest()
     assert desk.document.state.answer.plan is first
 

@@ -44,7 +44,7 @@ def spoil(page: Page) -> None:
         route.fulfill(response=fetched, json=spoilt(fetched.json()))
 
     page.route_web_socket("**/live", socket)
-    page.route("**/mends", answer)
+    page.route("**/quick-fixes", answer)
     page.route("**/files", answer)
     page.route("**/crease", answer)
 
@@ -73,7 +73,7 @@ def test_a_reason_is_told_from_its_numbers(page: Page, apron: Sheet) -> None:
     assert "RUBBISH" not in page.locator("body").inner_text()
 
 
-def test_what_is_wrong_with_a_drawing_and_mends_it_is_told_in_one_way_everywhere(page: Page, apron: Sheet) -> None:
+def test_what_is_wrong_with_a_drawing_and_what_fixes_it_is_told_in_one_way_everywhere(page: Page, apron: Sheet) -> None:
     def crossing(drawing: dict[str, Any]) -> None:
         points = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]]
         drawing["outline"] = [{"id": f"v{number}", "point": point} for number, point in enumerate(points)]
@@ -83,6 +83,6 @@ def test_what_is_wrong_with_a_drawing_and_mends_it_is_told_in_one_way_everywhere
     told = "dges 1 and 3 cross at (25, 25) cm of the garment"
     for place in (page.get_by_role("status"), page.locator(".reason"), page.locator(".callout")):
         expect(place).to_contain_text(told)
-    mends = page.get_by_role("group", name="Suggestions").get_by_role("button")
-    expect(mends.first).to_have_text("Exchange the two corners")
+    fixes = page.get_by_role("group", name="Suggestions").get_by_role("button")
+    expect(fixes.first).to_have_text("Exchange the two corners")
     assert "RUBBISH" not in page.locator("body").inner_text()

@@ -45,8 +45,8 @@ def test_a_fold_that_would_cover_a_corner_says_how_far_it_covers_it():
         "afterwards the cloth covers the table's corner at (-0.500, 0.300) m, which is 0.05 m inside it"
         in reason.message
     )
-    mended = replace(cloth, placement=cloth.placement.moved(reason.short_by_m + 1e-4, 0.0))
-    assert is_gone(reason, make_plan(mended, scene, time_limit_s=60.0))
+    fixed = replace(cloth, placement=cloth.placement.moved(reason.short_by_m + 1e-4, 0.0))
+    assert is_gone(reason, make_plan(fixed, scene, time_limit_s=60.0))
 
 
 def test_a_flap_that_would_hang_by_its_neck_says_which_corner_is_loose():
@@ -59,8 +59,8 @@ def test_a_flap_that_would_hang_by_its_neck_says_which_corner_is_loose():
     assert "-0.20) m of the garment, 0.05 m beyond the edge" in reason.message
     # Dragged towards the robot it would only hang further.
     assert all("the cloth dragged by" in r.message for r in dragged if r.set != reason.set)
-    mended = replace(hammer(), placement=hammer().placement.moved(reason.short_by_m + 1e-4, 0.0))
-    assert is_gone(reason, make_plan(mended, HAMMER_SCENE, time_limit_s=60.0))
+    fixed = replace(hammer(), placement=hammer().placement.moved(reason.short_by_m + 1e-4, 0.0))
+    assert is_gone(reason, make_plan(fixed, HAMMER_SCENE, time_limit_s=60.0))
 
 
 def test_a_part_that_reaches_behind_the_lines_extension_says_how_far():
@@ -100,8 +100,8 @@ def test_cloth_that_covers_a_corner_at_the_start_says_so_of_no_fold():
     assert reason.short_by_m == pytest.approx(0.19)
     assert reason.point == pytest.approx((0.8, 0.49, 0.0))
     assert "as the garment lies at the start, the cloth covers the table's corner" in reason.message
-    mended = replace(cloth, placement=cloth.placement.moved(0.0, -reason.short_by_m - 1e-4))
-    assert all(r.fold is not None for r in make_plan(mended, time_limit_s=60.0).reasons)
+    fixed = replace(cloth, placement=cloth.placement.moved(0.0, -reason.short_by_m - 1e-4))
+    assert all(r.fold is not None for r in make_plan(fixed, time_limit_s=60.0).reasons)
 
 
 def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies():

@@ -112,8 +112,8 @@ def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
     assert nearest - furthest > 0.07
     assert reason.short_by_m > nearest - furthest
     assert reason.towards[0] == pytest.approx(1.0)
-    moved, mended = _moved_station(cloth, reason, 0.001)
-    assert is_in_reach(found_plan(moved, mended, time_limit_s=60.0), 0)
+    moved, changed = _moved_station(cloth, reason, 0.001)
+    assert is_in_reach(found_plan(moved, changed, time_limit_s=60.0), 0)
 
 
 def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
@@ -165,8 +165,8 @@ def test_shifted_as_the_reason_says_all_that_both_hands_do_is_in_reach(height_m,
     for by_m, is_enough in ((0.001, True), (-0.021, False)):
         x, y, z = (reason.shift_m + by_m) * np.array(reason.shift_towards)
         stations = tuple((name, pose.moved(-float(x), -float(y))) for name, pose in FRONT)
-        mended = replace(fixed(height_m + float(z)), stations=stations)
-        assert is_in_reach(found_plan(towel, mended, time_limit_s=60.0), 0) == is_enough
+        changed = replace(fixed(height_m + float(z)), stations=stations)
+        assert is_in_reach(found_plan(towel, changed, time_limit_s=60.0), 0) == is_enough
 
 
 def _moved_cloth(cloth, reason: Reason, by_m: float):

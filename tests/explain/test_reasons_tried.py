@@ -45,7 +45,7 @@ def test_a_line_a_centimetre_off_the_table_is_what_is_wrong_with_it():
     assert reason.change is None or planned_with(reason.change, sheet).is_solved
 
 
-def test_what_moving_the_cloth_does_not_mend_is_not_told_to_be_moved_and_friction_that_would_is_told():
+def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction_that_would_is_told():
     # Dragged by 0.1 m the towel ends at the edge, and its near end is still to be laid down 0.07 m too far away;
     # dragged by 0.2 m, 0.1 m of it hang and 0.5 m lie.
     over, back = fold((0.3, 0.4), (0.0, 0.4)), fold((0.0, 0.6), (0.3, 0.6), "red")
@@ -134,11 +134,11 @@ def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int):
         first = members[0]
         if first.change is None:
             continue
-        mended = planned_with(first.change, cloth, scene)
+        fixed = planned_with(first.change, cloth, scene)
         if first.gives == "start":
-            assert all(reason.fold is not None for reason in mended.reasons)
+            assert all(reason.fold is not None for reason in fixed.reasons)
             continue
-        assert mended.is_solved
+        assert fixed.is_solved
         if len(members) == 1:
             assert not planned_with(a_bit_less(first, cloth, scene), cloth, scene).is_solved
 

@@ -90,7 +90,7 @@ def test_folds_that_wait_come_last_and_name_what_they_wait_for():
         (2, Code.WAITS_FOR_FOLD),
     ]
     assert found[1].message == "fold 1 'half again': waits for fold 0 'half', which cannot be done"
-    # The last waits for the middle one, but what has to be mended is the first.
+    # The last waits for the middle one, but what has to be fixed is the first.
     assert found[2].message == "fold 2 'and again': waits for fold 0 'half', which cannot be done"
 
 

@@ -27,7 +27,7 @@ export type Step = Schemas["StepAnswer"];
 export type Layer = Schemas["MovedLayerAnswer"];
 export type Steps = Schemas["StepsAnswer"];
 export type Crease = Schemas["CreaseAnswer"];
-export type Mends = Schemas["MendsAnswer"];
+export type QuickFixes = Schemas["QuickFixesAnswer"];
 
 export type LiveMessage = Schemas["LiveMessage"];
 export type Command = Schemas["LiveCommand"];

@@ -210,7 +210,7 @@ def test_a_round_cloth_of_400_corners_needs_more_hands_than_there_are_and_that_i
     assert answer.status == "infeasible"
     first, *others = answer.reasons
     assert first.code == "too_many_grips"
-    # What else is named would have to be mended together with it.
+    # What else is named would have to be fixed together with it.
     assert {reason.set for reason in others} <= {first.set}
 
 

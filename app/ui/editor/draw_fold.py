@@ -135,7 +135,7 @@ class DrawFold(Tool):
         if legal < len(state.drawing.folds):
             told = (spoken(problem.says, problem.message) for problem in solution.problems if problem.fold == legal)
             why = next(told, "it is not legal")
-            raise RefusedError(as_sentence(f"mend fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
+            raise RefusedError(as_sentence(f"fix fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
         if legal == FOLDS_MAX:
             raise RefusedError(f"There are {FOLDS_MAX} folds already, and there may be no more.")
         if self._is_red and legal == 0:

@@ -66,8 +66,8 @@ class Editor:
         if tool is None:
             return _LOOKING
         problems = self._document.state.solution.problems
-        is_mending = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
-        return as_sentence(spoken(problems[0].says, problems[0].message)) if problems and is_mending else tool.hint()
+        shows_problem = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
+        return as_sentence(spoken(problems[0].says, problems[0].message)) if problems and shows_problem else tool.hint()
 
     @property
     def undo_label(self) -> str:

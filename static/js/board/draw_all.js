@@ -7,7 +7,7 @@ import { drawFolds, drawGhost } from "./draw_folds.js";
 import { drawGrid } from "./draw_grid.js";
 import { drawHandles } from "./draw_handles.js";
 import { drawAxis, drawCursor, drawPreview } from "./draw_marks.js";
-import { drawMend } from "./draw_mend.js";
+import { drawQuickFix } from "./draw_quick_fix.js";
 import { drawOverhang } from "./draw_overhang.js";
 import { drawReason } from "./draw_reason.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
@@ -54,7 +54,7 @@ export function drawAll(board) {
     ...drawOverhang(board),
     ...drawReason(board),
   ]);
-  sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawMend(board)]);
+  sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
   sheets.handles.draw(drawHandles(board));
   sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);

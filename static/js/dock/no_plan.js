@@ -1,7 +1,7 @@
 /** What stands where the plan would be: one sentence, what would help as buttons, and all the reasons on demand. */
 
 import { button, element } from "../dom.js";
-import { Mending } from "./mending.js";
+import { QuickFixes } from "./quick_fixes.js";
 import { details, explanation } from "./reasons.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { ranked, SuggestionSearch } from "./suggestion_search.js";
@@ -25,7 +25,7 @@ export class NoPlan {
   constructor(store) {
     this.store = store;
     this.search = new SuggestionSearch();
-    this.mending = new Mending(store);
+    this.quickFixes = new QuickFixes(store);
     /** @type {number|null|undefined} the version that is searched for; undefined before any is known */
     this.searched = undefined;
     /** Whether more time was given to the search. */
@@ -47,7 +47,7 @@ export class NoPlan {
     this.inFull = element("div", "in-full", this.all, this.more);
     this.why = button("chip why", () => this.unfold(Boolean(this.inFull.hidden)), "Why?");
     this.root = element("div", "no-plan", this.sentence, this.progress, this.again, this.onward, this.longer, this.help, this.inFull);
-    for (const source of [this.search, this.mending]) source.addEventListener("change", () => this.showFound());
+    for (const source of [this.search, this.quickFixes]) source.addEventListener("change", () => this.showFound());
     for (const name of ["pointerleave", "focusout"]) this.help.addEventListener(name, () => this.showFound());
     addEventListener("unit", () => this.reword());
     this.unfold(false);
@@ -72,9 +72,9 @@ export class NoPlan {
     this.why.hidden = all.length === 0;
   }
 
-  /** Search, or ask what would mend it, while the drawing rests without a plan; anything else ends it. */
+  /** Search, or ask for quick fixes, while the drawing rests without a plan; anything else ends it. */
   follow() {
-    this.mending.follow();
+    this.quickFixes.follow();
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
     const resting = isAnswered && SEARCHABLE.has(message.status) ? state : null;
@@ -90,7 +90,7 @@ export class NoPlan {
 
   showFound() {
     const { found, isRunning, fault } = this.search;
-    const order = [...this.mending.found, ...ranked(found)];
+    const order = [...this.quickFixes.found, ...ranked(found)];
     const offered = order.slice(0, SHOWN_MAX);
     /** @type {Make} */
     const make = (one, index) => suggestionButton(this.store, one, index === 0 ? "is-first" : "");

@@ -1,4 +1,4 @@
-/** What could be changed: suggestions where there is no plan, and what mends a drawing. */
+/** What could be changed: suggestions where there is no plan, and quick fixes of a drawing. */
 
 import { direction, moved } from "./directions.js";
 import { length, listed } from "./lengths.js";

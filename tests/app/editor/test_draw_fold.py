@@ -135,12 +135,12 @@ def test_a_red_fold_takes_the_flap_of_the_fold_before() -> None:
     assert document.state.solution.problems == ()
 
 
-def test_a_fold_that_is_not_legal_has_to_be_mended_first() -> None:
+def test_a_fold_that_is_not_legal_has_to_be_fixed_first() -> None:
     broken = replace(PLAIN, folds=(crease("f0", (0.1, 0.1), (0.3, 0.1)),))
     document, editor = seat(broken, Mode.DRAW_FOLD)
     drag(editor, (-0.55, 0.2), (-0.55, -0.2))
     assert len(document.state.drawing.folds) == 1
-    assert editor.says.startswith("Mend fold 1 'f0' first: ")
+    assert editor.says.startswith("Fix fold 1 'f0' first: ")
 
 
 def test_a_fold_is_made_on_the_cloth_as_it_is_by_then() -> None:

@@ -1,11 +1,11 @@
-/** What would mend a drawing that cannot be planned: asks the server once the drawing rests. */
+/** Quick fixes of a drawing that cannot be planned: asks the server once the drawing rests. */
 
-/** @import { Mends, Says } from "pleat" */
+/** @import { QuickFixes as Answer, Says } from "pleat" */
 /** @import { Preview } from "../store.js" */
 
 /** @typedef {import("./suggestion_search.js").Suggestion} Suggestion */
 
-export class Mending extends EventTarget {
+export class QuickFixes extends EventTarget {
   /** @param {import("../store.js").Store} store */
   constructor(store) {
     super();
@@ -30,11 +30,11 @@ export class Mending extends EventTarget {
 
   /** @param {number} version */
   async ask(version) {
-    const answer = await fetch(`${this.store.path}/mends`).catch(() => null);
-    /** @type {Mends|null} */
+    const answer = await fetch(`${this.store.path}/quick-fixes`).catch(() => null);
+    /** @type {Answer|null} */
     const told = answer?.ok ? await answer.json() : null;
     if (this.version !== version || told?.version !== version) return;
-    this.take(told.mends.map(({ label, says, drawing }) => suggestion(label, says, { drawing, version })));
+    this.take(told.quick_fixes.map(({ label, says, drawing }) => suggestion(label, says, { drawing, version })));
   }
 
   /** @param {Suggestion[]} found */
@@ -46,12 +46,12 @@ export class Mending extends EventTarget {
 }
 
 /**
- * A mend has no plan yet, and so no cost.
+ * A quick fix has no plan yet, and so no cost.
  * @param {string} message
  * @param {Says} says
  * @param {Preview} change
  * @returns {Suggestion}
  */
 function suggestion(message, says, change) {
-  return { kind: "mend", is_assumption: false, message, says, change, size: 0, cost_s: null };
+  return { kind: "quick_fix", is_assumption: false, message, says, change, size: 0, cost_s: null };
 }

@@ -1,4 +1,4 @@
-/** A mend that is pointed at: the outline and the folds that would be others, and a cross on what would be gone. */
+/** A quick fix that is pointed at: the outline and the folds that would be others, and a cross on what would be gone. */
 
 import { crossAt } from "./draw_findings.js";
 import { foldItems } from "./draw_folds.js";
@@ -13,7 +13,7 @@ const SAME_M = 1e-9;
 const CROSS_PX = 9;
 
 /** @param {import("./board.js").Board} board @returns {Items} */
-export function drawMend({ store, view, drawing }) {
+export function drawQuickFix({ store, view, drawing }) {
   const wanted = store.preview?.drawing;
   if (!wanted) return [];
   /** @param {Corner} corner */
@@ -24,7 +24,7 @@ export function drawMend({ store, view, drawing }) {
   return [
     ...outline(view, drawing, wanted),
     ...folds(view, drawing, wanted),
-    ...gone.map((at, n) => crossAt(`mend:gone${n}`, view.toPx(at), CROSS_PX)),
+    ...gone.map((at, n) => crossAt(`quick-fix:gone${n}`, view.toPx(at), CROSS_PX)),
   ];
 }
 
@@ -32,7 +32,7 @@ export function drawMend({ store, view, drawing }) {
 function outline(view, drawing, wanted) {
   const [before, after] = [drawing, wanted].map((one) => one.outline.map(({ point }) => point));
   if (before.length === after.length && before.every((point, index) => isSame(point, after[index]))) return [];
-  return [{ key: "mend:outline", tag: "path", class: "preview", d: path(after.map((point) => view.toPx(point))) }];
+  return [{ key: "quick-fix:outline", tag: "path", class: "preview", d: path(after.map((point) => view.toPx(point))) }];
 }
 
 /** @param {View} view @param {Drawing} drawing @param {Drawing} wanted @returns {Items} */
@@ -41,7 +41,7 @@ function folds(view, drawing, wanted) {
   const changed = wanted.folds.filter((fold) => !isSameFold(fold, before.get(fold.id)));
   return changed.flatMap(({ id, kind, start, end }) =>
     foldItems({
-      key: `mend:${id}`,
+      key: `quick-fix:${id}`,
       kind,
       ends: [view.toPx(start.point), view.toPx(end.point)],
       state: " is-preview",

@@ -9,8 +9,8 @@ from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Corner, CornerTie, Crease, Drawing
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
-from app.drawing.mend import Mend
-from app.drawing.mends import MENDS_MAX, mends
+from app.drawing.quick_fix import QuickFix
+from app.drawing.quick_fixes import QUICK_FIXES_MAX, quick_fixes
 from app.drawing.solve import solve
 from planner import load_garment
 from tests.app.drawing.drawings import crease, outlined, tied, towel_drawing, with_corner
@@ -19,12 +19,12 @@ HALF = crease("half", (0.4, 0.15), (0.0, 0.15))
 ACROSS = crease("across", (0.2, 0.15), (0.2, 0.3))
 
 
-def offered(drawing: Drawing) -> tuple[Mend, ...]:
-    return mends(draft_of(drawing))
+def offered(drawing: Drawing) -> tuple[QuickFix, ...]:
+    return quick_fixes(draft_of(drawing))
 
 
 def labels(drawing: Drawing) -> list[str]:
-    return [mend.label for mend in offered(drawing)]
+    return [quick_fix.label for quick_fix in offered(drawing)]
 
 
 def red(fold: Crease) -> Crease:
@@ -50,7 +50,7 @@ def test_a_red_fold_that_misses_the_flap_is_made_blue():
     )
     assert "not the flap of 'corner'" in solve(drawing).problems[0].message
     assert labels(drawing) == ["Make fold 1 'miss' blue", "Delete fold 1 'miss'"]
-    assert all(solve(mend.drawing).problems == () for mend in offered(drawing))
+    assert all(solve(quick_fix.drawing).problems == () for quick_fix in offered(drawing))
 
 
 def test_a_fold_that_ends_in_the_cloth_is_put_onto_its_edge_along_its_line():
@@ -68,15 +68,15 @@ def test_a_fold_beside_the_cloth_can_only_be_deleted():
 
 def test_a_fold_without_length_can_be_deleted_and_its_twin_is_left_alone():
     nothing = replace(crease("nothing", (0.2, 0.15), (0.2, 0.15)), twin="half")
-    (mend,) = offered(towel_drawing(nothing, replace(HALF, twin="nothing")))
-    assert [(fold.id, fold.twin) for fold in mend.drawing.folds] == [("half", None)]
+    (quick_fix,) = offered(towel_drawing(nothing, replace(HALF, twin="nothing")))
+    assert [(fold.id, fold.twin) for fold in quick_fix.drawing.folds] == [("half", None)]
 
 
 def test_what_leaves_nothing_wrong_comes_before_what_uncovers_the_next_problem():
     """Without the first fold the second, which is red, would be the first: that is wrong in another way."""
     first = crease("first", (0.3, 0.15), (0.0, 0.15))
     drawing = towel_drawing(first, red(crease("second", (0.0, 0.25), (0.4, 0.25))))
-    wrong = [bool(solve(mend.drawing).problems) for mend in offered(drawing)]
+    wrong = [bool(solve(quick_fix.drawing).problems) for quick_fix in offered(drawing)]
     assert wrong == sorted(wrong)
     assert not wrong[0]
 
@@ -96,8 +96,8 @@ def test_a_corner_dragged_across_the_garment_may_be_left_out():
     shirt = drawing_of(load_garment("t-shirt"))
     x, y = shirt.outline[1].point
     crossed = with_corner(shirt, 1, (x, y + 0.9))
-    for mend in offered(crossed):
-        assert "outline" not in {problem.field.partition("[")[0] for problem in solve(mend.drawing).problems}
+    for quick_fix in offered(crossed):
+        assert "outline" not in {problem.field.partition("[")[0] for problem in solve(quick_fix.drawing).problems}
     assert "Delete one corner" in labels(crossed)
 
 
@@ -105,33 +105,33 @@ def test_many_crossings_are_all_uncrossed():
     """A star of seven points, drawn in one stroke with every third corner next."""
     star = [(math.cos(2 * math.pi * 3 * k / 7), math.sin(2 * math.pi * 3 * k / 7)) for k in range(7)]
     drawing = replace(outlined(towel_drawing(), *star), folds=())
-    (mend,) = offered(drawing)
-    assert mend.label == "Uncross the edges"
-    assert solve(mend.drawing).problems == ()
+    (quick_fix,) = offered(drawing)
+    assert quick_fix.label == "Uncross the edges"
+    assert solve(quick_fix.drawing).problems == ()
 
 
 def test_two_corners_in_one_place_are_merged_and_what_was_tied_to_one_stays_tied():
     drawing = towel_drawing(crease("corner", tied((0.2, 0.0), CornerTie("new")), (0.4, 0.1)))
     first, *others = drawing.outline
     twice = (first, Corner("old", (0.2, 0.0)), Corner("new", (0.2004, 0.0)), *others)
-    (mend,) = offered(replace(drawing, outline=twice))
-    assert mend.label == "Merge the two corners"
-    assert solve(mend.drawing).problems == ()
-    assert [corner.id for corner in mend.drawing.outline][:2] == [first.id, "old"]
-    assert mend.drawing.folds[0].start.tie == CornerTie("old")
+    (quick_fix,) = offered(replace(drawing, outline=twice))
+    assert quick_fix.label == "Merge the two corners"
+    assert solve(quick_fix.drawing).problems == ()
+    assert [corner.id for corner in quick_fix.drawing.outline][:2] == [first.id, "old"]
+    assert quick_fix.drawing.folds[0].start.tie == CornerTie("old")
 
 
 def test_all_corners_that_are_too_near_are_merged_at_once_round_the_start_too():
     points = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.0005), (0.4, 0.3), (0.0, 0.3), (0.0, 0.0004)]
-    (mend,) = offered(replace(outlined(towel_drawing(), *points), folds=()))
-    assert mend.label == "Merge corners nearer than 1 mm"
-    assert mend.drawing.points == (points[0], points[1], points[3], points[4])
+    (quick_fix,) = offered(replace(outlined(towel_drawing(), *points), folds=()))
+    assert quick_fix.label == "Merge corners nearer than 1 mm"
+    assert quick_fix.drawing.points == (points[0], points[1], points[3], points[4])
 
 
 def test_an_unknown_station_is_replaced_by_the_first():
-    (mend,) = offered(replace(towel_drawing(), start_station="nowhere"))
-    assert mend.label == "Start at front"
-    assert solve(mend.drawing).problems == ()
+    (quick_fix,) = offered(replace(towel_drawing(), start_station="nowhere"))
+    assert quick_fix.label == "Start at front"
+    assert solve(quick_fix.drawing).problems == ()
 
 
 def test_where_nothing_else_helps_the_last_step_is_taken_back():
@@ -139,12 +139,12 @@ def test_where_nothing_else_helps_the_last_step_is_taken_back():
     tiny = outlined(before, (0.0, 0.0), (0.005, 0.0), (0.0, 0.005))
     draft = draft_of(before).edited(Edit("Scale", tiny), 0.0)
     assert draft.solution.problems[0].code == "outline_too_small"
-    (mend,) = mends(draft)
-    assert mend.label == "Take back \N{LEFT DOUBLE QUOTATION MARK}Scale\N{RIGHT DOUBLE QUOTATION MARK}"
-    assert mend.drawing == before
-    assert mends(Draft(draft.solution)) == ()
+    (quick_fix,) = quick_fixes(draft)
+    assert quick_fix.label == "Take back \N{LEFT DOUBLE QUOTATION MARK}Scale\N{RIGHT DOUBLE QUOTATION MARK}"
+    assert quick_fix.drawing == before
+    assert quick_fixes(Draft(draft.solution)) == ()
 
 
 def test_there_are_few_enough_to_be_read():
     off = crease("off", (0.3, 0.15), (0.0, 0.15))
-    assert len(offered(towel_drawing(off))) <= MENDS_MAX
+    assert len(offered(towel_drawing(off))) <= QUICK_FIXES_MAX

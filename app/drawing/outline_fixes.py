@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from app.drawing.drawing import Corner, CornerTie, Drawing, EdgeTie, End, Tie
-from app.drawing.mend import Mend
 from app.drawing.problem import Problem
+from app.drawing.quick_fix import QuickFix
 from planner.cloth.outline import EDGE_MIN_M, crossings
 from planner.message import Message
 
@@ -18,7 +18,7 @@ EXCHANGES_MAX = 30
 """Largest number of exchanges; a more entangled outline is left alone."""
 
 
-def outline_mends(drawing: Drawing, problem: Problem) -> Iterator[Mend]:
+def outline_fixes(drawing: Drawing, problem: Problem) -> Iterator[QuickFix]:
     """Yield changes to an invalid outline, the least intrusive first."""
     if problem.code == "edge_too_short":
         yield _merged(drawing)
@@ -27,7 +27,7 @@ def outline_mends(drawing: Drawing, problem: Problem) -> Iterator[Mend]:
         yield from _without_one(drawing)
 
 
-def _merged(drawing: Drawing) -> Mend:
+def _merged(drawing: Drawing) -> QuickFix:
     """Merge each corner that is too near to its predecessor into it, and move its ties there."""
     kept, merged = [drawing.outline[0]], drawing
     for corner in drawing.outline[1:]:
@@ -40,7 +40,7 @@ def _merged(drawing: Drawing) -> Mend:
     is_one = len(kept) == len(drawing.outline) - 1
     near = Message("merge_near", f"Merge corners nearer than {EDGE_MIN_M * 1000:g} mm", {"nearer_m": EDGE_MIN_M})
     says = Message("merge_two", "Merge the two corners") if is_one else near
-    return Mend(says, replace(merged, outline=tuple(kept)))
+    return QuickFix(says, replace(merged, outline=tuple(kept)))
 
 
 def _is_near(one: Corner, other: Corner) -> bool:
@@ -66,7 +66,7 @@ def _tied_over(drawing: Drawing, gone: str, kept: str) -> Drawing:
     return replace(drawing, folds=folds)
 
 
-def _uncrossed(drawing: Drawing) -> Iterator[Mend]:
+def _uncrossed(drawing: Drawing) -> Iterator[QuickFix]:
     """Yield outlines with corners exchanged until no edges cross; stop after `EXCHANGES_MAX`.
 
     Folds are tied to corners and to the edges between them. So there are several results: the corners keep their
@@ -85,7 +85,7 @@ def _uncrossed(drawing: Drawing) -> Iterator[Mend]:
             outline = tuple(replace(corner, point=there.point) for corner, there in places)
         two, many = Message("exchange_two", "Exchange the two corners"), Message("uncross", "Uncross the edges")
         says = two if turned == [2] else many
-        yield Mend(says, replace(drawing, outline=outline))
+        yield QuickFix(says, replace(drawing, outline=outline))
 
 
 def _first_crossing(outline: Sequence[Corner]) -> tuple[int, int] | None:
@@ -109,13 +109,13 @@ def _exchanged(outline: tuple[Corner, ...], i: int, j: int, *, are_many: bool) -
     return tuple(walk[(step - first) % count] for step in range(count)), turned
 
 
-def _without_one(drawing: Drawing) -> Iterator[Mend]:
+def _without_one(drawing: Drawing) -> Iterator[QuickFix]:
     """Yield outlines without one of the corners at a crossing, the shortest outline first."""
     outline = drawing.outline
     at = {(edge + step) % len(outline) for i, j, _ in crossings(drawing.points) for edge in (i, j) for step in (0, 1)}
     left = [tuple(corner for corner in outline if corner is not outline[index]) for index in sorted(at)]
     for fewer in sorted(left, key=_length):
-        yield Mend(Message("delete_corner", "Delete one corner"), replace(drawing, outline=fewer))
+        yield QuickFix(Message("delete_corner", "Delete one corner"), replace(drawing, outline=fewer))
 
 
 def _length(outline: Sequence[Corner]) -> float:

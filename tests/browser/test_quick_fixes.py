@@ -53,39 +53,39 @@ WRONG: list[tuple[Change, str]] = [
 ]
 
 
-def mends(page: Page) -> Locator:
+def quick_fixes(page: Page) -> Locator:
     return page.get_by_role("group", name="Suggestions").get_by_role("button")
 
 
 @pytest.mark.parametrize(("spoil", "label"), WRONG, ids=[spoil.__name__ for spoil, _ in WRONG])
-def test_what_is_wrong_is_mended_by_the_first_button(
+def test_what_is_wrong_is_fixed_by_the_first_button(
     page: Page, new_sheet: Callable[[Garment], Sheet], spoil: Change, label: str
 ) -> None:
     sheet = new_sheet(towel())
     sheet.edit(spoil)
     wrong = sheet.state["problems"]
     page.goto(sheet.page_url)
-    expect(mends(page).first).to_have_text(label)
-    assert mends(page).count() <= 3
-    mends(page).first.click()
+    expect(quick_fixes(page).first).to_have_text(label)
+    assert quick_fixes(page).count() <= 3
+    quick_fixes(page).first.click()
     expect_planned(page)
     assert sheet.state["problems"] == []
     assert sheet.can_undo == label
-    expect(mends(page)).to_have_count(0)
+    expect(quick_fixes(page)).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
-    expect(mends(page).first).to_have_text(label)
+    expect(quick_fixes(page).first).to_have_text(label)
     assert sheet.state["problems"] == wrong
 
 
-def test_a_mend_that_is_pointed_at_is_shown_on_the_board(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_a_quick_fix_under_the_pointer_is_shown_on_the_board(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet(towel())
     sheet.edit(end_in_the_cloth)
     page.goto(sheet.page_url)
-    mends(page).filter(has_text="Put ").hover()
+    quick_fixes(page).filter(has_text="Put ").hover()
     expect(page.locator(".fold.is-preview")).to_have_count(1)
     crosses = page.locator(".problem-cross")
     expect(crosses).to_have_count(1)
-    mends(page).filter(has_text="Delete ").hover()
+    quick_fixes(page).filter(has_text="Delete ").hover()
     expect(page.locator(".fold.is-preview")).to_have_count(0)
     expect(crosses).to_have_count(2)
     page.mouse.move(1, 1)

@@ -9,7 +9,7 @@ from planner.message import Message
 
 
 @dataclass(frozen=True, slots=True)
-class Mend:
+class QuickFix:
     """A quick fix for a drawing that cannot be planned.
 
     Attributes:

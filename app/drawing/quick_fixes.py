@@ -8,22 +8,22 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from app.drawing.draft import Draft
-from app.drawing.fold_mends import fold_mends
-from app.drawing.mend import Mend
-from app.drawing.outline_mends import outline_mends
+from app.drawing.fold_fixes import fold_fixes
+from app.drawing.outline_fixes import outline_fixes
 from app.drawing.problem import Problem
+from app.drawing.quick_fix import QuickFix
 from app.drawing.solution import Solution
 from app.drawing.solve import solve
 from planner.message import Message
 
-MENDS_MAX = 3
+QUICK_FIXES_MAX = 3
 """Largest number of quick fixes shown; people would not read more."""
 
 _OUTLINE = ("outline_unfinished", "edge_too_short", "outline_crosses", "outline_too_small")
 """Codes of outline problems. Each hides those after it in this order, and every problem of a fold."""
 
 
-def mends(draft: Draft) -> tuple[Mend, ...]:
+def quick_fixes(draft: Draft) -> tuple[QuickFix, ...]:
     """Return the changes that remove the first problem of a drawing, best first; empty if there is no problem.
 
     If no other change helps, propose undoing the last step, provided that this removes the problem.
@@ -33,39 +33,39 @@ def mends(draft: Draft) -> tuple[Mend, ...]:
     return _tried(draft.solution, _proposed(draft.solution)) or _tried(draft.solution, _last_step(draft))
 
 
-def _tried(solution: Solution, proposed: Iterator[Mend]) -> tuple[Mend, ...]:
+def _tried(solution: Solution, proposed: Iterator[QuickFix]) -> tuple[QuickFix, ...]:
     """Return the proposals that help, one for each label."""
     problem = solution.problems[0]
-    tried = [(mend, solve(mend.drawing)) for mend in proposed]
-    good = [(mend, after) for mend, after in tried if _is_gone(problem, solution, after)]
+    tried = [(quick_fix, solve(quick_fix.drawing)) for quick_fix in proposed]
+    good = [(quick_fix, after) for quick_fix, after in tried if _is_gone(problem, solution, after)]
     good.sort(key=lambda one: bool(one[1].problems))
-    found: dict[str, Mend] = {}
-    for mend, _ in good:
-        found.setdefault(mend.label, mend)
-    return tuple(found.values())[:MENDS_MAX]
+    found: dict[str, QuickFix] = {}
+    for quick_fix, _ in good:
+        found.setdefault(quick_fix.label, quick_fix)
+    return tuple(found.values())[:QUICK_FIXES_MAX]
 
 
-def _proposed(solution: Solution) -> Iterator[Mend]:
+def _proposed(solution: Solution) -> Iterator[QuickFix]:
     problem = solution.problems[0]
     if problem.fold is not None:
-        yield from fold_mends(solution, problem)
+        yield from fold_fixes(solution, problem)
     elif problem.code == "unknown_station":
         yield _other_start(solution)
     else:
-        yield from outline_mends(solution.drawing, problem)
+        yield from outline_fixes(solution.drawing, problem)
 
 
-def _other_start(solution: Solution) -> Mend:
+def _other_start(solution: Solution) -> QuickFix:
     station, _ = solution.drawing.scene.stations[0]
     says = Message("start_at", f"Start at {station.replace('_', ' ')}", {"station": station})
-    return Mend(says, replace(solution.drawing, start_station=station))
+    return QuickFix(says, replace(solution.drawing, start_station=station))
 
 
-def _last_step(draft: Draft) -> Iterator[Mend]:
+def _last_step(draft: Draft) -> Iterator[QuickFix]:
     if draft.history.past:
         step = draft.history.past[-1]
         text = f"Take back \N{LEFT DOUBLE QUOTATION MARK}{step.label}\N{RIGHT DOUBLE QUOTATION MARK}"
-        yield Mend(Message("take_back", text, {"step": step.label}), step.drawing)
+        yield QuickFix(Message("take_back", text, {"step": step.label}), step.drawing)
 
 
 def _is_gone(problem: Problem, before: Solution, after: Solution) -> bool:

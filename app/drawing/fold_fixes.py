@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from app.drawing.drawing import Crease, Drawing, End
-from app.drawing.mend import Mend
 from app.drawing.problem import Problem
+from app.drawing.quick_fix import QuickFix
 from app.drawing.solution import Solution
 from planner.folds.fold_cloth import flap_silhouette
 from planner.geometry.chord import nearest_chord
@@ -17,22 +17,23 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
 
 
-def fold_mends(solution: Solution, problem: Problem) -> Iterator[Mend]:
+def fold_fixes(solution: Solution, problem: Problem) -> Iterator[QuickFix]:
     """Yield changes to the fold that a problem is about, the least intrusive first."""
     assert problem.fold is not None
     drawing, index = solution.drawing, problem.fold
     fold = drawing.folds[index]
     called = f"fold {index} '{fold.name}'"
     blue = Message("make_blue", f"Make {called} blue", {"fold": index})
-    colours = [Mend(blue, _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
+    colours = [QuickFix(blue, _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
     what = "flap" if fold.is_red else "cloth"
     onto = Message(f"put_onto_{what}", f"Put {called} onto the {what}", {"fold": index})
     moved = [
-        Mend(onto, _with(drawing, index, _along(fold, line))) for line in _lines(solution, problem, is_red=fold.is_red)
+        QuickFix(onto, _with(drawing, index, _along(fold, line)))
+        for line in _lines(solution, problem, is_red=fold.is_red)
     ]
     is_off = problem.code == "fold_off_boundary"
     yield from (*moved, *colours) if is_off else (*colours, *moved)
-    yield Mend(Message("delete_fold", f"Delete {called}", {"fold": index}), _without(drawing, index))
+    yield QuickFix(Message("delete_fold", f"Delete {called}", {"fold": index}), _without(drawing, index))
 
 
 def _lines(solution: Solution, problem: Problem, *, is_red: bool) -> Iterator[Segment]:
