@@ -5,23 +5,24 @@ BIN := $(VENV)/bin
 NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 PYTEST := $(BIN)/python -m pytest
-# How many tests run at once.
-JOBS ?= 2
+# How many tests run at once: one more than cores, for tests of servers and browsers wait half of their time.
+JOBS ?= 3
 
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
+KERNELS := $(VENV)/.kernels
 READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types page-types imports test-quick test test-long browser bench figures lock clean
+.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
 	    printf '%-18s %s\n' "$$target" "$$text"; done
 
-run: $(READY) ## serve the designer on http://127.0.0.1:8000
+run: $(READY) $(KERNELS) ## serve the designer on http://127.0.0.1:8000
 	@exec $(BIN)/pleat serve
 
 check: lint types page-types imports ## format, lint, types of Python and of the page's JavaScript, imports
@@ -46,19 +47,21 @@ page-types: $(READY_DEV) $(READY_JS)
 imports: $(READY_DEV)
 	$(PYTEST) tests/test_imports.py
 
-test-quick: $(READY_DEV) ## the tests that are quick and need no browser
-	$(PYTEST) -n $(JOBS) --dist loadfile -m "not browser and not slow"
+kernels: $(KERNELS)
 
-test: $(READY_DEV) browser ## every test, the property laws on a few hundred random cases
-	$(PYTEST) -n $(JOBS) --dist loadfile
+test-quick: $(READY_DEV) $(KERNELS) ## the tests that are quick and need no browser
+	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not browser and not slow"
 
-test-long: $(READY_DEV) browser ## every test, the laws on thousands of random cases
-	$(PYTEST) -n $(JOBS) --dist loadfile --hypothesis-profile=long
+test: $(READY_DEV) $(KERNELS) browser ## every test, the property laws on a few hundred random cases
+	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
-bench: $(READY) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
+test-long: $(READY_DEV) $(KERNELS) browser ## every test, the laws on thousands of random cases
+	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder --hypothesis-profile=long
+
+bench: $(READY) $(KERNELS) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
 	$(BIN)/python -m bench
 
-figures: $(READY) ## draw the figures of docs/model.md from the planner
+figures: $(READY) $(KERNELS) ## draw the figures of docs/model.md from the planner
 	$(BIN)/python -m docs.figures.draw
 
 # The browser tests take Debian's Chromium where there is one, Playwright's own otherwise.
@@ -96,11 +99,16 @@ $(BIN)/python:
 	done; \
 	echo "Pleat needs Python 3.11 or newer; if it has another name: make PYTHON=/path/to/python" >&2; exit 1
 
-# The last step compiles the kernels, so that the first plan does not wait for it.
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV): a minute or two, once"
 	@$(PIP) install --require-hashes -r requirements.txt
 	@$(PIP) install --no-deps --no-build-isolation -e .
+	@touch $@
+
+# So that the first plan does not wait for the compiler, nor several tests at once for the same. A minute or two; seconds
+# where it has been done.
+$(KERNELS): $(READY) $(shell find planner -name '*.py')
+	@echo "Compiling the kernels"
 	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels()"
 	@touch $@
 

@@ -12,6 +12,9 @@ from tests.laws.law import LONG, TRIED
 
 BROWSER_TESTS = Path(__file__).parent / "browser"
 CASES = "cases"
+LONGEST_FIRST = ("browser", "tests", "app", "explain", "planning", "replay", "laws")
+"""Folders whose files take longest, in the order in which workers take them: only short ones are left at the end."""
+
 SYSTEM_CHROMIUM = Path("/usr/bin/chromium")
 
 # The same random cases on every machine and run; no deadline, because a shared machine has slow moments.
@@ -35,6 +38,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if BROWSER_TESTS in item.path.parents:
             item.add_marker("browser")
+    items.sort(key=_turn)
+
+
+def _turn(item: pytest.Item) -> int:
+    """When the tests of a file have their turn: the folder's place in the order above, or after all of them."""
+    folder = item.path.relative_to(BROWSER_TESTS.parent.parent).parts[:-1][:2][-1]
+    return LONGEST_FIRST.index(folder) if folder in LONGEST_FIRST else len(LONGEST_FIRST)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -22,12 +22,12 @@ from app.api.overlay_answers import OverlaysAnswer
 from app.api.problems import Problem
 from app.api.suggestion_routes import SuggestionEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
-from planner import load_garment, make_plan
 from planner.task.scene import Scene
 from tests.app.document_requests import created, put
 from tests.app.samples import towel
 from tests.app.test_live import listening
 from tests.app.test_suggestion_routes import STUCK, events_in
+from tests.replay.planned import planned
 
 pytestmark = pytest.mark.anyio
 
@@ -108,7 +108,7 @@ async def test_every_message_of_the_websocket_is_as_described(client: httpx.Asyn
 
 @pytest.mark.parametrize("name", ["letter-towel", "tie-halved", "big-towel"])
 def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> None:
-    plan = make_plan(load_garment(name), time_limit_s=60.0)
+    plan = planned(name).answer
     assert_described({"id": "p", **plan.answer()}, PlanAnswer)
 
 

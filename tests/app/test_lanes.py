@@ -14,13 +14,20 @@ import pytest
 from app.api.asked import SHORTEST_S, TimeLimit
 from app.jobs.job_pool import BusyError, JobPool
 from app.jobs.lanes import SEARCHES_WAITING_MAX
+from bench.growth_cases import tabs_on_two_sides
 from tests.app.conftest import Served
 from tests.app.processes import descendants, is_alive, wait_until
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
 
-SLOW = {"garment": "shirt", "time_limit_s": 60, "comfort_radius_m": 0.06, "heuristic": "zero"}
+SLOW = {
+    "garment": tabs_on_two_sides(40).to_dict(),
+    "time_limit_s": 60,
+    "work_limit_s": 60,
+    "heuristic": "zero",
+}
+"""Every set of the tabs is a state: without a heuristic the search takes until its limit."""
 
 
 @asynccontextmanager

@@ -24,7 +24,7 @@ def planned(
         page = context.new_page()
         page.goto(sheet.page_url)
         expect_planned(page)
-        answer = httpx.post(f"{designer.url}/api/plans", json={"garment": napkin()}, timeout=20.0)
+        answer = httpx.post(f"{designer.url}/api/plans", json={"garment": napkin(), "time_limit_s": 60}, timeout=90.0)
         primitives = answer.json()["primitives"]
         last = primitives[-1]
         yield page, [one["start_s"] for one in primitives] + [last["start_s"] + last["duration_s"]]

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner import Scene, Task, find_plan, load_garment, make_plan
+from planner import Scene, Task, find_plan, make_plan
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -29,6 +29,7 @@ from tests.planning.provoked import (
     refused,
     strip,
 )
+from tests.replay.planned import planned
 
 
 def test_a_grip_too_far_ahead_is_short_by_what_it_is_beyond_the_straight_arm():
@@ -151,7 +152,7 @@ def test_what_is_far_away_is_short_by_at_least_its_distance():
 
 
 def test_where_no_shift_would_do_the_reason_says_so():
-    (reason, *_) = refused(load_garment("scarf-halved")).reasons
+    (reason, *_) = planned("scarf-halved").answer.reasons
     assert reason.shift_m is None
     assert "fold less at once" in reason.message
 

@@ -8,19 +8,20 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene, Task, find_plan, load_garment, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
 from tests.laws.law import LONG
 from tests.planning.provoked import BACK, FRONT, planned_with, refused
+from tests.replay.planned import planned
 
 A_BIT_LESS = 0.95
 
 
 def with_friction(cloth: Garment, scene: Scene, friction: float) -> Plan:
-    return make_plan(cloth, replace(scene, friction=friction), time_limit_s=60.0)
+    return find_plan(Task.of(cloth, replace(scene, friction=friction), time_limit_s=60.0), with_reasons=False).plan
 
 
 @pytest.mark.parametrize("friction", [0.0, 1e-6, 0.05])
@@ -62,7 +63,7 @@ def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction
 
 
 def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
-    reason, *waiting = refused(load_garment("scarf-halved")).reasons
+    reason, *waiting = planned("scarf-halved").answer.reasons
     assert (reason.code, reason.gives, reason.change) == (Code.OUT_OF_REACH, "fold", None)
     assert {other.code for other in waiting} == {Code.WAITS_FOR_FOLD}
 
@@ -70,7 +71,7 @@ def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
 def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does():
     # Drags go by 0.1 m, and the halved tie is in reach only within a centimetre between two of their places.
     tie = load_garment("tie-halved")
-    reason, *_ = refused(tie).reasons
+    reason, *_ = planned("tie-halved").answer.reasons
     assert (reason.code, reason.gives) == (Code.OUT_OF_REACH, "fold")
     once = replace(tie, folds=tie.folds[:1])
     assert planned_with(reason.change, once).is_solved
@@ -93,7 +94,7 @@ def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_drag
     assert reason.needed_grip_radius_m == pytest.approx(0.1968, abs=1e-4)
     assert planned_with(reason.change, apron(0.127, 0.127)).is_solved
     less_m = reason.needed_grip_radius_m - 0.001
-    assert not make_plan(apron(less_m, less_m), time_limit_s=60.0).is_solved
+    assert not planned_with({}, apron(less_m, less_m)).is_solved
 
 
 def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there():
@@ -134,7 +135,7 @@ def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int):
         first = members[0]
         if first.change is None:
             continue
-        fixed = planned_with(first.change, cloth, scene)
+        fixed = planned_with(first.change, cloth, scene, with_reasons=first.gives == "start")
         if first.gives == "start":
             assert all(reason.fold is not None for reason in fixed.reasons)
             continue

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner import Scene, load_garment, make_plan
+from planner import Scene, load_garment
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -29,6 +29,7 @@ from tests.planning.provoked import (
     refused,
     strip,
 )
+from tests.replay.planned import planned
 
 START = State(0, (0.0, 0.0), 0, 0)
 
@@ -83,7 +84,7 @@ def test_where_two_things_stand_in_every_way_both_are_named():
 
 
 def test_folds_that_wait_come_last_and_name_what_they_wait_for():
-    found = refused(load_garment("tie-halved")).reasons
+    found = planned("tie-halved").answer.reasons
     assert [(r.fold, r.code) for r in found] == [
         (0, Code.OUT_OF_REACH),
         (1, Code.WAITS_FOR_FOLD),
@@ -96,9 +97,9 @@ def test_folds_that_wait_come_last_and_name_what_they_wait_for():
 
 def test_a_fold_that_waits_is_possible_once_the_other_is():
     # The scarf, begun with the quarter instead of the half, can be folded.
-    waiting = refused(load_garment("scarf-halved")).reasons[1]
+    waiting = planned("scarf-halved").answer.reasons[1]
     assert (waiting.fold, waiting.code) == (1, Code.WAITS_FOR_FOLD)
-    assert is_gone(waiting, make_plan(load_garment("scarf"), time_limit_s=60.0))
+    assert is_gone(waiting, planned("scarf").answer)
 
 
 def test_only_what_depends_on_a_blocked_fold_waits():
@@ -143,7 +144,7 @@ def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
 
 
 def test_every_reason_is_json_with_plain_numbers():
-    for reason in refused(load_garment("scarf-halved")).to_dict()["reasons"]:
+    for reason in planned("scarf-halved").answer.to_dict()["reasons"]:
         assert isinstance(reason["code"], str) and isinstance(reason["message"], str)
         numbers = [reason[name] for name in ("short_by_m", "back_off_m", "shift_m") if reason[name] is not None]
         assert all(type(number) is float and np.isfinite(number) for number in numbers)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, Unpack
 
-from planner import Scene, make_plan
+from planner import Scene, Task, find_plan
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -75,12 +75,14 @@ def but_for_collisions(answer: Plan) -> Reason:
     return reason
 
 
-def planned_with(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Plan:
-    """Return the plan of a request after a change has been put into it, as a client would."""
+def planned_with(
+    change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None, *, with_reasons: bool = False
+) -> Plan:
+    """Return the plan of a request with a change put into it, as a client would; reasons only if asked for."""
     parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
     options = {name: parts.get(name, float)(value) for name, value in change.items()}
     request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 60.0, **options}
-    return make_plan(request.pop("garment"), request.pop("scene"), **request)
+    return find_plan(Task.of(request.pop("garment"), request.pop("scene"), **request), with_reasons=with_reasons).plan
 
 
 def is_gone(reason: Reason, answer: Plan) -> bool:

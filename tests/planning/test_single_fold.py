@@ -5,12 +5,13 @@ from itertools import count
 
 import pytest
 
-from planner import Scene, Task, load_garment, make_plan, shipped_garment_names
+from planner import Scene, Task, find_plan, load_garment, make_plan, shipped_garment_names
 from planner.planning import plan_search as planning
 from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold, drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
+from tests.replay.planned import planned
 
 HALVED = ("scarf-halved", "tie-halved")
 SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
@@ -28,16 +29,16 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
 
 @pytest.mark.parametrize("name", HALVED)
 def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, monkeypatch):
-    quick = make_plan(load_garment(name), time_limit_s=60.0)
+    quick = planned(name).answer
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
-    exhausted = make_plan(load_garment(name), time_limit_s=60.0)
+    exhausted = find_plan(Task.of(load_garment(name), time_limit_s=60.0), with_reasons=False).plan
     assert quick.status == exhausted.status == "infeasible"
     assert quick.statistics.expanded < exhausted.statistics.expanded / 3
 
 
 @pytest.mark.parametrize("name", HALVED)
 def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
-    first, *others = make_plan(load_garment(name), time_limit_s=60.0).reasons
+    first, *others = planned(name).answer.reasons
     assert (first.fold, first.code) == (0, Code.OUT_OF_REACH)
     assert first.cause in {"too_far", "joint_limit", "comfort_only"}
     assert 0.0 < first.short_by_m < 0.3
