@@ -12,9 +12,8 @@ from app.replanner import Replanner
 from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
-from planner.robots.pr2 import load_robot
-
-ROBOT = "pr2"
+from planner.robots.load_robot import load_robot
+from planner.task.task import DEFAULT_ROBOT
 
 
 class OpenDocument:
@@ -29,7 +28,7 @@ class OpenDocument:
         """Open a document and start planning it."""
         self.id = document_id
         self.document = document
-        self._card = load_robot(ROBOT).card
+        self._card = load_robot(DEFAULT_ROBOT).card
         self._replanner = Replanner(document, pool, plans, len(self._card.arms))
         self._lock = threading.Lock()
         self._shown: tuple[Stage, Player] | None = None

@@ -23,7 +23,7 @@ from bench.report import Report, Row
 from bench.viewers import READY
 from planner import Plan, load_garment, make_plan
 from planner.motion.timeline import Timeline
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 
 COLUMNS = (
     "article",
@@ -76,7 +76,7 @@ def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEW
         plan = make_plan(load_garment(article))
         if not plan.is_solved:
             raise BenchmarkError(f"{article} has no plan to be shown")
-        stage = Stage(load_robot("pr2").card, plan.scene)
+        stage = Stage(load_robot(plan.task.robot).card, plan.scene)
         try:
             stage.show_plan(plan)
             rows.append(_row(article, {count: _run(stage, plan, count, every) for count in viewers}))

@@ -12,7 +12,7 @@ from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.description import read_model
 from planner.robots.kernel import reachable_batch
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
 

@@ -8,7 +8,7 @@ import pytest
 
 from planner import Limits
 from planner.folds.fold_sequence import FoldSequence
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.scene import Scene
 from tests.builders import fold, garment, rectangle_points
 

@@ -100,12 +100,21 @@ class HistoryAnswer(BaseModel):
     can_redo: str | None
 
 
+class RobotPart(BaseModel):
+    """The robot that folds; its arms by name, from left to right."""
+
+    name: str
+    title: str
+    arms: list[str]
+
+
 class DocumentAnswer(BaseModel):
     """A document: its drawing, the solved folds, the problems, and the history."""
 
     kind: Literal["document"]
     id: str
     version: int
+    robot: RobotPart
     drawing: DrawingAnswer
     garment: GarmentAnswer
     solved: list[SolvedFold]

@@ -6,16 +6,20 @@ from app.document_state import Answer, Checks, DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from planner.errors import FoldingError
+from planner.robots.load_robot import load_robot
 from planner.task.plan import Statistics
+from planner.task.task import DEFAULT_ROBOT
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
     """Return the drawing, its solution, its problems and its history."""
+    card = load_robot(DEFAULT_ROBOT).card
     solution, history, gesture = state.solution, state.draft.history, state.draft.gesture
     return {
         "kind": "document",
         "id": document_id,
         "version": state.version,
+        "robot": {"name": card.name, "title": card.title, "arms": [arm.name for arm in card.arms]},
         "drawing": drawing_to_dict(state.drawing),
         "garment": garment_to_dict(state.drawing),
         "solved": solution.fold_states(),

@@ -12,7 +12,7 @@ from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
 from planner.task.scene import Scene
-from planner.task.task import TIME_LIMIT_S, Limits
+from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, Limits
 from planner.task.world_state import HeldPoint
 
 
@@ -64,7 +64,7 @@ class PlanRequest(Limits):
     placement: GivenPose | None = None
     scene: Scene | None = None
     start_station: str = "front"
-    robot: str = "pr2"
+    robot: str = DEFAULT_ROBOT
     work_limit_s: TimeLimit | None = None
 
 

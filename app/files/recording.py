@@ -10,7 +10,7 @@ import re
 from app.jobs.job_pool import ShouldStop
 from app.ui.stage import Stage
 from planner.motion.timeline import Timeline
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 
 RATES_HZ = (1.0, 30.0)

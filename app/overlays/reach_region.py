@@ -21,7 +21,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
 from planner.primitives.context import BACK_OFF_STEP_M
 from planner.primitives.reach import Reach
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 
 _BLOCK = 4
 """Number of grid points along each side of a block."""

@@ -14,9 +14,10 @@ from planner.primitives.context import Context
 from planner.primitives.fold_trial import grips_obstacle, held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.reason import Code
 from planner.task.scene import Scene
+from planner.task.task import DEFAULT_ROBOT
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +89,7 @@ class GarmentCheck:
         }
 
 
-def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = "pr2") -> GarmentCheck:
+def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = DEFAULT_ROBOT) -> GarmentCheck:
     """Check every fold of a garment, in the user's order.
 
     Args:

@@ -16,7 +16,7 @@ from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
 from planner.primitives.reach import Reach
 from planner.primitives.state import Held, State
 from planner.primitives.unlimited_reach import UnlimitedReach
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.scene import Scene
 from planner.task.task import Task
 from planner.task.world_state import WorldState

@@ -1,8 +1,8 @@
-"""The PR2: a robot loaded by name, with its card, its reach and its joints."""
+"""The PR2, with its card, its reach and its joints."""
 
 import math
 from collections.abc import Callable, Mapping
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 
@@ -21,8 +21,6 @@ from planner.robots.pr2_card import pr2_card
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
 from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
-
-ROBOT_NAMES = ("pr2",)
 
 
 class Pr2:
@@ -176,11 +174,3 @@ class Pr2:
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), at seven joint angles."""
         return self._arms[arm].tool_pose(joints, float(torso_m))
-
-
-@cache
-def load_robot(name: str) -> Pr2:
-    """Return the robot of a name; raise `RequestError` for an unknown name."""
-    if name not in ROBOT_NAMES:
-        raise RequestError("robot", f"there is no robot {name!r}, only {', '.join(ROBOT_NAMES)}")
-    return Pr2()

@@ -17,6 +17,9 @@ from planner.task.world_state import WORLD_STATES, WorldState
 
 VERSION = 1
 
+DEFAULT_ROBOT = "pr2"
+"""The robot of a task that names none."""
+
 TIME_LIMIT_S = (0.01, 60.0)
 COMFORT_MAX_M = 0.1
 
@@ -102,7 +105,7 @@ class Task:
             scene: the scene; None for the default one.
             options: `placement`, where the article lies at the start, by default the garment's own; `start_station`,
                 where the robot stands then, by default "front"; or `start`, the whole state of the world then; `robot`,
-                by default "pr2"; and the fields of `Limits`.
+                by default `DEFAULT_ROBOT`; and the fields of `Limits`.
 
         Raises:
             RequestError: there is no such station, or a limit is out of range.
@@ -112,7 +115,7 @@ class Task:
         start = options.get("start") or at_station(
             where, options.get("placement") or garment.placement, options.get("start_station", "front")
         )
-        return Task(garment, where, options.get("robot", "pr2"), start, limits)
+        return Task(garment, where, options.get("robot", DEFAULT_ROBOT), start, limits)
 
     def at(self, placement: Pose2) -> "Task":
         """Return this task with the article elsewhere at the start."""

@@ -9,6 +9,7 @@
 
 import { EditQueue } from "./edit_queue.js";
 import { Live } from "./live.js";
+import { tellArms } from "./messages/arms.js";
 
 /** @import { Command, DocumentState, Drawing, Garment, PlanChange, PlanMessage, Playback } from "pleat" */
 /** @import { Change } from "./edit_queue.js" */
@@ -102,6 +103,7 @@ export class Store extends EventTarget {
   take(state, always = false) {
     if (!always && this.state && state.version < this.state.version) return;
     this.state = state;
+    tellArms(state.robot.arms);
     this.forgetWhatIsGone();
     this.tell("document");
   }

@@ -12,7 +12,7 @@ from app.ui.stage import Stage
 from planner import Plan, Scene, load_garment, make_plan
 from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.plan import PlanStep
 
 CARD = load_robot("pr2").card

@@ -24,7 +24,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
 
 CARD = load_robot("pr2").card

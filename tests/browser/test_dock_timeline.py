@@ -159,6 +159,27 @@ def test_the_base_lane_shows_that_the_base_drives_within_a_fold(page: Page) -> N
     assert blocks[0]["about"] == "Fold: half, at front, 30 cm back, the base drives 30 cm back, 5.0 s to 10.0 s"
 
 
+def test_each_arm_of_a_robot_has_a_lane_whatever_it_is_called(page: Page) -> None:
+    lanes, letters, titles = page.evaluate(
+        """async () => {
+          const { laneBlocks } = await import("/static/js/dock/lane_blocks.js");
+          const { armLetter, armTitle, tellArms } = await import("/static/js/messages/arms.js");
+          const names = ["upper", "under", "back_arm"];
+          const grips = [{ arm: "under" }, { arm: "back_arm" }];
+          const base = { station: null, back_off_m: 0 };
+          const primitives = [{ kind: "fold", fold: 0, start_s: 0, duration_s: 5, grips, base }];
+          const { arms } = laneBlocks({ primitives }, [{ name: "half", kind: "blue" }], null, names);
+          tellArms(names);
+          const told = [names.map(armLetter), names.map(armTitle)];
+          tellArms(["left", "right"]);
+          return [Object.entries(arms).map(([name, blocks]) => [name, blocks.length]), ...told];
+        }"""
+    )
+    assert lanes == [["upper", 0], ["under", 1], ["back_arm", 1]]
+    assert letters == ["1", "2", "B"]
+    assert titles == ["Upper arm", "Under arm", "Back arm"]
+
+
 def test_an_axis_has_round_times_and_not_too_many(page: Page) -> None:
     ticks = page.evaluate(
         """async () => {

@@ -20,7 +20,7 @@ from planner.primitives.context import Context
 from planner.primitives.primitive import Primitive, Step
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
 from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.builders import rectangle_points

@@ -8,7 +8,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.moments import Moments
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.reason import Code
 from tests.builders import fold, garment
 

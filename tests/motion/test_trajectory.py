@@ -9,7 +9,7 @@ from planner import Scene, make_plan
 from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.joint_track import CLOSED_M, OPEN_M, JointTrack
 from planner.motion.timeline import Timeline
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.task.trajectory import Segment, Trajectory
 from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned

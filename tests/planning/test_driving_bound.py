@@ -22,7 +22,7 @@ from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
 from planner.task.scene import Scene
 from tests.planning.test_edges import edges_of

@@ -13,7 +13,7 @@ from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.builders import CIRCLE_M
 
 START = State(0, (0.0, 0.0), 0, 0)

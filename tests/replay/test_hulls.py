@@ -3,7 +3,7 @@
 import numpy as np
 
 from planner.geometry.table import Table
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.replay.hulls import are_compared, contacts
 
 ROBOT = load_robot("pr2")

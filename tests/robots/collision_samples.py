@@ -4,7 +4,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.arm import MIRROR
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.robots.model import random_joints
 
 ROBOT = load_robot("pr2")

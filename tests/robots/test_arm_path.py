@@ -9,7 +9,7 @@ import pytest
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm import MIRROR
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.robots.tool_path import NoPath, ToolPath
 from tests.robots.model import limits, pin_tool_pose
 

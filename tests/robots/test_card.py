@@ -8,7 +8,7 @@ import yourdfpy
 
 from planner.errors import FoldingError, RequestError
 from planner.robots import description
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.robots.model import limits, pin_tool_pose, random_joints
 
 CARD = load_robot("pr2").card

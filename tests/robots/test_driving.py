@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.robots.approaches import APPROACHES
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
 
 ROBOT = load_robot("pr2")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.robots.model import limits, pin_tool_pose, random_joints
 
 ROBOT = load_robot("pr2")

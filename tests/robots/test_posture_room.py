@@ -7,8 +7,8 @@ import numpy as np
 from planner.geometry.pose import Approach, BoolArray
 from planner.geometry.table import Table
 from planner.robots.approaches import APPROACHES
+from planner.robots.load_robot import load_robot
 from planner.robots.place_memory import empty_memory, learn, place_key, slot_of
-from planner.robots.pr2 import load_robot
 from tests.robots.collision_samples import FAR, HOME
 
 ROBOT = load_robot("pr2")

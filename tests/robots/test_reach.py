@@ -8,7 +8,7 @@ from planner.geometry.pose import Approach
 from planner.robots import comfort, comfort_reach
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
 from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints

@@ -11,7 +11,7 @@ from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.joint_slack import slacks
 from planner.robots.limiting_joint import JOINT_NAMES, joint_slacks
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M
 from planner.robots.sided_arm import SidedArm

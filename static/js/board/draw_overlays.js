@@ -3,6 +3,7 @@
 import { between, boxOf, plus, turned } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
+import { armLetter } from "../messages/arms.js";
 
 /** @import { Overlays, Places, Point, Region } from "pleat" */
 /** @import { Board } from "./board.js" */
@@ -46,7 +47,8 @@ function reach({ view }, found) {
 
 /** The limits of reach stay visible over the cloth. @param {Board} board @param {Overlays} found @returns {Items} */
 function outlines({ view }, found) {
-  return (found.reach ?? []).flatMap(({ arm, regions: all, bare }) => {
+  const arms = found.reach ?? [];
+  return arms.flatMap(({ arm, regions: all, bare }, n) => {
     const box = boxOf(all.flatMap(({ outer }) => outer));
     const [x, y] = box ? view.toPx(between(box.low, box.high)) : [0, 0];
     return [
@@ -56,9 +58,9 @@ function outlines({ view }, found) {
         key: `letter:${arm}`,
         tag: "text",
         class: "reach-letter",
-        x: x + (arm === "left" ? -14 : 14),
+        x: x + (n < arms.length / 2 ? -14 : 14),
         y,
-        text: arm[0].toUpperCase(),
+        text: armLetter(arm),
       },
     ];
   });
@@ -131,7 +133,7 @@ function paths(board, found) {
           class: `hand-letter${state}`,
           x,
           y: y + 3.5,
-          text: arm[0].toUpperCase(),
+          text: armLetter(arm),
         },
       ];
     });

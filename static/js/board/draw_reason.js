@@ -10,6 +10,7 @@ import { crossAt } from "./draw_findings.js";
 import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
+import { armLetter } from "../messages/arms.js";
 
 /** @import { Point, Point3, Reason } from "pleat" */
 /** @import { Board } from "./board.js" */
@@ -61,7 +62,7 @@ export function drawReason(board) {
       class: "reason-arm",
       x: from[0],
       y: from[1] - 13,
-      text: reason.arm[0].toUpperCase(),
+      text: armLetter(reason.arm),
     });
   return items;
 }

@@ -4,6 +4,7 @@ import { present } from "../present.js";
 import { drawChecks } from "./draw_findings.js";
 import { fullness } from "./draw_overlays.js";
 import { length } from "./units.js";
+import { armLetter } from "../messages/arms.js";
 
 /** @import { Overlays, Places } from "pleat" */
 
@@ -65,7 +66,7 @@ function end(className) {
  */
 function reach(found, drawn) {
   const arms = (found?.reach ?? []).filter(({ arm }) => drawn.has(`reach is-${arm}`));
-  const letters = arms.map(({ arm }) => arm[0].toUpperCase());
+  const letters = arms.map(({ arm }) => armLetter(arm));
   const comfort = found?.reach?.[0]?.comfort_m ?? 0;
   const shades = arms.flatMap((_, n) => [cell("reach", 2 + 10 * n, 20), cell("reach-line", 2 + 10 * n, 20)]);
   const both = arms.length > 1 ? "; stronger: both" : "";

@@ -1,4 +1,4 @@
-/** What base and arms do in a plan, as blocks on three lanes. */
+/** What base and arms do in a plan, as blocks on a lane each. */
 
 import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
@@ -30,9 +30,10 @@ const MOVED_M = 0.001;
  * @param {Plan|null} plan
  * @param {Fold[]} folds the garment's
  * @param {PlanStart|null} start from where the plan starts; null: as drawn
- * @returns {{base: Block[], left: Block[], right: Block[]}}
+ * @param {string[]} arms the robot's, by name
+ * @returns {{base: Block[], arms: Record<string, Block[]>}}
  */
-export function laneBlocks(plan, folds, start = null) {
+export function laneBlocks(plan, folds, start = null, arms = []) {
   const primitives = plan?.primitives ?? [];
   /** @param {string} name */
   const arm = (name) =>
@@ -42,7 +43,7 @@ export function laneBlocks(plan, folds, start = null) {
   /** @param {number} index how far the base is backed off before a primitive (m) */
   const backOff = (index) => (primitives[index - 1] ?? start)?.base.back_off_m ?? 0;
   const base = primitives.flatMap((primitive, index) => baseBlock(primitive, index, backOff(index), folds) ?? []);
-  return { base, left: arm("left"), right: arm("right") };
+  return { base, arms: Object.fromEntries(arms.map((name) => [name, arm(name)])) };
 }
 
 /** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @returns {Block} */

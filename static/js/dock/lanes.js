@@ -1,20 +1,15 @@
-/** One lane each for the base and the two arms, with the slider over them and the playhead across. */
+/** One lane each for the base and the arms, with the slider over them and the playhead across. */
 
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
 import { markStep } from "./step_menu.js";
 import { axisTicks } from "./time_axis.js";
+import { armLetter, armTitle } from "../messages/arms.js";
 import { place } from "../messages/names.js";
 import { hands, seconds, whole } from "./words.js";
 
 /** @import { Fold, Primitive } from "pleat" */
-
-const LANES = /** @type {const} */ ([
-  ["base", "", "Base"],
-  ["left", "L", "Left arm"],
-  ["right", "R", "Right arm"],
-]);
 
 export class Lanes {
   /**
@@ -33,8 +28,8 @@ export class Lanes {
     this.about = element("div", "lane-about");
     this.about.setAttribute("aria-hidden", "true");
     const heads = [element("div", "playhead"), element("div", "playhead is-ghost")];
-    const over = element("div", "lanes-over", ...heads, this.about);
-    over.setAttribute("aria-hidden", "true");
+    this.over = element("div", "lanes-over", ...heads, this.about);
+    this.over.setAttribute("aria-hidden", "true");
     const time = element("div", "lanes-time", this.axis, slider.root);
     this.root = element("div", "lanes", element("span", "lane-name"), time);
     /** What is shown: plan, folds and unit. */
@@ -43,14 +38,16 @@ export class Lanes {
     this.current = -1;
     /** How long the plan takes (s). */
     this.duration = 0;
-    /** @type {Map<string, HTMLElement>} */
-    this.lanes = new Map(LANES.map(([name, letter, words]) => [name, this.lane(name, letter, words)]));
-    this.root.append(over);
+    this.root.append(this.over);
+    this.base = this.lane("base", "", "Base");
+    /** The arms' lanes, by the arms' names. @type {Map<string, HTMLElement>} */
+    this.arms = new Map();
     this.root.addEventListener("pointerdown", (event) => this.press(event));
     this.root.addEventListener("pointermove", (event) => this.hover(event));
     this.root.addEventListener("pointerleave", () => store.setHoverTime(null));
     shown.addEventListener("change", () => this.show());
     store.addEventListener("hover-time", () => this.showHover());
+    store.addEventListener("document", () => this.showArms());
     clock.addEventListener("tick", () => this.tick());
   }
 
@@ -62,14 +59,27 @@ export class Lanes {
     return this.told.folds;
   }
 
+  /** Have a lane for each arm of the robot. */
+  showArms() {
+    const names = this.store.state?.robot.arms ?? [];
+    if (names.join() === [...this.arms.keys()].join()) return;
+    for (const lane of this.arms.values()) {
+      lane.previousElementSibling?.remove();
+      lane.remove();
+    }
+    this.arms = new Map(names.map((name) => [name, this.lane(name, armLetter(name), armTitle(name))]));
+    this.shown = "";
+    this.show();
+  }
+
   show() {
     const wanted = JSON.stringify([unit.name, this.plan?.id, this.folds.map(({ name, kind }) => [name, kind])]);
     if (wanted === this.shown) return;
     this.shown = wanted;
     this.duration = this.plan?.cost_s ?? 0;
-    for (const [name, blocks] of Object.entries(laneBlocks(this.plan, this.folds, this.told.start))) {
-      this.lanes.get(name)?.replaceChildren(...blocks.map((block) => this.block(block)));
-    }
+    const { base, arms } = laneBlocks(this.plan, this.folds, this.told.start, [...this.arms.keys()]);
+    this.base.replaceChildren(...base.map((block) => this.block(block)));
+    for (const [name, lane] of this.arms) lane.replaceChildren(...arms[name].map((block) => this.block(block)));
     this.stopAt(this.root.querySelector(".block"));
     this.current = -1; // the blocks are new
     this.axis.replaceChildren(...axisTicks(this.duration).map((t_s) => this.tickMark(t_s)));
@@ -95,7 +105,7 @@ export class Lanes {
     lane.dataset.lane = name;
     lane.setAttribute("role", "group");
     lane.setAttribute("aria-label", words);
-    this.root.append(label, lane);
+    this.over.before(label, lane);
     return lane;
   }
 
@@ -176,7 +186,7 @@ export class Lanes {
    * @param {HTMLElement} made
    */
   walk(event, made) {
-    const lanes = [...this.lanes.values()].filter((lane) => lane.children.length);
+    const lanes = [this.base, ...this.arms.values()].filter((lane) => lane.children.length);
     const lane = lanes.findIndex((one) => one === made.parentElement);
     const { previousElementSibling: before, nextElementSibling: after } = made;
     /** @type {Record<string, Element|null>} */

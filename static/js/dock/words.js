@@ -2,6 +2,7 @@
 
 import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
+import { armLetter } from "../messages/arms.js";
 
 /** @import { Primitive } from "pleat" */
 
@@ -58,7 +59,7 @@ export const whole = (primitive, folds) => `${KINDS[primitive.kind]}: ${what(pri
  */
 export const hands = (primitive) =>
   primitive.grips
-    .map((grip) => grip.arm[0].toUpperCase())
+    .map((grip) => armLetter(grip.arm))
     .sort()
     .join(" + ");
 

@@ -17,7 +17,7 @@ from app.ui.opening import opening
 from app.ui.stage import Stage
 from app.ui.viser_patches import start_private_viser
 from planner import Scene
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 from tests.app.drawing.drawings import towel_drawing
 from tests.app.editor.visitor import EYE, Visitor
 from tests.replay.planned import planned

@@ -8,7 +8,7 @@ from app.ui.editor.presets import Lens, robots_eye, side, top
 from app.ui.viewpoint import FOV_RAD
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 
 GROUND = Ground((-0.8, -0.5), (0.8, 0.5))
 RIGHT_ANGLE = math.pi / 2

@@ -10,7 +10,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
 

@@ -10,7 +10,7 @@ import shapely
 from app.overlays.shortfall import Lack, NearReach, near_reach
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
-from planner.robots.pr2 import load_robot
+from planner.robots.load_robot import load_robot
 
 pytestmark = pytest.mark.anyio
 
