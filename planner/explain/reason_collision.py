@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from planner.explain.reason_reach import from_every_station
-from planner.explain.reason_words import carried, dragged, height_words
+from planner.explain.reason_words import carried, dragged, height_words, stand_words
 from planner.geometry.pose import Point2
 from planner.message import Message
 from planner.primitives.context import Context
@@ -47,15 +47,15 @@ def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reas
     """Return a collision as a reason; `state` is the state in which the fold or the drag begins."""
     contact, station = obstacle.contact, context.scene.stations[state.station][0]
     label = "" if obstacle.fold is None else f"{context.sequence.folds[obstacle.fold].label}: "
-    begin = f"{label}{_drag(obstacle, state)}from {station} "
-    values = {"station": station, "drag": _way(obstacle, state), **dragged(state)}
+    begin = f"{label}{_drag(obstacle, state)}from {stand_words(station)} "
+    values = {"station": station or None, "drag": _way(obstacle, state), **dragged(state)}
     if contact is None:
         text = (
             f"{begin}the hands could be where they must, but the arms cannot get them there and along "
             f"their way without touching the table, the robot or each other{carried(state)}"
         )
         says = Message("arms_cannot_get_there", text, values)
-        return Reason(obstacle.fold, Code.COLLISION, says, station=station, offset_m=state.offset)
+        return Reason(obstacle.fold, Code.COLLISION, says, station=station or None, offset_m=state.offset)
     x, y, z = contact.point
     first, second = contact.parts
     text = (
@@ -72,7 +72,7 @@ def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reas
         short_by_m=contact.depth_m,
         is_at_least=True,
         arm=contact.arm,
-        station=station,
+        station=station or None,
         offset_m=_offset_then(context, obstacle, state),
     )
 

@@ -29,6 +29,11 @@ def counted_hands(count: int) -> str:
     return "one hand" if count == 1 else f"{count} hands"
 
 
+def stand_words(station: str) -> str:
+    """Return a station in words; the nameless one is where the base stands at the start."""
+    return station or "where the base stands"
+
+
 def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     """Return what the closest attempt lacked, as a reason."""
     miss = explained(context, miss)
@@ -41,7 +46,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     text = (
         f"{label}: the {arm} grip at ({point[0]:.2f}, {point[1]:.2f}) m, {height_words(point[2])} "
         f"{_AT[_moment(miss)]}, {_lack(context, miss)}; "
-        f"closest: {station}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}"
+        f"closest: {stand_words(station)}, backed off {miss.back_off / BACK_OFFS_PER_M:.2f} m{carried(miss.state)}"
     )
     values = {
         "arm": arm,
@@ -55,7 +60,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         "is_at_least": found.is_at_least,
         "comfort_m": found.comfort_m,
         "wanted_comfort_m": context.reach.comfort_m,
-        "station": station,
+        "station": station or None,
         "back_off_m": miss.back_off / BACK_OFFS_PER_M,
         **dragged(miss.state),
         "shift_m": None,
@@ -76,7 +81,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         is_at_least=found.is_at_least,
         towards=_turned(pose, found.towards),
         arm=arm,
-        station=station,
+        station=station or None,
         back_off_m=miss.back_off / BACK_OFFS_PER_M,
         approach=context.reach.approaches[found.approach],
         offset_m=miss.state.offset,

@@ -62,17 +62,8 @@ class Collisions(Together, Protocol):
         ...
 
 
-class RobotPort(Hashable, Protocol):
-    """A robot: its card, its reach, and the joints that bring a tool to a pose."""
-
-    @property
-    def card(self) -> RobotCard:
-        """The robot's description."""
-        ...
-
-    def reach(self, torso_m: float, comfort_m: float) -> Reach:
-        """Return the reach with the lift at a height, for a comfort radius (m)."""
-        ...
+class PathFinder(Protocol):
+    """The search for joints that keep tools on their paths."""
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
@@ -102,6 +93,10 @@ class RobotPort(Hashable, Protocol):
         """
         ...
 
+
+class Kinematics(Protocol):
+    """Where joints bring an arm's tool, and which joints bring it to a pose."""
+
     def free_postures(
         self,
         arm: int,
@@ -113,14 +108,23 @@ class RobotPort(Hashable, Protocol):
         """Return samples of free joints that bring a tool to a pose of the base frame, a row each."""
         ...
 
-    def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
-        """Return the collisions at a table with the lift at a height; anything nearer than a margin (m) counts."""
-        ...
-
-    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
-        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""
-        ...
-
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
         """Return the tool's positions in the base frame at each row of joints, shape (n, 3), m."""
+        ...
+
+
+class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
+    """A robot: its card, its reach, what its arms touch, and the joints that bring a tool to a pose."""
+
+    @property
+    def card(self) -> RobotCard:
+        """The robot's description."""
+        ...
+
+    def reach(self, torso_m: float, comfort_m: float) -> Reach:
+        """Return the reach with the lift at a height, for a comfort radius (m)."""
+        ...
+
+    def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
+        """Return the collisions at a table with the lift at a height; anything nearer than a margin (m) counts."""
         ...

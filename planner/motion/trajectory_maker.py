@@ -52,8 +52,8 @@ def trajectory(
         segments,
         ArmTrack(names, tuple(track.times_s), tuple(map(tuple, rows.tolist()))),
         tuple(_gripper_track(arm, *track.openings(number)) for number, arm in enumerate(card.arms)),
-        context.scene.torso_m,
-        {card.lift_joint: context.scene.torso_m, **dict(card.resting)},
+        0.0 if card.lift_joint is None else context.scene.torso_m,
+        card.still_values(context.scene.torso_m),
     )
 
 

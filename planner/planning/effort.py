@@ -4,7 +4,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from planner.primitives.reach import Reach
+from planner.primitives.reach import Counted
 from planner.task.plan import Statistics
 
 
@@ -32,7 +32,7 @@ class Effort:
         finally:
             self._joint_time_s += time.perf_counter() - begun
 
-    def statistics(self, reach: Reach, bound_s: float) -> Statistics:
+    def statistics(self, reach: Counted, bound_s: float) -> Statistics:
         """Return the statistics so far, for a plan whose lower bound is `bound_s` (s)."""
         search_s = time.perf_counter() - self._started - self._joint_time_s
         return Statistics(

@@ -157,7 +157,8 @@ def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: flo
     if not problem.robot.collisions(scene.table, path.torso_m).are_all_free(base, joints[None]):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
     for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
-        tool, _ = problem.robot.tool_pose(arm_number, joints[layout.spans[arm_number]], path.torso_m)
+        own = joints[None, layout.spans[arm_number]]
+        (tool,) = problem.robot.tool_places(arm_number, own, path.torso_m)
         off_m = float(np.linalg.norm(_in_table(base, tool, scene.table.height_m) - place))
         if off_m > TOOL_M:
             told = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"

@@ -57,7 +57,8 @@ class Problem:
             RequestError: the base stands at no station, or the robot has no arm of that name.
         """
         names = [name for name, _ in self.context.scene.stations]
-        station = world.base.station or ""
+        is_fixed = self.robot.card.is_fixed
+        station = "" if is_fixed else world.base.station or ""
         if station not in names:
             raise RequestError("base.station", f"{station!r} is none of {', '.join(names)}")
         here, there = self.context.placement, world.placement
@@ -65,7 +66,7 @@ class Problem:
             world.done,
             (there.x_m - here.x_m, there.y_m - here.y_m),
             names.index(station),
-            nearest_whole(world.base.back_off_m * BACK_OFFS_PER_M),
+            0 if is_fixed else nearest_whole(world.base.back_off_m * BACK_OFFS_PER_M),
             _held(world, self.robot),
             nearest_whole(world.dragged_m * DRAGS_PER_M),
         )
@@ -140,11 +141,16 @@ class Problem:
 
 
 def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[Scene, State]:
-    """Return the scene and the start state for the search; a base at no station gets a station without a name."""
+    """Return the scene and the start state for the search; a base at no station gets a station without a name.
+
+    A base that does not move stands at no other.
+    """
     start, scene = task.start, task.scene
     _require_folds_in_order(start, sequence)
     station, back_off = _stand(task)
-    if station is None:
+    if machine.card.is_fixed:
+        scene, station, back_off = replace(scene, stations=(("", start.base.pose),), back_off_max_m=0.0), 0, 0
+    elif station is None:
         scene = replace(scene, stations=(*scene.stations, ("", start.base.pose)))
         station = len(scene.stations) - 1
     dragged = nearest_whole(start.dragged_m * DRAGS_PER_M)

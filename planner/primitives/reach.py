@@ -28,7 +28,78 @@ class Following(Protocol):
         ...
 
 
-class Reach(Protocol):
+class Counted(Protocol):
+    """The effort of a robot's reach so far: what a budget and the statistics of a plan ask."""
+
+    @property
+    def queries(self) -> int:
+        """The number of queries put to the exact inverse-kinematics kernel so far, comfort points counted."""
+        ...
+
+    @property
+    def query_time_s(self) -> float:
+        """The time spent in them (s)."""
+        ...
+
+
+class Shortfalls(Protocol):
+    """How far places are out of reach: what explanations ask."""
+
+    def at_least_short(
+        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> FloatArray:
+        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
+
+        It is 0 where no bound is known. It is much cheaper than the exact result.
+
+        Args:
+            arm: index into `arm_names`.
+            ways: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, p, 3).
+            approaches: indices into `approaches`, shape (k,); the best of them counts.
+            count: the number of standoffs; the best of them counts.
+            step_m: the distance between neighbouring standoffs (m).
+        """
+        ...
+
+    def shortfall(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> Shortfall | None:
+        """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
+
+        Args:
+            arm: index into `arm_names`.
+            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where the
+                base may stand, shape (n, 3).
+            approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: the longest displacement to look for (m).
+
+        Returns:
+            The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
+                approaches.
+        """
+        ...
+
+    def shortfall_together(
+        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> tuple[int, Shortfall] | None:
+        """Return the worst of places that one approach must reach, in the approach in which that is mildest.
+
+        Args:
+            arm: index into `arm_names`.
+            places: places of the tool, each as seen from each of the places where the base may stand, base frame, z
+                above the floor (m), shape (p, n, 3).
+            approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: the longest displacement to look for (m).
+
+        Returns:
+            The index of the place, and its shortfall in that approach; None where some approach has all places within
+                the comfort radius. Where `at_most_m` or more is lacking, only that fact is valid, not the other details
+                of the answer.
+        """
+        ...
+
+
+class Reach(Counted, Shortfalls, Protocol):
     """The reach of one robot with its lift at one height, to one comfort radius (paper, section 8).
 
     Arms are numbered from left to right as the robot sees them; `arm_names` has their names.
@@ -91,16 +162,6 @@ class Reach(Protocol):
         """
         ...
 
-    @property
-    def queries(self) -> int:
-        """The number of queries put to the exact inverse-kinematics kernel so far, comfort points counted."""
-        ...
-
-    @property
-    def query_time_s(self) -> float:
-        """The time spent in them (s)."""
-        ...
-
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
     ) -> Following:
@@ -142,58 +203,5 @@ class Reach(Protocol):
 
         Returns:
             Truth values, shape (k, n).
-        """
-        ...
-
-    def at_least_short(
-        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
-    ) -> FloatArray:
-        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
-
-        It is 0 where no bound is known. It is much cheaper than the exact result.
-
-        Args:
-            arm: index into `arm_names`.
-            ways: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, p, 3).
-            approaches: indices into `approaches`, shape (k,); the best of them counts.
-            count: the number of standoffs; the best of them counts.
-            step_m: the distance between neighbouring standoffs (m).
-        """
-        ...
-
-    def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
-    ) -> Shortfall | None:
-        """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
-
-        Args:
-            arm: index into `arm_names`.
-            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where the
-                base may stand, shape (n, 3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement to look for (m).
-
-        Returns:
-            The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
-                approaches.
-        """
-        ...
-
-    def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
-    ) -> tuple[int, Shortfall] | None:
-        """Return the worst of places that one approach must reach, in the approach in which that is mildest.
-
-        Args:
-            arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand, base frame, z
-                above the floor (m), shape (p, n, 3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement to look for (m).
-
-        Returns:
-            The index of the place, and its shortfall in that approach; None where some approach has all places within
-                the comfort radius. Where `at_most_m` or more is lacking, only that fact is valid, not the other details
-                of the answer.
         """
         ...

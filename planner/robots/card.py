@@ -82,11 +82,11 @@ class RobotCard:
         name: the name it is loaded by.
         title: the name for people.
         arms: its arms, from left to right as the robot sees them.
-        base_kind: how the base moves.
+        base_kind: how the base moves; ``fixed`` where it does not.
         base_size_m: length and width of the base (m).
         base_radius_m: radius of a circle that contains the base as it turns, a margin included (m).
-        lift_joint: the joint that raises the shoulders.
-        lift_limits_m: its lowest and highest value (m).
+        lift_joint: the joint that raises the shoulders; None without a lift.
+        lift_limits_m: its lowest and highest value (m); 0 and 0 without a lift.
         resting: all other actuated joints and where they rest, as (name, rad).
         urdf_path: the robot's description.
         package_dir: the directory to which its ``package://`` addresses are relative.
@@ -98,11 +98,21 @@ class RobotCard:
     base_kind: str
     base_size_m: tuple[float, float]
     base_radius_m: float
-    lift_joint: str
+    lift_joint: str | None
     lift_limits_m: tuple[float, float]
     resting: tuple[tuple[str, float], ...]
     urdf_path: Path
     package_dir: Path
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the base does not move."""
+        return self.base_kind == "fixed"
+
+    def still_values(self, torso_m: float) -> dict[str, float]:
+        """Return the joints that do not move in a plan by name, with the lift raised (m): rad; m for the lift."""
+        lift = {} if self.lift_joint is None else {self.lift_joint: float(torso_m)}
+        return lift | dict(self.resting)
 
     def joint_values(
         self, torso_m: float, arm_joints: Sequence[FloatArray], openings_m: Sequence[float]
@@ -117,7 +127,7 @@ class RobotCard:
         Raises:
             ValueError: the numbers of arms or openings differ from the robot's arms, or an arm has other joints.
         """
-        values = {self.lift_joint: float(torso_m), **dict(self.resting)}
+        values = self.still_values(torso_m)
         for arm, joints, opening_m in zip(self.arms, arm_joints, openings_m, strict=True):
             values |= {name: float(q) for name, q in zip(arm.joint_names, joints, strict=True)}
             values[arm.gripper.joint_name] = arm.gripper.angle(float(opening_m))

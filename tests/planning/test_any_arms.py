@@ -7,6 +7,7 @@ import pytest
 
 from planner import Plan, Scene, load_garment
 from planner.cloth.garment import Garment
+from planner.motion.timeline import Timeline
 from planner.planning import problem
 from planner.planning.found_plan import FoundPlan
 from planner.planning.plan_check import require_replay
@@ -16,7 +17,7 @@ from planner.task.reason import Code
 from planner.task.task import Task
 from tests.builders import fold, garment
 from tests.replay.planned import planned
-from tests.robots.remade import ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
+from tests.robots.remade import BOLTED, ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
 
 FRONT_ONLY = Scene(stations=Scene().stations[:1])
 
@@ -96,3 +97,20 @@ def test_a_plan_of_one_arm_is_adapted_to_cloth_that_lies_a_little_elsewhere(foun
     quick = quick_plan(Task.of(moved, FRONT_ONLY), like=[known])
     assert quick is not None
     require_performed(quick.plan, ONE_ARM)
+
+
+def test_a_robot_without_lift_whose_base_is_fixed_folds_where_it_stands(found_for: Planning):
+    vest = load_garment("vest")
+    found = found_for(BOLTED, vest)
+    require_performed(found.plan, BOLTED)
+    start = found.plan.task.start.base
+    assert {step.kind for step in found.plan.steps} == {"fold"}
+    assert {(step.after.base.x_m, step.after.base.y_m, step.after.base.station) for step in found.plan.steps} == {
+        (start.x_m, start.y_m, None)
+    }
+    still = Timeline.of(found.plan).at(1.0)
+    assert "torso_lift_joint" not in still.joints and still.torso_m == 0.0
+
+
+def test_a_fixed_base_has_no_plan_where_it_would_have_to_drive(found_for: Planning):
+    assert not found_for(BOLTED, load_garment("scarf")).plan.is_solved

@@ -29,6 +29,8 @@ from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 HANDS_APART_M = 0.2
 
+WITHOUT_LIFT_M = 0.29
+
 
 @dataclass(frozen=True, slots=True)
 class Mounted:
@@ -114,20 +116,26 @@ class RemadeReach(Pr2Reach):
 class RemadeRobot:
     """A robot that has these arms, from left to right."""
 
-    def __init__(self, *arms: Mounted) -> None:
+    def __init__(self, *arms: Mounted, **changes: Any) -> None:
+        """Take its arms, and what of the card of a PR2 differs."""
         self.arms = arms
         self.pr2 = Pr2()
         cards = tuple(arm.card(self.pr2.card.arms[arm.of]) for arm in arms)
-        self.card: RobotCard = replace(self.pr2.card, name="remade", arms=cards)
+        self.card: RobotCard = replace(self.pr2.card, name="remade", arms=cards, **changes)
         shape = self.pr2._arms[0].shape
         self._kinematics = tuple(ShiftedArm(shape, arm.of == 1, arm.aside_m) for arm in arms)
 
     def reach(self, torso_m: float, comfort_m: float) -> RemadeReach:
-        names = tuple(arm.name for arm in self.arms)
+        names, torso_m = tuple(arm.name for arm in self.arms), self.raised(torso_m)
         return RemadeReach(names, self._kinematics, torso_m, comfort_m, self.pr2._room(torso_m))
 
     def collisions(self, table: Table, torso_m: float, **options: Any) -> "RemadeCollisions":
-        return RemadeCollisions(self, self.pr2.collisions(table, torso_m, **options), torso_m)
+        raised_m = self.raised(torso_m)
+        return RemadeCollisions(self, self.pr2.collisions(table, raised_m, **options), raised_m)
+
+    def raised(self, torso_m: float) -> float:
+        """How far the PR2 is raised whose arms these are; without a lift always as far."""
+        return WITHOUT_LIFT_M if self.card.lift_joint is None else torso_m
 
     def arm_paths(
         self,
@@ -137,7 +145,7 @@ class RemadeRobot:
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        searches = {}
+        searches, torso_m = {}, self.raised(torso_m)
         for number, path in paths.items():
             arm = self.arms[number]
             searches[number] = self.pr2._search(
@@ -153,7 +161,9 @@ class RemadeRobot:
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
     ) -> FloatArray | None:
         one = self.arms[arm]
-        found = self.pr2.arm_path_near(one.of, self._seen(one, path), torso_m, self._own(one, is_free), one.bent(known))
+        found = self.pr2.arm_path_near(
+            one.of, self._seen(one, path), self.raised(torso_m), self._own(one, is_free), one.bent(known)
+        )
         return None if found is None else one.own(found)
 
     def free_postures(
@@ -161,18 +171,13 @@ class RemadeRobot:
     ) -> FloatArray:
         one = self.arms[arm]
         found = self.pr2.free_postures(
-            one.of, position - one.mount, rotation, torso_m, lambda joints: is_free(one.own(joints))
+            one.of, position - one.mount, rotation, self.raised(torso_m), lambda joints: is_free(one.own(joints))
         )
         return one.own(found)
 
-    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
-        one = self.arms[arm]
-        position, rotation = self.pr2.tool_pose(one.of, one.bent(joints), torso_m)
-        return position + one.mount, rotation
-
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
         one = self.arms[arm]
-        return self.pr2.tool_places(one.of, one.bent(joints), torso_m) + one.mount
+        return self.pr2.tool_places(one.of, one.bent(joints), self.raised(torso_m)) + one.mount
 
     @staticmethod
     def _seen(arm: Mounted, path: ToolPath) -> ToolPath:
@@ -265,3 +270,6 @@ class RemadeCollisions:
 ONE_ARM = RemadeRobot(Mounted("single", of=0))
 UNLIKE = RemadeRobot(Mounted("left", of=0, idle=1), Mounted("right", of=1))
 THREE_ARMS = RemadeRobot(Mounted("outer", of=0, aside_m=0.45), Mounted("left", of=0), Mounted("right", of=1, idle=2))
+BOLTED = RemadeRobot(
+    Mounted("left", of=0), Mounted("right", of=1), base_kind="fixed", lift_joint=None, lift_limits_m=(0.0, 0.0)
+)

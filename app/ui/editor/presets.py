@@ -110,5 +110,6 @@ def _carries(link: Link, other: Link) -> bool:
 
 
 def _offset(link: Link, card: RobotCard, torso_m: float) -> FloatArray:
-    lift = torso_m * link.axis if link.joint == card.lift_joint else np.zeros(3)
+    is_lift = card.lift_joint is not None and link.joint == card.lift_joint
+    lift = torso_m * link.axis if is_lift else np.zeros(3)
     return np.array(link.origin.position) + lift
