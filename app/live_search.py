@@ -39,7 +39,7 @@ class Begun:
     """
 
     task: Task
-    remembered: FoundPlan | None
+    remembered: Plan | None
     known: FoundPlan | None
     like: list[FoundPlan]
 
@@ -51,7 +51,7 @@ class LiveSearch:
         """Start without known plans."""
         self._lock = threading.Lock()
         self._known = KnownPlans()
-        self._remembered: OrderedDict[Task, FoundPlan] = OrderedDict()
+        self._remembered: OrderedDict[Task, Plan] = OrderedDict()
 
     def find_soon(self, task: Task, shown: Plan | None, show: Show, should_stop: Callable[[], bool]) -> Begun:
         """Start planning a task, and show a plan derived from known ones if that is quick.
@@ -90,19 +90,21 @@ class LiveSearch:
             show: shows a plan.
             should_stop: called often; true ends the search.
         """
-        found = begun.remembered
-        if found is None:
-            limits = replace(begun.task.limits, time_limit_s=TIME_LIMIT_S[1], work_limit_s=work_limit_s)
-            found = find_plan(
-                replace(begun.task, limits=limits),
-                known=begun.known,
-                like=begun.like,
-                on_found=lambda better: self._tell(better, show, should_stop),
-                should_stop=should_stop,
-            )
+        if begun.remembered is not None:
+            if not should_stop():
+                show(begun.remembered, is_final=True)
+            return
+        limits = replace(begun.task.limits, time_limit_s=TIME_LIMIT_S[1], work_limit_s=work_limit_s)
+        found = find_plan(
+            replace(begun.task, limits=limits),
+            known=begun.known,
+            like=begun.like,
+            on_found=lambda better: self._tell(better, show, should_stop),
+            should_stop=should_stop,
+        )
         if not should_stop():
             if not found.plan.statistics.is_cut_short:  # more work may improve a plan that was cut short
-                self._remember(begun.task, found)
+                self._remember(begun.task, found.plan)
             self._tell(found, show, should_stop, is_final=True)
 
     def _tell(self, found: FoundPlan, show: Show, should_stop: Callable[[], bool], *, is_final: bool = False) -> None:
@@ -111,8 +113,9 @@ class LiveSearch:
                 self._known.add(found)
             show(found.plan, is_final=is_final)
 
-    def _remember(self, task: Task, found: FoundPlan) -> None:
+    def _remember(self, task: Task, plan: Plan) -> None:
+        """Remember an answer as a plan alone: what it was found with may take a hundred times the memory."""
         with self._lock:
-            self._remembered[task] = found
+            self._remembered[task] = plan
             while len(self._remembered) > _REMEMBERED:
                 self._remembered.popitem(last=False)

@@ -22,6 +22,13 @@ FIRST_GARMENT = "t-shirt"
 UNUSED_S = 60.0
 """Time after which an unused document is closed (s)."""
 
+OPEN_MAX, CROWDED_S = 32, 5.0
+"""Number of documents beyond which unused ones are closed sooner, and the time after which (s).
+
+An open document holds its plans and what they were found with: 0.3 to 5 MB (measured). The time is for clients that go
+from document to document and wait for each plan.
+"""
+
 _LOOK_EVERY_S = 10.0
 """Period of the check for unused documents (s)."""
 
@@ -113,9 +120,12 @@ class Workspace:
             opened.close()
 
     def close_unused(self, unused_s: float = UNUSED_S) -> None:
-        """Close the documents that have been unused for longer than a time (s)."""
+        """Close the documents that have been unused for longer than a time (s), and sooner those beyond `OPEN_MAX`."""
         with self._lock:
-            unused = [opened for opened in self._open.values() if opened.unused_s > unused_s]
+            by_use = sorted(self._open.values(), key=lambda opened: opened.unused_s, reverse=True)
+            beyond = len(by_use) - OPEN_MAX
+            limits = (min(CROWDED_S, unused_s) if number < beyond else unused_s for number in range(len(by_use)))
+            unused = [opened for opened, limit_s in zip(by_use, limits, strict=True) if opened.unused_s > limit_s]
             for opened in unused:
                 del self._open[opened.id]
         for opened in unused:

@@ -202,3 +202,18 @@ async def test_a_document_that_nobody_uses_is_closed_and_opens_again_as_it_was(
     workspace.close_unused(0.0)
     assert (await client.get(f"/api/documents/{state['id']}")).json() == moved_on
     assert workspace.opened(state["id"]) is not opened
+
+
+async def test_of_many_documents_the_longest_unused_are_closed_and_come_back_when_asked_for(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    monkeypatch.setattr("app.workspace.OPEN_MAX", 2)
+    monkeypatch.setattr("app.workspace.CROWDED_S", 0.0)
+    states = [await created(client) for _ in range(4)]
+    with workspace.opened(states[0]["id"]).in_use():
+        workspace.close_unused()
+        assert set(workspace._open) == {states[0]["id"], states[3]["id"]}
+    for state in states:
+        again = (await client.get(f"/api/documents/{state['id']}")).json()
+        assert again["drawing"] == state["drawing"] and again["version"] == state["version"]

@@ -1,0 +1,41 @@
+"""What a document's search keeps from plan to plan."""
+
+import gc
+
+from app.live_search import LiveSearch
+from planner import Plan, Task
+from planner.planning.problem import Problem
+from tests.planning.provoked import hammer, strip
+
+
+def answer_to(search: LiveSearch, task: Task) -> list[Plan]:
+    """Return the plans that a search shows, the final one last."""
+    told: list[Plan] = []
+
+    def show(plan: Plan, *, is_final: bool) -> None:
+        told.append(plan)
+
+    begun = search.find_soon(task, None, show, lambda: False)
+    search.find_quickest(begun, 10.0, show, lambda: False)
+    return told
+
+
+def problems_of(task: Task) -> int:
+    gc.collect()
+    return sum(isinstance(one, Problem) and one.task.garment == task.garment for one in gc.get_objects())
+
+
+def test_a_no_is_remembered_without_what_it_was_found_with() -> None:
+    search, task = LiveSearch(), Task.of(hammer(), max_expanded=50)
+    *_, first = answer_to(search, task)
+    assert not first.is_solved
+    assert problems_of(task) == 0
+
+
+def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_next_drawing() -> None:
+    search, task = LiveSearch(), Task.of(strip(-0.3, 0.3, 0.1))
+    *_, first = answer_to(search, task)
+    assert first.is_solved
+    (again,) = answer_to(search, task)
+    assert again is first
+    assert problems_of(task) >= 1
