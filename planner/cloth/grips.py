@@ -10,6 +10,7 @@ always, and its best value can be found alone: the smallest radius with which so
 pairs that cover all with that radius are ranked.
 """
 
+import math
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TypeAlias
@@ -28,6 +29,9 @@ _RANKED_AT_ONCE = 64
 
 _WORD = 64
 """Bits of a word."""
+
+_COMBINED_AT_ONCE, _ROWS = 200_000, 4096
+"""The most sets of three candidates and more that are tried, and how many of them at a time."""
 
 Cover = tuple[Point2, ...]
 IntArray: TypeAlias = NDArray[np.int64]
@@ -114,9 +118,21 @@ def _covering_sets(distances: FloatArray, radius_m: float, count: int) -> IntArr
         is_few = len(distances) <= _RANKED_AT_ONCE
         needed_m = radius_m if is_few else _least_radius(distances, radius_m) + LENGTH_M
         return _covering_pairs(distances <= needed_m)
-    holds = distances <= radius_m
-    sets = [s for s in combinations(range(len(holds)), count) if holds[list(s)].any(axis=0).all()]
-    return np.array(sets, dtype=np.int64).reshape(-1, count)
+    return _covering_combinations(distances <= radius_m, count)
+
+
+def _covering_combinations(holds: BoolArray, count: int) -> IntArray:
+    """Return the sets of three candidates and more that between them hold every vertex, shape (n, count).
+
+    Of many candidates only as many are combined as give `_COMBINED_AT_ONCE` sets, evenly spread.
+    """
+    most = count
+    while math.comb(most + 1, count) <= _COMBINED_AT_ONCE:
+        most += 1
+    some = np.unique(np.linspace(0, len(holds) - 1, min(most, len(holds))).round().astype(np.int64))
+    sets = np.array([*combinations(some.tolist(), count)], dtype=np.int64).reshape(-1, count)
+    parts = np.array_split(sets, max(1, len(sets) // _ROWS))
+    return np.vstack([part[np.logical_or.reduce([holds[row] for row in part.T]).all(axis=1)] for part in parts])
 
 
 def _least_radius(distances: FloatArray, radius_m: float) -> float:

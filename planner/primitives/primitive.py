@@ -10,7 +10,58 @@ from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
 
 
-class Step(Protocol):
+class Motion(Protocol):
+    """The motion of a step: what joint paths are sought for."""
+
+    def phases(self) -> tuple[Phase, ...]:
+        """Return the phases of the motion; their durations add up to those of the step."""
+        ...
+
+    def extremes(self) -> tuple[Phase, ...]:
+        """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
+        ...
+
+
+class Keyed(Protocol):
+    """The keys of a step: by them answers about it are kept and shared."""
+
+    @property
+    def motion(self) -> tuple[object, ...]:
+        """The key that tells it from other steps of the same task, the way it is done included."""
+        ...
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """The key it shares with the same motion while the base stands elsewhere; see `Varied.begun_in`."""
+        ...
+
+    @property
+    def task(self) -> tuple[object, ...]:
+        """The key it shares with the same step from the same station by the same arms, wherever the cloth lies."""
+        ...
+
+
+class Varied(Protocol):
+    """The other ways to do what a step does: what is tried where it has no joint paths, or in a similar task."""
+
+    def variants(self) -> "Iterable[Step]":
+        """Return this step, then every other way between the same two states, the quickest first."""
+        ...
+
+    def begun_in(self, state: State) -> "Step":
+        """Return the step begun in another state of the same situation."""
+        ...
+
+    def elsewhere(self, count: int) -> "Iterable[Step]":
+        """Return about `count` other ways to do it from the same state, with the base at other standoffs."""
+        ...
+
+    def again(self, context: Context, state: State) -> "Iterable[Step]":
+        """Return the step repeated in a state of another, similar task, the most alike first; empty if it cannot be."""
+        ...
+
+
+class Step(Motion, Keyed, Varied, Protocol):
     """A primitive as a step of a plan: where it starts, where it leads, what it takes."""
 
     @property
@@ -45,45 +96,6 @@ class Step(Protocol):
 
     def holdings(self) -> tuple[Holding, ...]:
         """Return what each arm holds, from the leftmost to the rightmost, and which vertices had to be held."""
-        ...
-
-    def phases(self) -> tuple[Phase, ...]:
-        """Return the phases of its motion; their durations add up to `duration_s`."""
-        ...
-
-    def extremes(self) -> tuple[Phase, ...]:
-        """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
-        ...
-
-    def variants(self) -> "Iterable[Step]":
-        """Return this step, then every other way between the same two states, the quickest first."""
-        ...
-
-    @property
-    def motion(self) -> tuple[object, ...]:
-        """The key that tells it from other steps of the same task, the way it is done included."""
-        ...
-
-    @property
-    def situation(self) -> tuple[object, ...]:
-        """The key it shares with the same motion while the base stands elsewhere; see `begun_in`."""
-        ...
-
-    @property
-    def task(self) -> tuple[object, ...]:
-        """The key it shares with the same step from the same station by the same arms, wherever the cloth lies."""
-        ...
-
-    def begun_in(self, state: State) -> "Step":
-        """Return the step begun in another state of the same situation."""
-        ...
-
-    def elsewhere(self, count: int) -> "Iterable[Step]":
-        """Return about `count` other ways to do it from the same state, with the base at other standoffs."""
-        ...
-
-    def again(self, context: Context, state: State) -> "Iterable[Step]":
-        """Return the step repeated in a state of another, similar task, the most alike first; empty if it cannot be."""
         ...
 
 

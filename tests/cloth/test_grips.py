@@ -122,3 +122,17 @@ def test_of_many_candidates_the_best_pairs_are_those_that_ranking_all_of_them_fi
     pruned = best_covers(candidates, vertices, 0.2, 2)
     monkeypatch.setattr(grips, "_RANKED_AT_ONCE", len(candidates))
     assert pruned == best_covers(candidates, vertices, 0.2, 2)
+
+
+def test_three_grips_that_hold_a_round_edge_are_found_among_hundreds_of_candidates():
+    # A half disc of radius 22 cm has an edge of 69 cm; a grip holds 25 cm of it.
+    turns = np.linspace(0.0, math.pi, 160)
+    piece = Region.polygon([(0.22 * math.cos(turn), 0.22 * math.sin(turn)) for turn in turns])
+    line = Segment((-0.22, 0.0), (0.22, 0.0))
+    vertices = must_hold(piece, (0.0, 1.0), (line,), 0.0)
+    assert grip_covers(piece, vertices, 0.127, 2, (line,)).count is None
+    found = grip_covers(piece, vertices, 0.127, 3, (line,))
+    assert found.count == 3
+    for cover in found.covers:
+        gaps = np.hypot(*(np.array(cover)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0)
+        assert gaps.max() <= 0.127 + 1e-5
