@@ -12,6 +12,7 @@ from planner.explain.suggestion import Suggestion
 from planner.explain.vertex_check import Support
 from planner.geometry.pose import Point2
 from planner.task.plan import Plan, PlanStep
+from planner.words.catalogue import sentence
 
 _POINTS_SHOWN = 4
 """Number of points printed before the rest is only counted."""
@@ -85,7 +86,7 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
         kind = "red" if fold.is_red else "blue"
-        lines = [*_corners(fold), _held_at(fold, garment.folds[index].grip_radius_m)]
+        lines = [*_corners(fold), _held_at(fold, garment, index)]
         table.add_row(str(index), fold.name, kind, needed, "\n".join(lines), end_section=True)
     return table
 
@@ -98,11 +99,13 @@ def _corners(fold: FoldCheck) -> Iterator[str]:
             yield f"{_points(points)}: {why}"
 
 
-def _held_at(fold: FoldCheck, radius_m: float) -> str:
+def _held_at(fold: FoldCheck, garment: Garment, index: int) -> str:
     """Return where the hands grip, or what prevents it."""
-    if fold.problem is not None or not fold.grips:
-        return fold.problem or "nothing must be held"
-    return f"held at {_points(fold.grips)}: a grip holds what is within {radius_m:g} m"
+    if fold.reason is not None:
+        return sentence(fold.reason.says, garment.folds, index)
+    if not fold.grips:
+        return "nothing must be held"
+    return f"held at {_points(fold.grips)}: a grip holds what is within {garment.folds[index].grip_radius_m:g} m"
 
 
 def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
@@ -115,7 +118,9 @@ def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
     table.add_column("assumption?")
     for one in sorted(found, key=lambda one: one.is_assumption):
         is_so = "yes" if one.is_assumption else "no"
-        table.add_row(one.kind.replace("_", " "), one.says.text, f"{one.size:.3g}", f"{one.cost_s:.2f}", is_so)
+        table.add_row(
+            one.kind.replace("_", " "), sentence(one.says, garment.folds), f"{one.size:.3g}", f"{one.cost_s:.2f}", is_so
+        )
     return table
 
 

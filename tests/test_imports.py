@@ -12,7 +12,8 @@ ROOT = Path(__file__).parent.parent
 # Modules of planner that stand outside the rooms and that every room but search may use.
 GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
 
-BELOW_MOTION = GROUND | {f"planner.{r}" for r in ("geometry", "cloth", "folds", "task", "primitives", "robots")}
+_ROOMS_BELOW_MOTION = ("geometry", "words", "cloth", "folds", "task", "primitives", "robots")
+BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
@@ -24,10 +25,11 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.search": frozenset(),
     "planner.geometry": GROUND,
     "planner.robots": GROUND | {"planner.geometry"},
-    "planner.cloth": GROUND | {"planner.geometry"},
+    "planner.words": GROUND | {"planner.geometry"},
+    "planner.cloth": GROUND | {"planner.geometry", "planner.words"},
     "planner.folds": GROUND | {"planner.geometry", "planner.cloth"},
     "planner.task": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
-    "planner.primitives": GROUND | {"planner.geometry", "planner.cloth", "planner.folds", "planner.task"},
+    "planner.primitives": GROUND | {f"planner.{r}" for r in ("geometry", "words", "cloth", "folds", "task")},
     "planner.motion": BELOW_MOTION,
     "planner.planning": BELOW_MOTION | {"planner.motion", "planner.search"},
     "planner.explain": BELOW_MOTION | {"planner.motion", "planner.search", "planner.planning"},

@@ -16,6 +16,7 @@ from app.cli.program import (
 )
 from app.tables import check_table, dag_table
 from planner import check_garment, fold_dag
+from planner.words.catalogue import sentence
 
 
 @cli.command()
@@ -39,7 +40,8 @@ def check(garment: SourceArgument, json_to: JsonOption = None) -> None:
     if json_to != STANDARD_OUTPUT:
         output.print(check_table(chosen, report))
     for index, fold in enumerate(report.folds):
-        if fold.problem is not None:
-            errors.print(f"{garment}: folds[{index}]: the grippers cannot hold it: {fold.problem}")
+        if fold.reason is not None:
+            why = sentence(fold.reason.says, chosen.folds, index)
+            errors.print(f"{garment}: folds[{index}]: the grippers cannot hold it: {why}")
     if not report.is_holdable:
         raise typer.Exit(NO_PLAN)

@@ -29,6 +29,7 @@ from planner.cloth.garment_files import read_json
 from planner.errors import SceneError
 from planner.task.plan_files import read_plan, write_plan
 from planner.task.task import TaskOptions
+from planner.words.catalogue import sentence
 
 PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan file, as `pleat plan --out` writes it.")]
 
@@ -166,5 +167,6 @@ def _status(answer: Plan) -> int:
         errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
     for reason in answer.reasons:
         met = "" if reason.is_tried else "; met on the way, not tried whether it is the cause"
-        errors.print(f"{reason.code.value}: {reason.message}{met}")
+        why = sentence(reason.says, answer.garment.folds, reason.fold)
+        errors.print(f"{reason.code.value}: {why}{met}")
     return 0 if answer.is_solved else NO_PLAN

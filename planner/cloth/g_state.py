@@ -4,7 +4,6 @@ All computations are in the article frame: moving the table's rectangle there is
 stack of layers to the table is not.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,6 +18,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.tolerance import AREA_M2, LENGTH_M
 from planner.message import Message
+from planner.words.catalogue import worded
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +109,7 @@ def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angl
     beyond = cloth.silhouette.difference(top.region)
     if cloth.silhouette.area - beyond.area < AREA_M2:
         off = min(cloth.silhouette.distance_to(edge) for edge in top.edges)
-        text = f"nothing of the cloth lies on the table: it is {off:.2f} m beside it"
-        return Unrest("not_a_g_state", Message("beside_table", text, {"off_m": float(off)}), off)
+        return Unrest("not_a_g_state", worded("beside_table", {"off_m": float(off)}), off)
     covered = _covered_corner(cloth, beyond, top)
     if covered is not None:
         return covered
@@ -140,17 +139,14 @@ def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle) -> U
     for edge, (x, y) in zip(top.edges, top.table.corners, strict=True):
         if cloth.silhouette.contains(edge.start, margin_m=LENGTH_M):
             depth = cloth.silhouette.boundary_distance(edge.start)
-            text = f"the cloth covers the table's corner at ({x:.3f}, {y:.3f}) m, which is {depth:.2f} m inside it"
-            says = Message("corner_covered", text, {"corner": [x, y], "depth_m": float(depth)})
+            says = worded("corner_covered", {"corner": [x, y], "depth_m": float(depth)})
             return Unrest("not_a_g_state", says, depth, edge.start)
     for part in beyond.pieces:
         near = np.count_nonzero(np.abs(top.inside(part.coordinates)) <= LENGTH_M, axis=0)
         edges = zip(EDGE_NAMES, top.edges, near, strict=True)
         hung = [name for name, edge, points in edges if points >= 2 and _touches(part, edge)]
         if len(hung) != 1:
-            where = " and ".join(hung) or "no edge"
-            text = f"a part of {part.area:.3f} m^2 hangs from {where} at once"
-            return Unrest("not_a_g_state", Message("hangs_from_several", text, {"area_m2": part.area, "edges": hung}))
+            return Unrest("not_a_g_state", worded("hangs_from_several", {"area_m2": part.area, "edges": hung}))
     return None
 
 
@@ -181,12 +177,8 @@ def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad:
             depths = -edge.left_distances(loose)
             lowest, (x, y) = float(depths.max()), loose[int(depths.argmax())]
             name, at = EDGE_NAMES[hung.edge], (float(x), float(y))
-            text = (
-                f"layer {hung.layer} hangs over the {name} edge and nothing holds its corner at "
-                f"({x:.2f}, {y:.2f}) m of the garment, {lowest:.2f} m beyond the edge"
-            )
             values = {"layer": hung.layer, "edge": name, "at": list(at), "beyond_m": lowest}
-            return Unrest("not_a_g_state", Message("hangs_loose", text, values), lowest, at)
+            return Unrest("not_a_g_state", worded("hangs_loose", values), lowest, at)
     return None
 
 
@@ -215,15 +207,9 @@ def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, frictio
     if is_held(pull, lying, friction):
         return None
     needed = pull / max(lying, AREA_M2)
-    whole = lying + sum(hanging)
     over = {name: area for area, name in zip(hanging, EDGE_NAMES, strict=True) if area > 0.0}
-    shares = [f"{area:.3f} m^2 of cloth ({area / whole:.1%}) hangs over the {name} edge" for name, area in over.items()]
-    text = (
-        f"the cloth slips: {', '.join(shares)} and {lying:.3f} m^2 ({lying / whole:.1%}) lies on the table, layers "
-        f"counted; the friction is {friction:.2f}, {math.ceil(needed * 100.0 - LENGTH_M) / 100.0:.2f} would hold it"
-    )
     values = {"hanging_m2": over, "lying_m2": lying, "friction": friction, "needed_friction": needed}
-    return Unrest("slips", Message("slips", text, values), needed - friction, needed_friction=needed)
+    return Unrest("slips", worded("slips", values), needed - friction, needed_friction=needed)
 
 
 def _hanging_areas(parts: list[_Hanging], top: TableInArticle) -> list[float]:

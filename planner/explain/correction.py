@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.explain.reason_grips import needed_radius
-from planner.explain.reason_words import counted_hands, reached_with_comfort, reached_with_cone
+from planner.explain.reason_out_of_reach import reached_with_comfort, reached_with_cone
 from planner.explain.relaxed import Relaxed
 from planner.explain.suggestion_grid import Room
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.message import Message
 from planner.planning.trial import Trial
 from planner.primitives.context import Context
 from planner.task.reason import Code, Reason
 from planner.task.scene import SUPPORT_ANGLE_MAX_RAD
+from planner.words.catalogue import worded
 
 FRICTION_MAX = 10.0
 """The largest friction coefficient that a scene allows."""
@@ -130,11 +130,8 @@ def _friction(context: Context, slip: Reason) -> Way:
 
 def _slips_on_the_way(context: Context, fold: int | None, needed: float | None = None) -> Reason:
     """Return the reason that the cloth slips in a drag that the fold would need, or after it."""
-    label = "" if fold is None else f"{context.sequence.folds[fold].label}: "
-    text = f"{label}the cloth slips wherever it would be in reach; the friction is {context.scene.friction:.2f}"
-    if needed is not None:
-        text += f", {math.ceil(needed * 100.0 - LENGTH_M) / 100.0:.2f} would hold it"
-    says = Message("slips_on_the_way", text, {"friction": context.scene.friction, "needed_friction": needed})
+    values = {"friction": context.scene.friction, "needed_friction": needed}
+    says = worded("slips_on_the_way", values, context.sequence.folds, fold)
     return Reason(fold, Code.SLIPS, says, needed_friction=needed)
 
 
@@ -169,11 +166,8 @@ def _grip_radius(context: Context, fold: int, amounts: tuple[float, ...], needed
     def told(reason: Reason, amount: float) -> Reason:
         if abs(now + amount - needed) <= LENGTH_M and not in_drags:
             return reason
-        radius = math.ceil((now + amount) * 1000.0 - LENGTH_M) / 1000.0
-        where = ", in drags too" if in_drags else ""
-        text = f"{context.sequence.folds[fold].label}: a grip radius of {radius:.3f} m{where} would do, now {now:g} m"
         values = {"grip_radius_m": now, "needed_grip_radius_m": now + amount, "in_drags": in_drags}
-        says = Message("wider_grip", text, values)
+        says = worded("wider_grip", values, context.sequence.folds, fold)
         return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=now + amount)
 
     return Way("grip_radius", amounts, applied, told)
@@ -188,10 +182,8 @@ def _stiffer(context: Context, fold: int) -> Way:
         return relaxed.with_scene(replace(relaxed.context.scene, support_angle_rad=angle))
 
     def told(reason: Reason, amount: float) -> Reason:
-        degrees = math.degrees(now + amount)
-        text = f"{context.sequence.folds[fold].label}: too many points must be held, unless cloth holds itself within "
         values = {"support_angle_rad": now, "needed_support_angle_rad": now + amount}
-        says = Message("stiffer_cloth", f"{text}{degrees:.0f} degrees of upright, now {math.degrees(now):.0f}", values)
+        says = worded("stiffer_cloth", values, context.sequence.folds, fold)
         return replace(reason, says=says, short_by_m=None, needed_grip_radius_m=None)
 
     return Way("support_angle", (SUPPORT_ANGLE_MAX_RAD - now,), applied, told, exact=math.radians(0.5))
@@ -201,9 +193,8 @@ def _third_hand(context: Context, fold: int) -> Way:
     hands = len(context.reach.arm_names)
 
     def told(reason: Reason, _: float) -> Reason:
-        label = context.sequence.folds[fold].label
-        text = f"{label}: must be held at more points than {counted_hands(hands)} can; one more would do"
-        return replace(reason, says=Message("one_more_hand", text, {"hands": hands}), needed_grip_radius_m=None)
+        says = worded("one_more_hand", {"hands": hands}, context.sequence.folds, fold)
+        return replace(reason, says=says, needed_grip_radius_m=None)
 
     return Way("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_dream=True)
 
@@ -283,7 +274,7 @@ def _cone(context: Context) -> Way:
         return relaxed.with_scene(replace(relaxed.context.scene, approach_cone_rad=min(now + amount, math.pi)))
 
     def told(reason: Reason, amount: float) -> Reason:
-        return reached_with_cone(reason, now + amount)
+        return reached_with_cone(reason, context, now + amount)
 
     return Way("cone", (math.pi - now,), applied, told, exact=math.radians(0.5))
 
@@ -295,7 +286,7 @@ def _comfort(context: Context, reason: Reason) -> Iterator[Way]:
         return
 
     def told(reason: Reason, amount: float) -> Reason:
-        return reached_with_comfort(reason, max(now - amount, 0.0))
+        return reached_with_comfort(reason, context, max(now - amount, 0.0))
 
     amounts = (now,) if reason.comfort_m is None else (now - reason.comfort_m, now)
     yield Way("comfort", amounts, lambda relaxed, by: relaxed.with_comfort(max(now - by, 0.0)), told)

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from planner.errors import FoldingError
 from planner.explain.correction import COLLISIONS_IGNORED, Candidate, Way, candidates
 from planner.explain.reason_obstacle import lacking
-from planner.explain.reason_words import remedied_by
+from planner.explain.reason_out_of_reach import remedied_by
 from planner.explain.relaxed import Ask, Relaxed
 from planner.geometry.tolerance import LENGTH_M
 from planner.planning.trial import Trial
@@ -376,7 +376,7 @@ class _Corrections:
         shifts = tuple(k for pair in _SHIFTS for k in pair if k in (kind, *member.also))
         if told.code is not Code.OUT_OF_REACH or told.station is None or not (shifts or member.way.is_dream):
             return told
-        return remedied_by(told, dict(self._base.context.scene.stations)[told.station], shifts)
+        return remedied_by(told, self._base.context, shifts)
 
 
 def _further(members: tuple[_Member, ...]) -> Iterator[tuple[_Member, ...]]:

@@ -15,7 +15,7 @@ from planner.primitives.fold_trial import grips_obstacle, held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
 from planner.robots.load_robot import load_robot
-from planner.task.reason import Code
+from planner.task.reason import Code, Reason
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
 
@@ -30,7 +30,7 @@ class FoldCheck:
         vertices: every corner of the part that moves, and why it must be held or need not be.
         grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
         grips_needed: the number of grips; None when it exceeds the number of hands.
-        problem: why the hands cannot hold it, and what would help; None if they can.
+        reason: why the hands cannot hold it, and what would help; None if they can.
     """
 
     name: str
@@ -38,7 +38,12 @@ class FoldCheck:
     vertices: tuple[VertexCheck, ...]
     grips: tuple[Point2, ...]
     grips_needed: int | None
-    problem: str | None
+    reason: Reason | None
+
+    @property
+    def problem(self) -> str | None:
+        """The reason as a sentence."""
+        return None if self.reason is None else self.reason.message
 
     @property
     def must_hold(self) -> tuple[Point2, ...]:
@@ -130,7 +135,7 @@ def _checks(context: Context) -> Iterator[FoldCheck]:
             vertex_checks(context.sequence.moving(fold.index), fold.line, angle),
             covers[0] if covers else (),
             len(covers[0]) if covers else found.count,
-            None if obstacle is None else of_obstacle(context, obstacle).message,
+            None if obstacle is None else of_obstacle(context, obstacle),
         )
 
 

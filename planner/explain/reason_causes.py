@@ -19,9 +19,9 @@ from itertools import islice
 
 from planner.explain.reason_attempt import Miss
 from planner.explain.reason_obstacle import lacking, of_obstacle
+from planner.explain.reason_out_of_reach import out_of_reach
 from planner.explain.reason_places import Places
 from planner.explain.reason_reach import from_every_station, miss_in, nearest_miss
-from planner.explain.reason_words import out_of_reach
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import fold_trials, geometric_obstacles, grips_obstacle
 from planner.primitives.fold_way import can_follow

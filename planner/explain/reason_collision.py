@@ -10,10 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from planner.explain.reason_out_of_reach import dragged
 from planner.explain.reason_reach import from_every_station
-from planner.explain.reason_words import carried, dragged, height_words, stand_words
 from planner.geometry.pose import Point2
-from planner.message import Message
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import fold_trials, geometric_obstacle
 from planner.primitives.fold_way import can_follow
@@ -21,6 +20,7 @@ from planner.primitives.obstacle import BlockingContact, Obstacle
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.task.reason import Code, Reason
+from planner.words.catalogue import worded
 
 _START = (0.0, 0.0)
 """The offset of cloth that has not been dragged (m)."""
@@ -46,27 +46,15 @@ def collisions(context: Context, step: Step, contact: BlockingContact | None) ->
 def collision_reason(context: Context, obstacle: Obstacle, state: State) -> Reason:
     """Return a collision as a reason; `state` is the state in which the fold or the drag begins."""
     contact, station = obstacle.contact, context.scene.stations[state.station][0]
-    label = "" if obstacle.fold is None else f"{context.sequence.folds[obstacle.fold].label}: "
-    begin = f"{label}{_drag(obstacle, state)}from {stand_words(station)} "
+    folds = context.sequence.folds
     values = {"station": station or None, "drag": _way(obstacle, state), **dragged(state)}
     if contact is None:
-        text = (
-            f"{begin}the hands could be where they must, but the arms cannot get them there and along "
-            f"their way without touching the table, the robot or each other{carried(state)}"
-        )
-        says = Message("arms_cannot_get_there", text, values)
+        says = worded("arms_cannot_get_there", values, folds, obstacle.fold)
         return Reason(obstacle.fold, Code.COLLISION, says, station=station or None, offset_m=state.offset)
-    x, y, z = contact.point
-    first, second = contact.parts
-    text = (
-        f"{begin}all is in reach, but with the {contact.arm} gripper at ({x:.2f}, {y:.2f}) m, "
-        f"{height_words(z)}, the {first} would hit the {second} by {contact.depth_m:.3f} m at least, however the arm "
-        f"is bent{carried(state)}"
-    )
     return Reason(
         obstacle.fold,
         Code.COLLISION,
-        Message("collision", text, {**values, **_touching(contact)}),
+        worded("collision", {**values, **_touching(contact)}, folds, obstacle.fold),
         cause=contact.cause,
         point=contact.point,
         short_by_m=contact.depth_m,
@@ -87,16 +75,6 @@ def _way(obstacle: Obstacle, state: State) -> list[float] | None:
     if obstacle.dragged_to is None:
         return None
     return [to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True)]
-
-
-def _drag(obstacle: Obstacle, state: State) -> str:
-    """Return the drag in which the arms collide, in words."""
-    way = _way(obstacle, state)
-    if way is None:
-        return ""
-    dx, dy = way
-    whom = "" if obstacle.fold is None else " for it"
-    return f"to drag the cloth{whom} by ({dx:.2f}, {dy:.2f}) m, "
 
 
 def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:

@@ -7,25 +7,23 @@ import numpy as np
 
 from planner.explain.reason_collision import collision_reason
 from planner.explain.reason_grips import farthest_from, held_radius, needed_radius
-from planner.explain.reason_words import carried, counted_hands, dragged
-from planner.geometry.pose import FloatArray, Point2, Point3
+from planner.explain.reason_out_of_reach import dragged
+from planner.geometry.pose import Point2, Point3
 from planner.geometry.tolerance import LENGTH_M
-from planner.message import Message, plain_points
+from planner.message import plain_points
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import geometric_obstacles, lifted_points
 from planner.primitives.grasping import nearest_pair_m
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State
 from planner.task.reason import Code, Reason
+from planner.words.catalogue import worded
 
 _MOVE_STEP_M, _MOVES = 0.02, 50
 """Step of the moves tried where it is unknown how far cloth must be moved (m), and their number."""
 
 _UNKNOWN_M, _SLACK_M = 1.0, 1e-3
 """Severity of an obstacle of unknown size, and how much further cloth is moved when a direction is checked (m)."""
-
-_LISTED_MAX = 4
-"""Points that are listed in full; of more, only the outermost are named."""
 
 
 def of_obstacle(context: Context, obstacle: Obstacle) -> Reason:
@@ -61,7 +59,7 @@ def _at_rest(context: Context, obstacle: Obstacle) -> Reason:
     assert obstacle.says is not None
     says = obstacle.says
     if state is not None:
-        says = Message(says.code, says.text + carried(state), {**says.values, **dragged(state)})
+        says = worded(says.code, {**says.values, **dragged(state)}, context.sequence.folds, obstacle.fold)
         if obstacle.point is not None:
             x, y = context.placed(state.offset).to_outer(np.array(obstacle.point))
             point = (float(x), float(y), 0.0)
@@ -109,15 +107,9 @@ def _too_many_grips(context: Context, fold: int) -> Reason:
     vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
     needed = needed_radius(context.sequence.moving(fold), drawn.line, vertices, arms)
     ordered = vertices[np.argsort(drawn.line.positions(vertices), kind="stable")]
-    where = _along(ordered)
-    text = (
-        f"{drawn.label}: {len(vertices)} points of its edge must be held, {where}, more than {counted_hands(arms)} "
-        f"can when each holds what is within {drawn.grip_radius_m:g} m of it; a grip radius of {_up(needed)} m would "
-        "do, or a fold that moves less"
-    )
     short = needed - drawn.grip_radius_m
     values = {"points": plain_points(ordered), "hands": arms, **_radii(drawn.grip_radius_m, needed)}
-    says = Message("too_many_grips", text, values)
+    says = worded("too_many_grips", values, context.sequence.folds, fold)
     return Reason(fold, Code.TOO_MANY_GRIPS, says, short_by_m=short, needed_grip_radius_m=needed)
 
 
@@ -127,18 +119,13 @@ def _grips_too_close(context: Context, fold: int) -> Reason:
     cover = np.array(max(found.covers, key=lambda c: nearest_pair_m(np.array(c))))
     apart = nearest_pair_m(cover)
     needed = needed_radius(context.sequence.moving(fold), drawn.line, np.array(found.vertices), 1)
-    text = (
-        f"{drawn.label}: its grips, at {_list(cover)}, are {apart:.3f} m apart, and two hands need "
-        f"{context.grips_apart_m:.2f} m; with a grip radius of {_up(needed)} m, now {drawn.grip_radius_m:g} m, "
-        "one hand would hold both"
-    )
     values = {
         "points": plain_points(cover),
         "apart_m": apart,
         "needed_apart_m": context.grips_apart_m,
         **_radii(drawn.grip_radius_m, needed),
     }
-    says = Message("grips_too_close", text, values)
+    says = worded("grips_too_close", values, context.sequence.folds, fold)
     return Reason(
         fold, Code.GRIPS_TOO_CLOSE, says, short_by_m=context.grips_apart_m - apart, needed_grip_radius_m=needed
     )
@@ -149,39 +136,15 @@ def _red_needs_hold(context: Context, fold: int, held: tuple[Point2, ...]) -> Re
     vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
     x, y = farthest_from(held, vertices)
     needed = held_radius(held, vertices)
-    before = context.sequence.folds[fold - 1].label
-    must = f"{drawn.label}: ({x:.2f}, {y:.2f}) m of the garment must be held"
+    where = {"at": [x, y], "before": fold - 1}
     if math.isinf(needed):
-        text = f"{must}, but no hand that still holds from {before} is on the part that moves; make it a blue fold"
-        return Reason(fold, Code.RED_NEEDS_HOLD, Message("red_unheld", text, {"at": [x, y], "before": fold - 1}))
-    text = (
-        f"{must}, but the nearest hand that still holds from {before} is {needed:.2f} m away and holds what is within "
-        f"{drawn.grip_radius_m:g} m; a grip radius of {_up(needed)} m would do, or a blue fold"
-    )
+        return Reason(fold, Code.RED_NEEDS_HOLD, worded("red_unheld", where, context.sequence.folds, fold))
     short = needed - drawn.grip_radius_m
-    values = {"at": [x, y], "before": fold - 1, **_radii(drawn.grip_radius_m, needed)}
-    says = Message("red_held_too_far", text, values)
+    values = {**where, **_radii(drawn.grip_radius_m, needed)}
+    says = worded("red_held_too_far", values, context.sequence.folds, fold)
     return Reason(fold, Code.RED_NEEDS_HOLD, says, short_by_m=short, needed_grip_radius_m=needed)
 
 
 def _radii(radius_m: float, needed_m: float) -> dict[str, float]:
     """Return the assumed grip radius and the one that would be enough, as values of a message (m)."""
     return {"grip_radius_m": radius_m, "needed_grip_radius_m": needed_m}
-
-
-def _along(ordered: FloatArray) -> str:
-    """List points of the garment in their order along a line: all of a few, otherwise the outermost (m)."""
-    if len(ordered) <= _LISTED_MAX:
-        return _list(ordered)
-    (x0, y0), (x1, y1) = ordered[0], ordered[-1]
-    return f"from ({x0:.2f}, {y0:.2f}) round to ({x1:.2f}, {y1:.2f}) m of the garment"
-
-
-def _list(points: FloatArray) -> str:
-    """List points of the garment (m)."""
-    return f"{' and '.join(f'({x:.2f}, {y:.2f})' for x, y in points)} m of the garment"
-
-
-def _up(number: float) -> str:
-    """Return a number rounded up to three decimals."""
-    return f"{math.ceil(number * 1000.0 - LENGTH_M) / 1000.0:.3f}"

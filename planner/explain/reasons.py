@@ -11,11 +11,11 @@ from planner.explain.reason_causes import Causes
 from planner.explain.reason_collision import collisions
 from planner.explain.reason_obstacle import of_obstacle
 from planner.explain.reason_places import Places
-from planner.message import Message
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact, Obstacle, Situation
 from planner.primitives.primitive import Step
 from planner.task.reason import Code, Reason
+from planner.words.catalogue import worded
 
 
 def reasons(context: Context, reached: Collection[Situation], impossible: Collection[int]) -> tuple[Reason, ...]:
@@ -35,9 +35,7 @@ def reason_at_start(context: Context, unrest: Unrest) -> Reason:
     state = context.start
     spread, top = context.sequence.cloth(state.done).silhouette, context.table_in_article(state.offset)
     is_too_large = all(spread.contains(edge.start) for edge in top.edges)
-    remedy = "it is too large for the table" if is_too_large else "place it so that it stays"
-    text = f"as the garment lies at the start, {unrest.message}; {remedy}"
-    says = Message("at_start", text, {"what": unrest.says.to_dict(), "is_too_large": is_too_large})
+    says = worded("at_start", {"what": unrest.says.to_dict(), "is_too_large": is_too_large})
     return of_obstacle(context, Obstacle(None, Code(unrest.code), says, unrest.severity, state, unrest.point))
 
 
@@ -94,8 +92,7 @@ class _Reasons:
 
     def _nothing_known(self, fold: int) -> Reason:
         """Return the reason for a fold of which nothing is known but that it was not done."""
-        label = self._context.sequence.folds[fold].label
-        says = Message("not_with_the_others", f"{label}: can be done, but not together with the others")
+        says = worded("not_with_the_others", {}, self._context.sequence.folds, fold)
         return Reason(fold, Code.WAITS_FOR_FOLD, says)
 
     def _waiting(self, blocked: list[int]) -> Iterator[Reason]:
@@ -103,6 +100,5 @@ class _Reasons:
         for fold in folds:
             roots = [b for b in blocked if b in self._context.sequence.dag.before(fold.index)]
             if roots and fold.index not in blocked:
-                names = " and ".join(folds[root].label for root in roots)
-                text = f"{fold.label}: waits for {names}, which cannot be done"
-                yield Reason(fold.index, Code.WAITS_FOR_FOLD, Message("waits_for", text, {"folds": roots}))
+                says = worded("waits_for", {"folds": roots}, folds, fold.index)
+                yield Reason(fold.index, Code.WAITS_FOR_FOLD, says)

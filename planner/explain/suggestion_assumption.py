@@ -11,11 +11,10 @@ from dataclasses import replace
 
 from planner.cloth.garment import DrawnFold
 from planner.explain.suggestion_trial import Proof, Search, Trial
-from planner.explain.suggestion_words import in_cm
 from planner.geometry.tolerance import LENGTH_M
-from planner.message import Message
 from planner.task.reason import Reason
 from planner.task.task import Task
+from planner.words.catalogue import worded
 
 FRICTION_STEPS, FRICTION_MAX = 100, 10.0
 """Steps in a friction coefficient of 1, and the largest coefficient that is tried."""
@@ -85,16 +84,14 @@ def _least(trial_at: Callable[[int], Trial], fails: int, most: int, first: Seque
 
 
 def _comfort(task: Task, radius_m: float) -> Trial:
-    text = f"Assume that a comfort radius of {in_cm(radius_m)} is enough, not {in_cm(task.limits.comfort_radius_m)}"
-    says = Message("assume_comfort", text, {"comfort_m": radius_m, "now_m": task.limits.comfort_radius_m})
+    says = worded("assume_comfort", {"comfort_m": radius_m, "now_m": task.limits.comfort_radius_m})
     size = task.limits.comfort_radius_m - radius_m
     return Trial("comfort_radius", says, {"comfort_radius_m": radius_m}, size, task.within(radius_m))
 
 
 def _friction(task: Task, friction: float) -> Trial:
     scene = replace(task.scene, friction=friction)
-    text = f"Assume a friction coefficient of {friction:g}, not {task.scene.friction:g}"
-    says = Message("assume_friction", text, {"friction": friction, "now": task.scene.friction})
+    says = worded("assume_friction", {"friction": friction, "now": task.scene.friction})
     size = friction - task.scene.friction
     return Trial("friction", says, {"scene": scene.to_dict()}, size, task.in_scene(scene))
 
@@ -107,8 +104,6 @@ def _grip_radius(task: Task, folds: Sequence[int], radius_m: float) -> Trial:
     in_drags_m = max(radius_m, task.garment.grip_radius_m)
     folds_now = tuple(widened(i, fold) for i, fold in enumerate(drawn))
     garment = replace(task.garment, folds=folds_now, grip_radius_m=in_drags_m)
-    names = ", ".join(f"fold {i} '{drawn[i].name}'" for i in folds)
-    text = f"Assume that one grip holds the cloth within {in_cm(radius_m)} in {names}"
-    says = Message("assume_grip_radius", text, {"grip_radius_m": radius_m, "folds": list(folds)})
+    says = worded("assume_grip_radius", {"grip_radius_m": radius_m, "folds": list(folds)}, drawn)
     size = radius_m - min(drawn[i].grip_radius_m for i in folds)
     return Trial("grip_radius", says, {"garment": garment.to_dict()}, size, replace(task, garment=garment))

@@ -8,7 +8,6 @@ import numpy as np
 from planner.cloth.garment import DrawnFold, Garment
 from planner.errors import FieldError
 from planner.explain.suggestion_trial import Proof, Search, Trial, narrowed
-from planner.explain.suggestion_words import direction_words, in_cm
 from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import flap_silhouette
 from planner.folds.fold_sequence import FoldSequence
@@ -16,6 +15,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.message import Message
 from planner.task.task import Task
+from planner.words.catalogue import worded
 
 STEPS_M = (0.1, 0.2)
 """Shifts of a line that are tried first (m)."""
@@ -68,9 +68,9 @@ class _Shift:
         if garment is None:
             return None
         change = {"garment": garment.to_dict()}
-        text = " and ".join(one.text for one in says)
-        told = says[0] if len(says) == 1 else Message("shift_folds", text, {"shifts": [one.to_dict() for one in says]})
-        return Trial("fold_line", told, change, by_m, replace(self.task, garment=garment))
+        shifts = [one.to_dict() for one in says]
+        both = says[0] if len(says) == 1 else worded("shift_folds", {"shifts": shifts}, self.task.garment.folds)
+        return Trial("fold_line", both, change, by_m, replace(self.task, garment=garment))
 
     def _moved(self, drawn: DrawnFold, by_m: float) -> Segment:
         line = Segment(drawn.start, drawn.end)
@@ -83,8 +83,8 @@ class _Shift:
         drawn, placement = self.task.garment.folds[fold], self.task.start.placement
         left = np.array(Segment(drawn.start, drawn.end).left)
         x, y = placement.to_outer(self.sign * left) - placement.to_outer(np.zeros(2))
-        text = f"Shift fold {fold} '{drawn.name}' {in_cm(by_m)} {direction_words(x, y)}"
-        return Message("shift_fold", text, {"fold": fold, "by_m": by_m, "towards": [float(x), float(y)]})
+        values = {"fold": fold, "by_m": by_m, "towards": [float(x), float(y)]}
+        return worded("shift_fold", values, self.task.garment.folds)
 
 
 def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:

@@ -15,6 +15,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.message import Message
 from planner.task.task import Task
+from planner.words.catalogue import worded
 
 SWAPS_MAX = 3
 """Swaps of neighbours between the user's order and an order that is tried, at most."""
@@ -104,11 +105,8 @@ def _is_same(one: Region, other: Region) -> bool:
 
 
 def _in_words(garment: Garment, order: _Order) -> Message:
-    names = {i: f"fold {i} '{fold.name}'" for i, fold in enumerate(garment.folds)}
     turned = [(later, earlier) for later, earlier in combinations(order.folds, 2) if later > earlier]
     if len(turned) == 1:
         later, earlier = turned[0]
-        text = f"Make {names[later]} before {names[earlier]}"
-        return Message("fold_before", text, {"fold": later, "before": earlier})
-    text = "Fold in the order " + ", ".join(names[i].removeprefix("fold ") for i in order.folds)
-    return Message("fold_in_order", text, {"folds": list(order.folds)})
+        return worded("fold_before", {"fold": later, "before": earlier}, garment.folds)
+    return worded("fold_in_order", {"folds": list(order.folds)}, garment.folds)

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.explain.suggestion_trial import Narrowing, Proof, Search, Trial, narrowed
-from planner.explain.suggestion_words import moved_words
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.task.task import Task
+from planner.words.catalogue import worded
 
 STEP_M = 0.1
 """Step of the grid of placements (m); every other place is tried first."""
@@ -19,9 +19,6 @@ NARROWED_TO_M = 0.05
 
 TURN_AS_M = 0.3
 """Length of a move that counts as much as turning the garment (m)."""
-
-_TURNS = {0: "", 1: "by 90 degrees to the left", 2: "by 180 degrees", 3: "by 90 degrees to the right"}
-"""Turns by numbers of quarters, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +39,7 @@ class _Place:
 
     @property
     def says(self) -> Message:
-        way, turn = moved_words(self.dx_m, self.dy_m), _TURNS[self.quarters]
-        text = f"Move the garment {way}"
-        if turn:
-            text = f"Turn the garment {turn}" + (f" and move it {way}" if way else "")
-        return Message("place", text, {"quarters": self.quarters, "by": [self.dx_m, self.dy_m]})
+        return worded("place", {"quarters": self.quarters, "by": [self.dx_m, self.dy_m]})
 
 
 def placements(task: Task, known_cost_s: float | None) -> Search:
@@ -94,7 +87,7 @@ def _trial(task: Task, place: _Place) -> Trial:
 
 def _places(task: Task) -> list[_Place]:
     """Return all places except where the garment lies: the coarse grid first, nearest first."""
-    found = [(is_coarse, place) for quarters in _TURNS for is_coarse, place in _turned_places(task, quarters)]
+    found = [(is_coarse, place) for quarters in range(4) for is_coarse, place in _turned_places(task, quarters)]
     found.sort(key=lambda one: (not one[0], one[1].size, one[1].dx_m, one[1].dy_m))
     return [place for _, place in found if place.size > NARROWED_TO_M / 2]
 

@@ -5,11 +5,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from planner.explain.suggestion_trial import Proof, Search, Trial
-from planner.explain.suggestion_words import moved_words
 from planner.geometry.pose import Pose2, wrapped_angle
-from planner.message import Message
 from planner.task.scene import STATIONS_MAX, Scene
 from planner.task.task import Task
+from planner.words.catalogue import worded
 
 STAND_OFF_M = 0.15
 """Distance of the base's centre outside the table's edge (m)."""
@@ -37,14 +36,8 @@ def stations(task: Task) -> Search:
 
 def _trial(task: Task, name: str, pose: Pose2) -> Trial:
     scene = replace(task.scene, stations=(*task.scene.stations, (name, pose)))
-    text = f"Let the robot also stand at {_in_words(name, pose)}"
-    says = Message("stand_also_at", text, {"station": name, "at": [pose.x_m, pose.y_m]})
+    says = worded("stand_also_at", {"station": name, "at": [pose.x_m, pose.y_m]})
     return Trial("station", says, {"scene": scene.to_dict()}, 1.0, task.in_scene(scene))
-
-
-def _in_words(name: str, pose: Pose2) -> str:
-    where = moved_words(pose.x_m, pose.y_m)
-    return f"a station {name!r}, {where} as seen from the table's middle" if where else f"a station {name!r}"
 
 
 def _others(scene: Scene) -> Iterator[tuple[str, Pose2]]:

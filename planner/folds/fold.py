@@ -31,11 +31,6 @@ class Fold:
     line: Segment
     grip_radius_m: float
 
-    @property
-    def label(self) -> str:
-        """The fold's name in messages."""
-        return f"fold {self.index} '{self.name}'"
-
 
 def snapped_line(drawn: DrawnFold, silhouette: Region) -> Segment:
     """Return the drawn line with its ends snapped to the silhouette's boundary.

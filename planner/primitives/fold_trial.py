@@ -14,7 +14,6 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
-from planner.message import Message
 from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.grasping import (
     all_approaches,
@@ -28,6 +27,7 @@ from planner.primitives.reach import Following
 from planner.primitives.state import Held, State
 from planner.primitives.surroundings import Surroundings
 from planner.task.reason import Code
+from planner.words.catalogue import worded
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,22 +111,18 @@ def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | 
 
 def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[Obstacle]:
     """Yield all obstacles to a fold in a state that do not depend on the arms."""
-    line, label = context.sequence.folds[fold].line, context.sequence.folds[fold].label
+    folds = context.sequence.folds
     if not is_line_on_table(context, fold, state.offset):
-        off = context.table_in_article(state.offset).region.distance_to(line)
-        text = f"{label}: all of its line lies beyond the table's edge, by {off:.2f} m; a part must be on the table"
-        says = Message("line_off_table", text, {"off_m": float(off)})
+        off = context.table_in_article(state.offset).region.distance_to(folds[fold].line)
+        says = worded("line_off_table", {"off_m": float(off)}, folds, fold)
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
     behind = -context.kept(Depths).of(fold)[0]
     if behind > context.behind_max_m + LENGTH_M:
-        text = (
-            f"{label}: the part that moves reaches {behind:.2f} m behind the line's extension, where the fold cannot "
-            "carry it; turn or lengthen the line, or fold that part by itself first"
-        )
-        yield Obstacle(fold, Code.NOT_A_G_STATE, Message("behind_line", text, {"behind_m": behind}), behind, state)
+        says = worded("behind_line", {"behind_m": behind}, folds, fold)
+        yield Obstacle(fold, Code.NOT_A_G_STATE, says, behind, state)
     unrest = context.unrest(state.done | 1 << fold, state.offset)
     if unrest is not None:
-        says = Message("afterwards", f"{label}: afterwards {unrest.message}", {"what": unrest.says.to_dict()})
+        says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
         yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
 
 

@@ -33,6 +33,17 @@ def test_a_plan_file_without_a_plan_says_why(tmp_path: Path) -> None:
     assert timeline.exit_code == 2 and "infeasible" in timeline.stderr
 
 
+def test_the_reasons_of_a_plan_file_are_told_from_their_numbers(tmp_path: Path) -> None:
+    path, spoilt = tmp_path / "no.plan.json", tmp_path / "spoilt.plan.json"
+    assert pleat("plan", "scarf-halved", "--out", str(path)).exit_code == 3
+    data = json.loads(path.read_text(encoding="utf-8"))
+    assert data["reasons"]
+    for reason in data["reasons"]:
+        reason["message"] = "RUBBISH"
+    spoilt.write_text(json.dumps(data), encoding="utf-8")
+    assert pleat("show", str(spoilt)).stderr == pleat("show", str(path)).stderr != ""
+
+
 def test_the_timeline_is_that_of_rest(file: Path) -> None:
     told = json.loads(pleat("timeline", str(file), "--rate-hz", "50", "--json", "-").stdout)
     assert told["rate_hz"] == 50

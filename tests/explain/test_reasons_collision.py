@@ -62,7 +62,7 @@ def test_a_drag_that_the_arms_cannot_make_is_the_reason_for_the_fold_that_needs_
     barred(monkeypatch, lambda arm, base: True)
     (reason,) = refused(JUST_TOO_FAR, 0.3).reasons
     assert (reason.fold, reason.code, reason.station) == (0, Code.COLLISION, "front")
-    assert reason.message.startswith("fold 0 'half': to drag the cloth for it by (-0.10, 0.00) m, from front ")
+    assert reason.message.startswith("fold 0 'half': to drag the cloth by (-0.10, 0.00) m, from front ")
     assert (reason.point, reason.short_by_m, reason.offset_m) == (None, None, (0.0, 0.0))
 
 

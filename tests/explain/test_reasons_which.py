@@ -7,11 +7,11 @@ from planner import Scene, load_garment
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.message import Message
 from planner.planning import plan_search as planning
 from planner.primitives.obstacle import Obstacle, situation
 from planner.primitives.state import State
 from planner.task.reason import Code
+from planner.words.catalogue import worded
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.found import found_plan
 from tests.planning.provoked import (
@@ -32,6 +32,7 @@ from tests.planning.provoked import (
 from tests.replay.planned import planned
 
 START = State(0, (0.0, 0.0), 0, 0)
+SLIPPING = {"hanging_m2": {"near": 0.03}, "lying_m2": 0.01, "friction": 1.0, "needed_friction": 3.0}
 
 
 def test_causes_of_one_fold_come_with_the_smallest_repair_first():
@@ -134,10 +135,8 @@ def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
     context = found_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).problem.context
     after = [State(done, (0.0, 0.0), 0, 0) for done in (0b01, 0b10)]
     for state, other in zip(after, (1, 0), strict=True):
-        context.obstacles.note(
-            Obstacle(other, Code.SLIPS, Message("slips", f"fold {other} slips after {state.done}"), 0.1, state)
-        )
-    of_no_importance = Message("afterwards", "nothing is done yet")
+        context.obstacles.note(Obstacle(other, Code.SLIPS, worded("slips", SLIPPING), 0.1, state))
+    of_no_importance = worded("beside_table", {"off_m": 0.01})
     context.obstacles.note(Obstacle(1, Code.NOT_A_G_STATE, of_no_importance, 0.01, START))
     found = reasons(context, {situation(START), *map(situation, after)}, ())
     assert [(r.fold, r.code) for r in found] == [(0, Code.SLIPS), (1, Code.SLIPS)]

@@ -16,7 +16,6 @@ from planner.explain.suggestion_map import placement_map
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_trial import Search, Trial
-from planner.explain.suggestion_words import direction_words, moved_words
 from planner.explain.suggestions import Suggestions, suggestions
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
@@ -232,13 +231,6 @@ def test_a_garment_larger_than_the_table_has_no_room():
     room = Room.of(garment(rectangle_points(2.0, 2.0)), Pose2(0.0, 0.0, 0.0), Scene().table)
     assert room.is_none
     assert not list(room.moves(0.1))
-
-
-def test_directions_are_the_robots():
-    assert moved_words(-0.08, 0.05) == "8 cm towards the robot and 5 cm to the left"
-    assert moved_words(0.1, 0.0) == "10 cm away from the robot"
-    assert direction_words(0.0, -1.0) == "to the right"
-    assert direction_words(0.7, 0.7) == "away from the robot and to the left"
 
 
 def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest():

@@ -1,0 +1,139 @@
+"""Report what was out of reach: where, by how much, why, and what would help."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from planner.explain.reason_attempt import Miss, explained
+from planner.explain.reason_remedy import FURTHEST_M, remedy
+from planner.geometry.pose import FloatArray, Point3, Pose2
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.primitives.context import BACK_OFFS_PER_M, Context
+from planner.primitives.state import State
+from planner.task.reason import Code, Reason
+from planner.words.catalogue import worded
+
+
+def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
+    """Return what the closest attempt lacked, as a reason."""
+    miss = explained(context, miss)
+    found, trial = miss.shortfall, miss.trial
+    station, pose = context.scene.stations[miss.state.station]
+    arm = context.reach.arm_names[trial.arms[miss.grip]]
+    point = _point(trial.tools[miss.grip, miss.waypoint])
+    needed = None if found.is_at_least else remedy(context, miss)
+    values = {
+        "arm": arm,
+        "at": list(point),
+        "moment": _moment(miss).value,
+        "demand": miss.demand.value,
+        "cause": found.cause,
+        "joint": found.joint,
+        "towards": list(found.towards),
+        "short_by_m": found.short_by_m,
+        "is_at_least": found.is_at_least,
+        "comfort_m": found.comfort_m,
+        "wanted_comfort_m": context.reach.comfort_m,
+        "station": station or None,
+        "back_off_m": miss.back_off / BACK_OFFS_PER_M,
+        **dragged(miss.state),
+        "shift_m": None,
+        "shift_towards": None,
+        "movable": None,
+        "enough_comfort_m": None,
+        "enough_cone_rad": None,
+        "tried_m": FURTHEST_M,
+    }
+    return Reason(
+        fold,
+        Code.OUT_OF_REACH,
+        worded("out_of_reach", values, context.sequence.folds, fold),
+        cause=found.cause,
+        joint=found.joint,
+        point=point,
+        short_by_m=found.short_by_m,
+        is_at_least=found.is_at_least,
+        towards=_turned(pose, found.towards),
+        arm=arm,
+        station=station or None,
+        back_off_m=miss.back_off / BACK_OFFS_PER_M,
+        approach=context.reach.approaches[found.approach],
+        offset_m=miss.state.offset,
+        shift_m=None if needed is None else needed.distance_m,
+        shift_towards=None if needed is None else _turned(pose, needed.towards),
+        comfort_m=found.comfort_m,
+    )
+
+
+class _Moment(StrEnum):
+    """Where a hand is on its path."""
+
+    PICK = "pick"
+    PLACE = "place"
+    TOP = "top"
+    UP = "up"
+    DOWN = "down"
+
+
+def _moment(miss: Miss) -> _Moment:
+    """Return where on its path the hand is that lacks something."""
+    last, sweep = len(miss.trial.sweeps) - 1, float(miss.trial.sweeps[miss.waypoint])
+    if miss.waypoint == 0:
+        return _Moment.PICK
+    if miss.waypoint == last:
+        return _Moment.PLACE
+    if abs(sweep - 1.0) <= ANGLE_RAD:
+        return _Moment.TOP
+    return _Moment.UP if sweep < 1.0 else _Moment.DOWN
+
+
+def remedied_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reason:
+    """Return what was out of reach, with the repair that was tried and works.
+
+    Args:
+        reason: the reason, with the shift that the hands' whole path needs.
+        context: the planning context.
+        kinds: what can be moved by the shift: "cloth" or "station", "table" or "torso"; empty where nothing that was
+            tried works, but arms long enough would.
+    """
+    shift, towards = reason.shift_m, reason.shift_towards
+    if not kinds or shift is None or towards is None or reason.station is None:
+        return replace(_advised(reason, context, {"movable": []}), shift_m=None, shift_towards=None)
+    pose = dict(context.scene.stations)[reason.station]
+    in_base = _point(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
+    return _advised(reason, context, {"movable": list(kinds), "shift_m": shift, "shift_towards": list(in_base)})
+
+
+def reached_with_comfort(reason: Reason, context: Context, comfort_m: float) -> Reason:
+    """Return a reason with the smaller comfort radius that was tried and brings the point into reach."""
+    advised = _advised(reason, context, {"movable": None, "enough_comfort_m": comfort_m})
+    return replace(advised, comfort_m=comfort_m, shift_m=None, shift_towards=None)
+
+
+def reached_with_cone(reason: Reason, context: Context, cone_rad: float) -> Reason:
+    """Return a reason with the wider approach cone that was tried and brings the point into reach."""
+    advised = _advised(reason, context, {"movable": None, "enough_cone_rad": cone_rad})
+    return replace(advised, shift_m=None, shift_towards=None)
+
+
+def _advised(reason: Reason, context: Context, values: Mapping[str, Any]) -> Reason:
+    """Return a reason that also says what would help."""
+    says = worded(reason.says.code, {**reason.says.values, **values}, context.sequence.folds, reason.fold)
+    return replace(reason, says=says)
+
+
+def dragged(state: State) -> dict[str, Any]:
+    """Return where drags had brought the cloth, as values of a message."""
+    return {"dragged": list(state.offset), "is_held": state.is_dragged}
+
+
+def _turned(pose: Pose2, direction: Point3) -> Point3:
+    """Rotate a direction from a base's frame to the table frame."""
+    return _point(pose.to_outer(np.array(direction)) - pose.to_outer(np.zeros(3)))
+
+
+def _point(row: FloatArray) -> Point3:
+    return (float(row[0]), float(row[1]), float(row[2]))
