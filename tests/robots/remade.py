@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
 from planner.geometry.shortfall import Shortfall
 from planner.geometry.table import Table
+from planner.robots.arm_path import ArmSearch
 from planner.robots.arm_paths import Together, arm_paths
 from planner.robots.card import ArmCard, RobotCard
 from planner.robots.collision.clearance import Clearance
@@ -145,17 +146,12 @@ class RemadeRobot:
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        searches, torso_m = {}, self.raised(torso_m)
+        searches: dict[int, Any] = {}
         for number, path in paths.items():
-            arm = self.arms[number]
-            searches[number] = self.pr2._search(
-                arm.of, self._seen(arm, path), torso_m, floor_m, self._own(arm, are_free[number])
-            )
-        found = arm_paths(searches, _Bent(self.arms, together))
-        if isinstance(found, NoPath):
-            return found
-        parts = np.split(found, len(searches), axis=1)
-        return np.hstack([self.arms[number].own(part) for number, part in zip(searches, parts, strict=True)])
+            arm, is_free = self.arms[number], self._own(self.arms[number], are_free[number])
+            real = self.pr2._search(arm.of, self._seen(arm, path), self.raised(torso_m), floor_m, is_free)
+            searches[number] = IdleSearch(arm, real)
+        return arm_paths(searches, together)
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
@@ -188,21 +184,44 @@ class RemadeRobot:
         return lambda steps, joints, is_certain: is_free(steps, arm.own(joints), is_certain)
 
 
-class _Bent:
-    """Which arms are apart, asked without the joints that do nothing."""
+class IdleSearch:
+    """The search for a path of an arm that has joints that do nothing: as `ArmSearch`, with their columns."""
 
-    def __init__(self, arms: Sequence[Mounted], real: Together) -> None:
-        self._arms = arms
+    def __init__(self, arm: Mounted, real: ArmSearch) -> None:
+        self._arm = arm
         self._real = real
+        self.speeds = np.append(real.speeds, np.ones(arm.idle))
 
-    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
-        parts = np.split(joints, len(arms), axis=1)
-        own = [self._arms[arm].own(part) for arm, part in zip(arms, parts, strict=True)]
-        return self._real.arms_apart(arms, np.hstack(own))
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._real, name)
 
-    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
-        one, other = (self._arms[arm] for arm in arms)
-        return self._real.postures_apart(arms, one.own(first), other.own(second))
+    @property
+    def samples(self) -> FloatArray:
+        return self._arm.own(self._real.samples)
+
+    def found(self) -> FloatArray | NoPath:
+        found = self._real.found()
+        return found if isinstance(found, NoPath) else self._arm.own(found)
+
+    def guides(self, chain: NDArray[np.int64]) -> FloatArray:
+        return self._arm.own(self._real.guides(chain))
+
+    def are_free(self, guides: FloatArray) -> BoolArray:
+        return self._real.are_free(self._arm.bent(guides))
+
+    def joints(self, guides: FloatArray) -> FloatArray:
+        return self._arm.own(self._real.joints(self._arm.bent(guides)))
+
+    def followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+        joints, bad = self._real.followed(self._arm.bent(guides))
+        return self._arm.own(joints), bad
+
+    def smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
+        return self._arm.own(self._real.smoothed(self._arm.bent(guides), self._arm.bent(joints)))
+
+    def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
+        which, joints = self._real.able(link)
+        return which, self._arm.own(joints)
 
 
 class RemadeClearance:

@@ -1,6 +1,7 @@
 """Both arms along their tools' paths: exactly on them, and past each other if one is in the other's way."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 from tests.robots.collision_samples import FAR, ROBOT, TORSO_M
+from tests.robots.remade import THREE_ARMS, UNLIKE
 
 TABLE_M = 0.79
 COLLISIONS = ROBOT.collisions(Table(), TORSO_M)
@@ -123,3 +125,34 @@ def test_where_one_arm_has_no_way_by_itself_that_is_told():
     found = along(paths)
     assert isinstance(found, NoPath)
     assert {36, 39, 40} <= set(found.blocked.tolist())
+
+
+def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do():
+    paths = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0))
+    real = UNLIKE.collisions(Table(), TORSO_M)
+
+    def is_free_of(arm: int) -> IsFree:
+        return lambda _, joints, is_certain: real.arm_free(arm, FAR, joints, is_certain=is_certain)
+
+    found = UNLIKE.arm_paths(dict(enumerate(paths)), TORSO_M, TABLE_M, {arm: is_free_of(arm) for arm in (0, 1)}, real)
+    assert not isinstance(found, NoPath) and found.shape == (41, 15)
+    assert (found[:, 7] == 0.0).all(), "the eighth joint of the first arm does nothing"
+    without = np.delete(found, 7, axis=1).reshape(-1, 2, 7)
+    require_followed(paths, without)
+    np.testing.assert_array_equal(without, along(paths))
+
+
+def test_three_arms_go_as_they_would_alone_or_one_pair_after_the_other_gives_way():
+    aside = np.array([0.0, 0.45, 0.0])
+    crossing = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0))
+    outer = line((0.6, 0.4, 0.9), (0.7, 0.2, 0.9), 0.0)
+    paths = {0: replace(outer, positions=outer.positions + aside), 1: crossing[0], 2: crossing[1]}
+    real = THREE_ARMS.collisions(Table(), TORSO_M)
+
+    def is_free_of(arm: int) -> IsFree:
+        return lambda _, joints, is_certain: real.arm_free(arm, FAR, joints, is_certain=is_certain)
+
+    found = THREE_ARMS.arm_paths(paths, TORSO_M, TABLE_M, {arm: is_free_of(arm) for arm in paths}, real)
+    assert not isinstance(found, NoPath) and found.shape == (41, 23)
+    np.testing.assert_array_equal(found[:, 7:21].reshape(-1, 2, 7), along(crossing))
+    assert real.arms_apart((0, 1, 2), found).all()
