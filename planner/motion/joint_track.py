@@ -34,14 +34,14 @@ class JointTrack:
         """The joints of the last keyframe (rad), shape (joints,)."""
         return self.joints[-1]
 
-    def joints_at(self, t_s: float) -> FloatArray:
-        """Return all arms' joints at a time (rad), shape (joints,)."""
-        after = int(np.searchsorted(self.times_s, t_s, side="right"))
-        if after == 0 or after == len(self.times_s):
-            return self.joints[max(after - 1, 0)]
-        start, end = self.times_s[after - 1], self.times_s[after]
-        share = (t_s - start) / (end - start)
-        return np.asarray((1.0 - share) * self.joints[after - 1] + share * self.joints[after])
+    def joints_at(self, times_s: FloatArray) -> FloatArray:
+        """Return all arms' joints at some times (rad), shape (n,) -> (n, joints)."""
+        knots, joints = np.array(self.times_s), np.array(self.joints)
+        after = np.searchsorted(knots, times_s, side="right").clip(1, max(len(knots) - 1, 1))
+        if len(knots) == 1:
+            return joints.repeat(len(times_s), axis=0)
+        shares = ((times_s - knots[after - 1]) / (knots[after] - knots[after - 1])).clip(0.0, 1.0)[:, None]
+        return np.asarray((1.0 - shares) * joints[after - 1] + shares * joints[after])
 
     def openings(self, arm: int) -> tuple[list[float], list[float]]:
         """Return a gripper's keyframes: their times (s) and openings (m)."""

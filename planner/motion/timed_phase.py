@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.task.phase import Phase
 
 
@@ -34,10 +34,10 @@ class TimedPhase:
         """The duration (s)."""
         return float(self.times_s[-1])
 
-    def fraction_at(self, t_s: float) -> float:
-        """Return the fraction of the phase that is done a time after its start (s)."""
-        return float(np.interp(t_s, self.times_s, self.fractions))
-
-    def base_at(self, t_s: float) -> Pose2:
-        """Return the base's pose a time after its start (s), table frame."""
-        return self.phase.base[0].between(self.phase.base[1], self.fraction_at(t_s))
+    def bases_at(self, times_s: FloatArray) -> FloatArray:
+        """Return the base at times after its start (s), table frame: x (m), y (m), yaw (rad), shape (n,) -> (n, 3)."""
+        start, end = self.phase.base
+        shares = np.interp(times_s, self.times_s, self.fractions)[:, None]
+        here = np.array([start.x_m, start.y_m, start.yaw_rad])
+        way = np.array([end.x_m - start.x_m, end.y_m - start.y_m, wrapped_angle(end.yaw_rad - start.yaw_rad)])
+        return np.asarray(here + shares * way)

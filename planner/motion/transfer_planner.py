@@ -1,5 +1,6 @@
 """Plan transfers: choose among the ways to do the steps of a transfer, and find joint paths for the promising ones."""
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -9,6 +10,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
 from planner.motion.carrying import Carrier
@@ -118,18 +120,24 @@ class TransferPlanner:
     def first_real(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> Transfer | None:
         """Return the transfer of the first valid choice of steps; None if none is found within the tries.
 
-        If all take longer than their steps' estimates, return the quickest of the first few.
+        If all take longer than their steps' estimates, return the quickest of the first few. Once one is found, choices
+        that cannot be quicker are not tried, though they count.
         """
-        late: list[Transfer] = []
-        for number, candidate in enumerate(self.candidates(choices), start=1):
-            run = self.made(candidate)
-            most = tries.together if candidate.is_together else tries.alone
-            if run is not None and not run.is_late:
+        best: Transfer | None = None
+        best_s, late, failed = math.inf, 0, 0
+        for candidate in self.candidates(choices):
+            if sum(step.duration_s for step in candidate.steps) >= best_s - TIME_S:
+                late += 1
+            elif (run := self.made(candidate)) is None:
+                failed += 1
+            elif not run.is_late:
                 return run
-            late += [] if run is None else [run]
-            if len(late) == tries.late or number - len(late) >= most:
+            else:
+                late += 1
+                best, best_s = min((best, best_s), (run, sum(run.durations_at_most_s())), key=lambda found: found[1])
+            if late == tries.late or failed >= (tries.together if candidate.is_together else tries.alone):
                 break
-        return min(late, key=lambda run: sum(run.durations_at_most_s()), default=None)
+        return best
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
         """Yield the choices of steps that pass a quick test, much cheaper than a search for joint paths.

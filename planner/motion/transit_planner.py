@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray
 from planner.motion.joint_track import JointTrack
 from planner.motion.pacing import eased
 from planner.motion.robot_port import Collisions
@@ -84,7 +84,7 @@ class TransitPlanner:
         ways = [np.array([start, goal])]
         home = self._transits.unwound(self._transits.home, start)
         spared = self._transits.spared(tail.joints, lead.joints)
-        found = self._transits.way(Pose2.of(free.base_at(free.end_s)), start, goal, free.cloth, spared)
+        found = self._transits.way(free.last, start, goal, free.cloth, spared)
         if found is not None:
             ways.append(found)
         ways.append(np.array([start, home, goal]))
@@ -115,8 +115,7 @@ class TransitPlanner:
         track.add(keyframes.times_s, keyframes.joints)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)
-        bases = np.array([free.base_at(t) for t in moments])
-        there = np.array([track.joints_at(t) for t in moments])
+        bases, there = free.bases_at(moments), track.joints_at(moments)
         is_free = self._collisions.are_all_free(bases, there)
         return is_free and self._transits.are_clear(free.cloth, bases, there, self._transits.at_grips)
 
@@ -126,7 +125,7 @@ class TransitPlanner:
         The waiting is taken from the reach, which lasts long enough for both: see `ReachTime`.
         """
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
-        first, last = Pose2.of(free.base_at(free.start_s)), Pose2.of(free.base_at(free.end_s))
+        first, last = free.first, free.last
         away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
         if away is None and np.array_equal(tail.joints[-1], home):  # Already at home, at a table as high as the hands.
             away = np.array([home, home])

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.timed_phase import TimedPhase
 from planner.task.phase import Phase
@@ -29,17 +29,25 @@ class TransitTime:
         """The time at which it ends (s)."""
         return self.start_s + sum(cue.duration_s for cue in self.cues)
 
-    def base_at(self, t_s: float) -> FloatArray:
-        """Return the base at a time: x (m), y (m), yaw (rad)."""
-        start = self.start_s
-        for cue in self.cues[:-1]:
-            if t_s <= start + cue.duration_s:
-                break
-            start += cue.duration_s
-        else:
-            cue = self.cues[-1]
-        pose = cue.base_at(t_s - start)
-        return np.array([pose.x_m, pose.y_m, pose.yaw_rad])
+    @property
+    def first(self) -> Pose2:
+        """The base's pose at the beginning."""
+        return self.cues[0].phase.base[0]
+
+    @property
+    def last(self) -> Pose2:
+        """The base's pose at the end."""
+        return self.cues[-1].phase.base[1]
+
+    def bases_at(self, times_s: FloatArray) -> FloatArray:
+        """Return the base at each of some times: x (m), y (m), yaw (rad), shape (n,) -> (n, 3)."""
+        ends = np.cumsum([self.start_s, *(cue.duration_s for cue in self.cues)])
+        which = np.searchsorted(ends[1:-1], times_s)
+        bases = np.empty((len(times_s), 3))
+        for number, cue in enumerate(self.cues):
+            own = which == number
+            bases[own] = cue.bases_at(times_s[own] - ends[number])
+        return bases
 
     def after_waiting(self, wait_s: float) -> "TransitTime":
         """Return the transit with a wait of the base before it (s), taken from the reach at its end."""

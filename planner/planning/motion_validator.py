@@ -11,6 +11,9 @@ the same, begun and ended elsewhere, and tries some of the promising ones. In ev
 the same, the first few that succeed replace all ways that the search had, except those validated before. A task at
 which the same arms failed several times from one station, wherever the cloth lay, and never succeeded, is not tried
 from there any more. "Infeasible" is therefore no proof where steps were rejected.
+
+Where one of the other ways leads to the same state and takes no longer, the search can go on as if nothing had failed,
+and the rest are found only once no path is left that takes no longer than the one at which the step was rejected.
 """
 
 import math
@@ -21,8 +24,9 @@ from itertools import islice
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s, in_turn, runs_of
 from planner.motion.transfer import Transfer
-from planner.motion.transfer_planner import TransferPlanner, ways_of
+from planner.motion.transfer_planner import Candidate, TransferPlanner, ways_of
 from planner.motion.tries import QUICK, Tries
+from planner.planning.rejection import Rejection
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
@@ -66,6 +70,7 @@ class MotionValidator:
         self._succeeded: set[tuple[object, ...]] = set()
         self._given_up: dict[tuple[object, ...], int] = {}
         self._doubted: set[tuple[object, ...]] = set()
+        self._postponed: list[Rejection] = []
         self.rejected: list[tuple[Step, ...]] = []
         self.slower: tuple[Act, ...] = ()
 
@@ -118,7 +123,7 @@ class MotionValidator:
                 runs.append((run, made))
             elif any(step.grips for step in run):
                 self._all_agree(runs)
-                self._reject(run)
+                self._reject(run, sum(self._known_s(step) for step in steps))
                 return None
         acts = in_turn(found)
         seemed_s = sum(self._known_s(step) for step in steps)
@@ -134,32 +139,74 @@ class MotionValidator:
             self._made[key] = self._maker.first_real(ways, self._tries)
         return self._made[key]
 
-    def _reject(self, run: tuple[Step, ...]) -> None:
-        """Reject the first step at which a transfer fails, and find other ways to do the same."""
+    def _reject(self, run: tuple[Step, ...], path_s: float) -> None:
+        """Reject the first step at which a transfer fails, and find other ways to do the same.
+
+        Where one of them is as good as the step itself, the others are left for later; see `catch_up`.
+        """
         number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
         culprit, before = run[number], run[:number]
         self.rejected.append(run[: number + 1])
-        others: dict[object, Step] = {}
         self._least_s[_key(culprit)] = math.inf
         self._doubt(run)
-        tries = self._tries
-        new = ((*before, other) for other in culprit.elsewhere(tries.spread) if _key(other) not in others)
+        rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._tries.spread)), path_s)
+        found = self._as_good(rejection)
+        if found:
+            self._postponed.append(rejection)
+            self._others[culprit.situation] = found
+        else:
+            self._replace(rejection)
+        if self._others[culprit.situation]:
+            self._succeeded.add(culprit.task)
+        self._failures[culprit.task] += 1
+        if self._failures[culprit.task] >= self._tries.failures and culprit.task not in self._succeeded:
+            self._given_up[culprit.task] = culprit.before.station
+
+    def _as_good(self, rejection: Rejection) -> tuple[Step, ...]:
+        """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
+        for candidate in islice(self._maker.candidates(self._in_time(rejection.as_good())), self._tries.enough):
+            made = self._noted(candidate)
+            if made is not None and made.durations_at_most_s()[-1] <= rejection.culprit.duration_s + TIME_S:
+                return (candidate.steps[-1],)
+        return ()
+
+    def _replace(self, rejection: Rejection) -> None:
+        """Set the ways that replace a rejected step in every state of its situation."""
+        tries, situation = self._tries, rejection.culprit.situation
+        others = {_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}
+        enough = len(others) + tries.enough
+        new = ((*rejection.before, other) for other in rejection.elsewhere if _key(other) not in others)
         for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), tries.tried)):
             if candidate.is_together and tried == tries.vain and not others:
                 break
-            made, other = self._maker.made(candidate), candidate.steps[-1]
-            if made is not None:
-                others[_key(other)] = other
-                self._made[tuple(_key(step) for step in candidate.steps)] = made
-                self._least_s[_key(other)] = made.durations_at_most_s()[-1]
-            if len(others) == tries.enough:
+            if self._noted(candidate) is not None:
+                others[_key(candidate.steps[-1])] = candidate.steps[-1]
+            if len(others) == enough:
                 break
-        self._others[culprit.situation] = tuple(others.values())
-        if others:
-            self._succeeded.add(culprit.task)
-        self._failures[culprit.task] += 1
-        if self._failures[culprit.task] >= tries.failures and culprit.task not in self._succeeded:
-            self._given_up[culprit.task] = culprit.before.station
+        self._others[situation] = tuple(others.values())
+
+    def _noted(self, candidate: Candidate) -> Transfer | None:
+        """Return the transfer of a candidate for another way, and note what its last step takes."""
+        made = self._maker.made(candidate)
+        if made is not None:
+            self._made[tuple(_key(step) for step in candidate.steps)] = made
+            self._least_s[_key(candidate.steps[-1])] = made.durations_at_most_s()[-1]
+        return made
+
+    def catch_up(self, path_s: float) -> bool:
+        """Find the postponed ways that may give a path quicker than one that takes `path_s`; return if any were due.
+
+        No way to do a rejected step makes a path quicker than the one on which it was rejected seemed to be: as long as
+        the search finds paths no slower than that, these ways are not needed.
+
+        Raises:
+            OutOfTimeError: there was no time to find out.
+        """
+        due = [rejection for rejection in self._postponed if rejection.path_s < path_s - TIME_S]
+        for rejection in due:
+            self._replace(rejection)
+            self._postponed.remove(rejection)
+        return bool(due)
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:

@@ -181,7 +181,6 @@ class PlanSearch:
         budget.work_limit_s = begun_s + work_s
         search._real_path(problem.start)
         self._found = search._found
-        problem.context.forget()
         return budget.spent_s - begun_s
 
     def trial(self, folds: int, *, may_collide: bool) -> Trial:
@@ -213,12 +212,14 @@ class PlanSearch:
             result = a_star(*question, limit=self._limit_s)
             self._explored += result.explored
             self._note_bound(result)
-            if result.outcome is not Outcome.SOLVED:
+            if result.outcome is Outcome.BUDGET_EXCEEDED:
                 return result, self._found
-            if result.cost >= self._limit_s:
-                return replace(result, outcome=Outcome.INFEASIBLE), self._found
             begun = time.perf_counter()
             try:
+                if self._validator.catch_up(result.cost):
+                    continue
+                if result.cost >= self._limit_s:
+                    return replace(result, outcome=Outcome.INFEASIBLE), self._found
                 found = self._validator.acts([edge.action for edge in result.path])
             except OutOfTimeError:
                 return replace(result, outcome=Outcome.BUDGET_EXCEEDED), self._found

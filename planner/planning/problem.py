@@ -99,6 +99,7 @@ class Problem:
         behind = context.behind_max_m if behind_max_m is None else behind_max_m
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
         fresh = Context(sequence, wanted, reach, changed.start.placement, context.circle_m, behind, apart, start)
+        fresh.adopt_rest(context)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
     @property

@@ -86,6 +86,7 @@ class Context:
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
+    _met: set[str] = field(default_factory=set)
 
     def kept(self, kind: "Callable[[Context], T]") -> T:
         """Return the context's one shared value of a kind, made at the first request."""
@@ -95,9 +96,22 @@ class Context:
 
     def forget(self) -> None:
         """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
-        for kept in (self._unrest, self._tables, self._extents, self._kept):
+        for kept in (self._unrest, self._tables, self._extents, self._kept, self._met):
             kept.clear()
         self.reach.forget()
+
+    def adopt_rest(self, other: "Context") -> None:
+        """Copy from another context where cloth stays as it is, if that is the same in both."""
+        if self._rests_on == other._rests_on:
+            self._unrest.update(other._unrest)
+            self._tables.update(other._tables)
+            self._extents.update(other._extents)
+
+    @property
+    def _rests_on(self) -> tuple[object, ...]:
+        """All that decides whether cloth stays as it is."""
+        scene = self.scene
+        return (id(self.sequence), self.placement, scene.table, scene.friction, scene.support_angle_rad)
 
     @cached_property
     def back_offs(self) -> int:
@@ -178,7 +192,7 @@ class Context:
     @property
     def has_slipped(self) -> bool:
         """Whether the cloth would have slipped at some placement queried so far; more friction would hold it."""
-        return any(found is not None and found.code == "slips" for found in self._unrest.values())
+        return "slips" in self._met
 
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
         """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
@@ -190,4 +204,7 @@ class Context:
             self._unrest[key] = unrest(
                 self.sequence.cloth(done), self.table_in_article(offset), scene.friction, scene.support_angle_rad
             )
-        return self._unrest[key]
+        found = self._unrest[key]
+        if found is not None:
+            self._met.add(found.code)
+        return found

@@ -106,28 +106,43 @@ def _sample_cost(shape: ArmShape, joints: FloatArray, slack: float, floor: float
     return cost
 
 
-@njit(cache=True, nogil=True)
-def link_cost(before: FloatArray, after: FloatArray, speeds: FloatArray, span: float) -> float:
-    """Return the summed squared times (s2) that the joints need from one sample to another; infinite for a jump.
+@njit(cache=True, nogil=True, error_model="numpy")
+def link_costs(
+    before: FloatArray, count: int, after: FloatArray, speeds: FloatArray, span: float, costs: FloatArray
+) -> None:
+    """Set the summed squared times (s2) that the joints need from each of some samples to another; infinite for a jump.
 
-    Where the slowest joint exceeds the span, the excess costs much more.
+    Where the slowest joint exceeds the span, the excess costs much more. The loops over samples have no branches, so
+    that they are compiled to vector instructions.
+
+    Args:
+        before: the samples, one in each column (rad), shape (7, m).
+        count: how many of the columns are wanted.
+        after: the other sample (rad), shape (7,).
+        speeds: the joints' top speeds (rad/s), shape (7,).
+        span: the longest duration wanted (s).
+        costs: overwritten with the costs, shape (2, m); its second row is scratch space.
     """
-    cost, slowest = 0.0, 0.0
+    cost, slowest = costs[0], costs[1]
+    cost[:count] = 0.0
+    slowest[:count] = 0.0
     for k in range(7):
-        turn = after[k] - before[k]
-        if k in (_FOREARM, _HAND):
-            turn -= math.tau * math.floor(turn / math.tau + 0.5)
-        if abs(turn) > JUMP_RAD:
-            return math.inf
-        needed = abs(turn) / speeds[k]
-        slowest = max(slowest, needed)
-        cost += needed * needed
-    return cost + _LATE_COST * max(slowest - span, 0.0)
+        slowness, there, whole = 1.0 / speeds[k], after[k], math.tau if k in (_FOREARM, _HAND) else 0.0
+        for a in range(count):
+            turn = there - before[k, a]
+            turn = abs(turn - whole * np.floor(turn * (1.0 / math.tau) + 0.5))
+            needed = turn * slowness
+            slowest[a] = max(slowest[a], needed)
+            cost[a] += needed * needed if turn <= JUMP_RAD else math.inf
+    for a in range(count):
+        cost[a] += _LATE_COST * max(slowest[a] - span, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def cheapest_chain(joints: FloatArray, costs: FloatArray, speeds: FloatArray, spans: FloatArray) -> NDArray[np.int64]:
     """Return the cheapest way through samples, one from each pose.
+
+    Of equally cheap ways to a sample, the one that was cheaper so far is taken.
 
     Args:
         joints: the samples, shape (n, m, 7).
@@ -139,22 +154,23 @@ def cheapest_chain(joints: FloatArray, costs: FloatArray, speeds: FloatArray, sp
         The sample at each pose, shape (n,); empty if there is no way.
     """
     count, size = costs.shape
-    best = costs[0].copy()
-    parents = np.full((count, size), -1, dtype=np.int64)
+    best, parents = costs[0].copy(), np.full((count, size), -1, dtype=np.int64)
+    able, columns, links = np.empty(size, dtype=np.int64), np.empty((7, size)), np.empty((2, size))
     for i in range(1, count):
-        totals = np.full(size, np.inf)
-        order = np.argsort(best, kind="mergesort")
+        so_far, found = best.copy(), 0
+        for a in range(size):
+            if so_far[a] < np.inf:
+                able[found], columns[:, found] = a, joints[i - 1, a]
+                found += 1
+        best[:] = np.inf
         for b in range(size):
-            if costs[i, b] == np.inf:
-                continue
-            for a in order:
-                if best[a] + costs[i, b] >= totals[b]:
-                    break
-                total = best[a] + costs[i, b] + link_cost(joints[i - 1, a], joints[i, b], speeds, spans[i - 1])
-                if total < totals[b]:
-                    totals[b] = total
-                    parents[i, b] = a
-        best = totals
+            if costs[i, b] < np.inf:
+                link_costs(columns, found, joints[i, b], speeds, spans[i - 1], links)
+                for number in range(found):
+                    a = able[number]
+                    total = so_far[a] + costs[i, b] + links[0, number]
+                    if total < best[b] or (total == best[b] < np.inf and so_far[a] < so_far[parents[i, b]]):
+                        best[b], parents[i, b] = total, a
     last = int(np.argmin(best))
     if best[last] == np.inf:
         return np.empty(0, dtype=np.int64)

@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.joint_chain import link_cost
+from planner.robots.joint_chain import link_costs
 
 
 @njit(cache=True, nogil=True)
@@ -58,11 +58,12 @@ def cheapest_chain_pair(
 def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, span: float) -> FloatArray:
     """Return the costs of the links from an arm's samples at a pose to those at the next, shape (m, m)."""
     size = costs.shape[1]
-    links = np.full((size, size), np.inf)
-    for before in range(size):
-        for after in range(size):
-            if costs[0, before] < np.inf and costs[1, after] < np.inf:
-                links[before, after] = link_cost(joints[0, before], joints[1, after], speeds, span)
+    links, columns, found = np.full((size, size), np.inf), joints[0].T.copy(), np.empty((2, size))
+    for after in range(size):
+        if costs[1, after] < np.inf:
+            link_costs(columns, size, joints[1, after], speeds, span, found)
+            for before in range(size):
+                links[before, after] = found[0, before] if costs[0, before] < np.inf else np.inf
     return links
 
 

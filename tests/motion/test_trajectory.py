@@ -151,16 +151,16 @@ def test_velocities_are_those_with_which_the_joints_go_on(name: str):
 def test_a_track_goes_evenly_from_keyframe_to_keyframe_and_rests_at_its_ends():
     track = JointTrack.at_rest(HOME, arms=2)
     track.add(np.array([1.0, 2.0]), np.array([HOME + 0.4, HOME]))
-    assert track.joints_at(0.25) == pytest.approx(HOME + 0.1)
-    assert track.joints_at(1.5) == pytest.approx(HOME + 0.2)
-    assert track.joints_at(-1.0) == pytest.approx(HOME) and track.joints_at(9.0) == pytest.approx(HOME)
+    found = track.joints_at(np.array([0.25, 1.5, -1.0, 9.0]))
+    assert found == pytest.approx(np.array([HOME + 0.1, HOME + 0.2, HOME, HOME]))
+    assert JointTrack.at_rest(HOME, arms=2).joints_at(np.array([0.5])) == pytest.approx(HOME[None])
 
 
 def test_keyframes_that_come_too_late_are_left_out():
     track = JointTrack.at_rest(HOME, arms=2)
     track.add(np.array([1.0, 1.0, 0.5]), np.array([HOME + 0.4, HOME + 0.8, HOME]))
     assert track.times_s == [0.0, 1.0]
-    assert track.joints_at(1.0) == pytest.approx(HOME + 0.4)
+    assert track.joints_at(np.array([1.0])) == pytest.approx(HOME[None] + 0.4)
 
 
 def test_fingers_close_and_open_evenly_and_when_they_are_told():

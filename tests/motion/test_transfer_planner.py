@@ -1,8 +1,11 @@
 """The cache of a transfer planner: nothing is computed twice, and everything is counted all the same."""
 
 import math
+from dataclasses import replace
 
-from planner import Task
+import pytest
+
+from planner import Scene, Task
 from planner.geometry.pose import Pose2
 from planner.motion.transfer_planner import TransferPlanner, ways_of
 from planner.motion.tries import QUICK
@@ -12,11 +15,11 @@ from planner.primitives.primitive_set import PRIMITIVES
 from tests.builders import fold, garment, rectangle_points
 
 
-def some_fold() -> tuple[TransferPlanner, tuple[Step, ...], tuple[Step, ...]]:
+def some_fold(arm_motion_s: float = 3.0) -> tuple[TransferPlanner, tuple[Step, ...], tuple[Step, ...]]:
     """Return a planner, and a fold of a napkin as two searches find it, equally good."""
     placement = Pose2(-0.6, 0.15, -math.pi / 2)
     cloth = garment(rectangle_points(0.3, 0.3), fold((0.3, 0.15), (0.0, 0.15), name="half"), placement=placement)
-    problem = Problem.of(Task.of(cloth))
+    problem = Problem.of(Task.of(cloth, Scene(arm_motion_s=arm_motion_s)))
     first, again = (
         next(
             step
@@ -43,3 +46,15 @@ def test_no_two_ways_of_a_fold_have_the_same_motion():
     _, first, _ = some_fold()
     ways = [tuple(step.motion for step in way) for way in ways_of(first, QUICK)]
     assert len(ways) == QUICK.variants == len(set(ways))
+
+
+def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch):
+    maker, first, _ = some_fold(arm_motion_s=1.0)
+    quick = maker.real(first, replace(QUICK, ways=1))
+    assert quick is not None and quick.is_late
+    takes_s, led, made = sum(quick.durations_at_most_s()), [], maker.made
+    slower = [(way,) for way in first[0].elsewhere(64) if way.duration_s > takes_s]
+    assert len(slower) >= QUICK.late
+    monkeypatch.setattr(maker, "made", lambda candidate: led.append(candidate.steps) or made(candidate))
+    assert maker.first_real([first, *slower], QUICK) is quick
+    assert led == [first]

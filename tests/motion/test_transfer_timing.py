@@ -30,8 +30,8 @@ def test_the_last_motion_makes_room_for_the_rest_at_its_end():
     timing = timed((0, phase(START, MIDDLE)), (0, phase(MIDDLE, END, motion=1)))
     assert [cue.duration_s for cue in timing.cues] == pytest.approx([3.0, 3.0])
     # The cloth is where it is to be half a second before the end, and lies still from then on.
-    assert timing.cues[1].fraction_at(2.5) == pytest.approx(1.0)
-    assert timing.cues[1].fraction_at(1.25) == pytest.approx(0.5)
+    cue = timing.cues[1]
+    assert np.interp([2.5, 1.25], cue.times_s, cue.fractions) == pytest.approx([1.0, 0.5])
     last = int(timing.moments[-1])
     assert timing.first_s(last) == pytest.approx(5.5) and timing.times_s[-1] == pytest.approx(6.0)
     assert timing.borrowed_s == 0.0

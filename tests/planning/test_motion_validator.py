@@ -17,6 +17,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.motion.robot_port import Clearance, Collisions
 from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.tries import QUICK
 from planner.planning import motion_validator as validator
 from planner.planning import plan_search, problem
 from planner.primitives.context import Context
@@ -245,3 +246,19 @@ def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_i
     plan = planned(napkin(OVER, BACK_OVER), scene(IDLE_S))
     assert plan.status == "infeasible"
     assert [(r.fold, r.code) for r in plan.reasons] == [(0, Code.COLLISION), (1, Code.WAITS_FOR_FOLD)]
+
+
+def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch):
+    found = found_plan(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
+    maker, start, (step,) = found.problem.maker, found.problem.start, found.acts[0].steps
+    made = maker.made
+    monkeypatch.setattr(maker, "made", lambda one: None if one.steps[-1].motion == step.motion else made(one))
+    seen = validator.MotionValidator(maker, lambda: False, replace(QUICK, ways=1))
+    assert seen.acts([step]) is None
+    ((other, cost_s),) = seen.possible(start, [step])
+    assert other.motion != step.motion and other.after.key == step.after.key and cost_s == step.duration_s
+    assert not seen.catch_up(cost_s), "nothing that waits makes a path quicker than this"
+    assert seen.catch_up(cost_s + 0.2)
+    more = [way.motion for way, _ in seen.possible(start, [step])]
+    assert other.motion in more and len(more) > 1
+    assert not seen.catch_up(math.inf), "nothing is left that waits"

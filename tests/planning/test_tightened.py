@@ -40,3 +40,23 @@ def test_all_else_is_the_same_in_a_tighter_task():
             problem.start,
             problem.context.placement,
         )
+
+
+def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.MonkeyPatch):
+    # Far enough towards the robot the vest hangs over the near edge, and with little friction it slips.
+    problem = problem_of(0.0, 1.3)
+    places = [(-0.1 * number, 0.0) for number in range(12)]
+    known = [problem.context.unrest(0, place) for place in places]
+    assert problem.context.has_slipped
+    tighter = [*with_more_comfort(problem), *with_narrower_cones(problem)]
+    other = problem.varied(scene=replace(problem.context.scene, friction=1.0))
+
+    def fail(*_: object) -> None:
+        raise AssertionError("what is known is asked again")
+
+    monkeypatch.setattr("planner.primitives.context.unrest", fail)
+    for one in tighter:
+        assert not one.context.has_slipped, "nothing has been asked there yet"
+        assert [one.context.unrest(0, place) for place in places] == known
+    with pytest.raises(AssertionError, match="asked again"):
+        _ = [other.context.unrest(0, place) for place in places]

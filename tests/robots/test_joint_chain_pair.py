@@ -6,11 +6,17 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from planner.robots.joint_chain import cheapest_chain, link_cost
+from planner.robots.joint_chain import cheapest_chain, link_costs
 from planner.robots.joint_chain_pair import cheapest_chain_pair
 
 POSES, SAMPLES = 6, 5
 SPEEDS = np.linspace(1.0, 2.0, 14).reshape(2, 7)
+
+
+def _link_cost(before: np.ndarray, after: np.ndarray, speeds: np.ndarray, span: float) -> float:
+    costs = np.empty((2, 1))
+    link_costs(before[:, None].copy(), 1, after, speeds, span, costs)
+    return costs[0, 0]
 
 
 class Question:
@@ -39,7 +45,7 @@ class Question:
     def step_cost(self, pose: int, *ways: np.ndarray) -> float:
         """Return the cost of both arms' motion to a pose from the one before."""
         return sum(
-            link_cost(
+            _link_cost(
                 self.joints[arm, pose - 1, before],
                 self.joints[arm, pose, after],
                 SPEEDS[arm],

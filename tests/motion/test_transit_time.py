@@ -1,0 +1,32 @@
+"""Where the base is while hands are empty."""
+
+import numpy as np
+import pytest
+
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+from planner.motion.timed_phase import TimedPhase
+from planner.motion.transit_time import TransitTime
+from planner.task.phase import ClothMotion, Phase
+
+STATION, BACK, TURNED = Pose2(-0.95, 0.0, 3.0), Pose2(-1.15, 0.1, 3.0), Pose2(-1.15, 0.1, -3.0)
+STILL = ClothMotion(0, Pose2(0.0, 0.0, 0.0), Pose2(0.0, 0.0, 0.0), TableTop.of(Table()))
+
+
+def test_the_base_goes_evenly_through_one_phase_after_the_other_and_turns_the_short_way():
+    legs = [
+        Phase(seconds, ends, (None, None), STILL) for seconds, ends in ((2.0, (STATION, BACK)), (4.0, (BACK, TURNED)))
+    ]
+    free = TransitTime([TimedPhase.even(0, leg, leg.duration_s) for leg in legs], 10.0, None)
+    assert (free.first, free.last, free.end_s) == (STATION, TURNED, 16.0)
+    short = 2.0 * np.pi - 6.0
+    expected = [
+        (-0.95, 0.0, 3.0),
+        (-1.05, 0.05, 3.0),
+        (-1.15, 0.1, 3.0),
+        (-1.15, 0.1, 3.0 + 0.25 * short),
+        (-1.15, 0.1, 3.0 + short),
+    ]
+    np.testing.assert_allclose(free.bases_at(np.array([10.0, 11.0, 12.0, 13.0, 16.0])), expected, atol=1e-12)
+    assert free.bases_at(np.array([12.0]))[0] == pytest.approx([-1.15, 0.1, 3.0])
