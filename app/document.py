@@ -16,14 +16,16 @@ from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.playback import Playback
-from planner.errors import FoldingError, RequestError
+from planner.errors import FoldingError
 from planner.task.plan import Plan
 from planner.task.task import Task
+from planner.task.world_state import WorldState
 
 STOPPED = "planning was stopped; the next change is planned again"
 
 Listener = Callable[[], None]
 Keep = Callable[[int, Draft], None]
+KeepStart = Callable[[Drawing, WorldState | None], None]
 
 
 class EndedDocumentError(FoldingError):
@@ -41,7 +43,9 @@ class Document:
         draft: Draft,
         *,
         version: int = 1,
+        start: WorldState | None = None,
         keep: Keep = lambda _version, _draft: None,
+        keep_start: KeepStart = lambda _drawing, _start: None,
         clock: Callable[[], float] = time.monotonic,
         courtesy: Courtesy | None = None,
     ) -> None:
@@ -50,19 +54,20 @@ class Document:
         Args:
             draft: the drawing and its history.
             version: the first version number.
-            keep: saves a draft under its new version; called before anyone sees the change. An exception from it
-            cancels
-                the change.
+            start: the world state from which to plan; None for the state before all folds, as drawn.
+            keep: saves a draft under its new version; called before anyone sees the change. An exception cancels it.
+            keep_start: saves the world state from which a drawing is planned, in the same way.
             clock: the wall clock (s).
             courtesy: makes searches wait while the drawing changes, since people see a change at once but a plan later.
         """
         self._clock = clock
         self._keep = keep
+        self._keep_start = keep_start
         self._lock = threading.Lock()
         self._edits = threading.Lock()
         self._has_ended = False
         self._courtesy = courtesy or Courtesy()
-        self._state = DocumentState(version, draft)
+        self._state = DocumentState(version, draft, start=start)
         self._listeners: list[Listener] = []
 
     @property
@@ -157,26 +162,12 @@ class Document:
         self._change(lambda state: replace(state, failure=None) if state.failure else state)
 
     def plan_from(self, step: int) -> None:
-        """Plan the rest after a step of the plan shown, counted from 0; -1 is before the first.
-
-        Raises:
-            RequestError: there is no plan for the current drawing, or it has no such step.
-        """
-
-        def change(state: DocumentState) -> DocumentState:
-            if state.answer is None or not state.is_answered or not state.answer.plan.is_solved:
-                raise RequestError("step", "there is no plan of the drawing as it is now")
-            try:
-                start = state.answer.plan.state_after(step)
-            except RequestError as error:
-                raise RequestError("step", error.message) from None
-            return state.started_at(start, self._clock())
-
-        self._change(change)
+        """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
+        self._start_at(lambda state: state.start_after(step))
 
     def plan_from_start(self) -> None:
         """Plan all folds again, from the drawing's own start."""
-        self._change(lambda state: state.started_at(None, self._clock()))
+        self._start_at(lambda _: None)
 
     def look_longer(self) -> None:
         """Request more search for this version, if that may improve its answer."""
@@ -231,7 +222,19 @@ class Document:
             if after is draft:
                 return self._state
             self._keep(version + 1, after)
+            if self._state.start is not None:
+                self._keep_start(after.drawing, None)
             return self._change(lambda state: state.redrawn(after, self._clock()))
+
+    def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
+        """Plan the same drawing from another world state; it is saved before anyone sees it."""
+        with self._edits:
+            if self._has_ended:
+                raise EndedDocumentError
+            start = start_of(self._state)
+            if start != self._state.start:
+                self._keep_start(self._state.drawing, start)
+            self._change(lambda state: state.started_at(start, self._clock()))
 
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
         self._change(lambda state: replace(state, playback=change(state.playback)))

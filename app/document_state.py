@@ -8,6 +8,7 @@ from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
 from app.playback import Playback
+from planner.errors import RequestError
 from planner.geometry.pose import Point2
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
@@ -179,6 +180,15 @@ class DocumentState:
             after = replace(after, checks=replace(self.checks, version=version))
         renewed = replace(answer, version=version)
         return after.answered(renewed) if after.film is not None else after.answered(renewed).filmed(renewed, now_s)
+
+    def start_after(self, step: int) -> WorldState:
+        """Return the world state after a step of the plan, counted from 0; -1 is before the first."""
+        if self.answer is None or not self.is_answered or not self.answer.plan.is_solved:
+            raise RequestError("step", "there is no plan of the drawing as it is now")
+        try:
+            return self.answer.plan.state_after(step)
+        except RequestError as error:
+            raise RequestError("step", error.message) from None
 
     def started_at(self, start: WorldState | None, now_s: float) -> "DocumentState":
         """Return the state planned from another world state, None for the drawing's start, at a wall-clock time (s)."""

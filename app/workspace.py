@@ -142,7 +142,14 @@ class Workspace:
             opened.close()
 
     def _open_as(self, document_id: str, kept: KeptDocument) -> OpenDocument:
-        document = Document(kept.draft, version=kept.version, keep=kept.keeper.keep, courtesy=self.lanes.courtesy)
+        document = Document(
+            kept.draft,
+            version=kept.version,
+            start=kept.start,
+            keep=kept.keeper.keep,
+            keep_start=kept.keeper.keep_start,
+            courtesy=self.lanes.courtesy,
+        )
         self._open[document_id] = OpenDocument(document_id, document, self.lanes.live, self.plans)
         return self._open[document_id]
 

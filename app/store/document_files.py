@@ -6,6 +6,7 @@ ending   content
 .journal the document (see `app.store.journal`)
 .head    the journal's list entry and least length
 .preview the drawing changed by a gesture in progress
+.start   the world state from which the drawing is planned, if not from the beginning
 .json    a document of format 1 (see `app.store.document_file`); a journal supersedes it
 .broken  an unreadable file, renamed
 ======== ==========================================================================
@@ -24,8 +25,9 @@ from app.drawing.drawing_json import DrawingModel, drawing_to_dict
 from app.store import document_file, journal
 from planner.errors import FoldingError
 from planner.strict_model import StrictModel
+from planner.task.world_state import WorldState
 
-JOURNAL, HEAD, PREVIEW, JSON, BROKEN = ".journal", ".head", ".preview", ".json", ".broken"
+JOURNAL, HEAD, PREVIEW, START, JSON, BROKEN = ".journal", ".head", ".preview", ".start", ".json", ".broken"
 ID_PATTERN = re.compile(r"[a-z0-9]{8}")
 
 _FORMAT_AT_START = re.compile(rb'\s*\{\s*"format"\s*:\s*(\d{1,9})\b')
@@ -74,6 +76,13 @@ class Preview(StrictModel):
     drawing: DrawingModel
 
 
+class Start(StrictModel):
+    """A world state from which to plan, and the drawing for which it was chosen."""
+
+    drawing: DrawingModel
+    start: WorldState
+
+
 @dataclass(frozen=True, slots=True)
 class DocumentFiles:
     """The paths of a document's files.
@@ -110,6 +119,11 @@ class DocumentFiles:
 def preview_text(version: int, label: str, drawing: Drawing) -> bytes:
     """Return the content of the file for a gesture in progress."""
     return to_json({"version": version, "label": label, "drawing": drawing_to_dict(drawing)})
+
+
+def start_text(drawing: Drawing, start: WorldState) -> bytes:
+    """Return the content of the file for a start."""
+    return to_json({"drawing": drawing_to_dict(drawing), "start": start.to_dict()})
 
 
 def require_known_format(document_id: str, path: Path, data: bytes) -> None:

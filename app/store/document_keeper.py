@@ -13,11 +13,12 @@ from pydantic_core import to_json
 
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.store.document_files import HEAD, JOURNAL, JSON, PREVIEW, DocumentFiles, preview_text
+from app.store.document_files import HEAD, JOURNAL, JSON, PREVIEW, START, DocumentFiles, preview_text, start_text
 from app.store.durable_file import write_at_once
 from app.store.journal import Journal, change_line, start_line
 from app.store.storage_error import storing
 from app.store.tape import Tape, tape_of, whole
+from planner.task.world_state import WorldState
 
 _SLACK_BYTES = 1 << 16
 """Growth after which a journal is rewritten, unless its initial length is larger: then it may double (bytes)."""
@@ -65,6 +66,16 @@ class DocumentKeeper:
         """Save a draft; raise `StorageError` if that fails, with the earlier state still saved."""
         with storing(f"document {self._files.id!r} could not be written, so the change was not made"):
             self._keep(version, draft)
+
+    def keep_start(self, drawing: Drawing, start: WorldState | None) -> None:
+        """Save the world state from which a drawing is planned; raise `StorageError` if that fails."""
+        path = self._files.path(START)
+        if start is None:
+            with suppress(OSError):  # readers ignore the start of another drawing
+                path.unlink()
+            return
+        with storing(f"document {self._files.id!r} could not be written, so its start was not changed"):
+            write_at_once(path, start_text(drawing, start), is_synced=False)
 
     def _keep(self, version: int, draft: Draft) -> None:
         gesture = draft.gesture

@@ -1,6 +1,6 @@
 """Reads documents, from journals and from files of the older format."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -15,9 +15,11 @@ from app.store.document_files import (
     JOURNAL,
     JSON,
     PREVIEW,
+    START,
     DocumentFiles,
     NewerDocumentError,
     Preview,
+    Start,
     UnknownDocumentError,
     format_of,
     require_known_format,
@@ -28,6 +30,7 @@ from app.store.journal import Journal, read_journal
 from app.store.tape import Tape, history_of, tape_of
 from planner.errors import FoldingError, RequestError
 from planner.strict_model import first_error
+from planner.task.world_state import WorldState
 
 
 @dataclass
@@ -50,11 +53,13 @@ class KeptDocument:
         version: its version.
         draft: its drawing and history.
         keeper: saves its further changes.
+        start: the world state from which it is planned; None for the drawing's own.
     """
 
     version: int
     draft: Draft
     keeper: DocumentKeeper
+    start: WorldState | None = None
 
 
 def read_document(files: DocumentFiles) -> KeptDocument:
@@ -70,7 +75,8 @@ def read_document(files: DocumentFiles) -> KeptDocument:
     if path is None:
         raise _missing(files)
     try:
-        return _resumed(files, _kept(files, path))
+        resumed = _resumed(files, _kept(files, path))
+        return replace(resumed, start=_start(files, resumed.draft.drawing))
     except ValueError as error:
         raise BrokenDocumentError(files.id, _in_short(error), _put_aside(files, path)) from None
 
@@ -149,6 +155,15 @@ def _resumed(files: DocumentFiles, kept: KeptDocument) -> KeptDocument:
         return KeptDocument(max(version, preview.version), draft, keeper)
     history = draft.history.stepped(preview.label, draft.drawing)
     return KeptDocument(preview.version, Draft(solution, history), keeper)
+
+
+def _start(files: DocumentFiles, drawing: Drawing) -> WorldState | None:
+    """Return the world state from which a drawing is planned, if one was chosen for it and can be read."""
+    try:
+        kept = Start.model_validate_json(files.path(START).read_bytes())
+        return kept.start if kept.drawing.value() == drawing else None
+    except (OSError, ValueError):
+        return None
 
 
 def _put_aside(files: DocumentFiles, path: Path) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from app.store.document_files import BROKEN, HEAD, JOURNAL, JSON, PREVIEW, DocumentFiles, UnknownDocumentError
+from app.store.document_files import BROKEN, HEAD, JOURNAL, JSON, PREVIEW, START, DocumentFiles, UnknownDocumentError
 from app.store.document_keeper import DocumentKeeper
 from app.store.document_list import DocumentEntry, DocumentList, DocumentPage
 from app.store.document_reader import KeptDocument, glance_at, read_document, read_entry
@@ -73,7 +73,7 @@ class DocumentShelf:
             for path in found:
                 path.unlink()
         with suppress(OSError):  # the document itself is removed already
-            for path in map(files.path, (HEAD, PREVIEW)):
+            for path in map(files.path, (HEAD, PREVIEW, START)):
                 path.unlink(missing_ok=True)
             sync_folder(self._folder)
 

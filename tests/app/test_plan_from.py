@@ -2,6 +2,7 @@
 
 import threading
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -12,6 +13,7 @@ from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.live_search import Begun, LiveSearch
+from app.store.document_shelf import DocumentShelf
 from planner import Plan, Task, load_garment, make_plan
 from planner.errors import RequestError
 from tests.app.document_requests import moved, put
@@ -68,6 +70,62 @@ async def test_the_start_is_taken_back_by_a_command_and_by_an_edit(client: httpx
             assert again["before"] is None  # what was left is nothing to compare the whole with
         assert len(again["plan"]["primitives"]) == len(whole["plan"]["primitives"])
     await page.hang_up()
+
+
+@pytest.mark.anyio
+async def test_a_document_that_is_opened_again_is_planned_from_where_it_was(client: httpx.AsyncClient) -> None:
+    workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    state, page, _ = await planned(client)
+    left = await from_second_step(page)
+    await page.hang_up()
+    workspace.close_unused(-1.0)
+    page = listening(client, state["id"])
+    again = await page.until_planned(state["version"])
+    assert again["start"] == left["start"]
+    assert again["plan"]["cost_s"] == pytest.approx(left["plan"]["cost_s"])
+
+    page.say({"do": "plan_from", "step": None})
+    await replanned(page, start=None)
+    workspace.close_unused(-1.0)
+    assert workspace.opened(state["id"]).document.state.start is None
+
+
+@pytest.mark.anyio
+async def test_a_drawing_that_was_changed_is_planned_from_its_beginning_when_it_is_opened_again(
+    client: httpx.AsyncClient,
+) -> None:
+    workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    state, page, _ = await planned(client)
+    await from_second_step(page)
+    changed = (await put(client, state, moved(state, 0.001))).json()
+    await client.post(f"/api/documents/{state['id']}/undo", json={"base_version": changed["version"]})
+    await page.hang_up()
+    workspace.close_unused(-1.0)
+    assert workspace.opened(state["id"]).document.state.start is None
+
+
+async def from_second_step(page: Listener) -> dict[str, Any]:
+    """Plan what is left after the second step of the plan on show; return the message of the final plan."""
+    page.say({"do": "plan_from", "step": 1})
+    while (await page.until("plan", status="solved"))["start"] is None:
+        page.last.pop("plan")
+    return await replanned(page)
+
+
+def test_a_start_that_was_chosen_for_another_drawing_or_cannot_be_read_is_none(plan: Plan, tmp_path: Path) -> None:
+    shelf = DocumentShelf(tmp_path)
+    draft = draft_of(drawing_of(T_SHIRT))
+    keeper = shelf.keeper("aaaabbbb")
+    keeper.keep(1, draft)
+    start = plan.state_after(1)
+    keeper.keep_start(draft.drawing, start)
+    assert shelf.kept("aaaabbbb").start == start
+    keeper.keep_start(replace(draft.drawing, start_station="left"), start)
+    assert shelf.kept("aaaabbbb").start is None
+    (tmp_path / "aaaabbbb.start").write_bytes(b"{")
+    assert shelf.kept("aaaabbbb").start is None
+    shelf.remove("aaaabbbb")
+    assert not list(tmp_path.glob("aaaabbbb*"))
 
 
 @pytest.mark.anyio
