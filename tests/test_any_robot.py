@@ -36,8 +36,11 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
 }
 """Words that mean something else: by file, a pattern and the reason."""
 
-WORD = re.compile(r"pr2|left|right|[lr]_(shoulder|elbow|upper_arm|forearm|wrist|gripper)\w*", re.IGNORECASE)
-"""Literals that are a robot, an arm or a joint of one."""
+WORD = re.compile(
+    r"pr2|left|right|[lr]_(shoulder|elbow|upper_arm|forearm|wrist|gripper)\w*|\w+_(joint|frame|footprint)",
+    re.IGNORECASE,
+)
+"""Literals that are a robot, an arm, or a joint or frame of one."""
 
 NAME = re.compile(r"(?i:pr2)|JOINTS|(left|right)_(arm|hand|gripper)s?|both_arms|BothArms")
 """Names of Python that count arms or joints, or say a robot."""

@@ -90,6 +90,7 @@ class RobotCard:
         resting: all other actuated joints and where they rest, as (name, rad).
         urdf_path: the robot's description.
         package_dir: the directory to which its ``package://`` addresses are relative.
+        eye_frame: the URDF frame of its eyes; None without a head.
     """
 
     name: str
@@ -103,6 +104,7 @@ class RobotCard:
     resting: tuple[tuple[str, float], ...]
     urdf_path: Path
     package_dir: Path
+    eye_frame: str | None = None
 
     @property
     def is_fixed(self) -> bool:

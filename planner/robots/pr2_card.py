@@ -35,6 +35,7 @@ def pr2_card(model: pin.Model) -> RobotCard:
         resting=_RESTING,
         urdf_path=urdf_path(),
         package_dir=package_directory(),
+        eye_frame="head_plate_frame",
     )
 
 

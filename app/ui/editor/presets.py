@@ -16,7 +16,8 @@ from planner.robots.card import RobotCard
 
 _MARGIN = 1.12
 _TILT = 0.002  # a camera that looks straight down has no defined up direction
-_EYE_LINK = "head_plate_frame"
+_EYES_OVER_FLOOR_M = 1.4
+"""The height of the eye of a robot that has no head (m)."""
 _AHEAD_OF_EYES_M = 0.15
 _WIDEST_RAD = 1.9
 _SIDE_CENTRE: Point3 = (-0.45, 0.0, 0.1)
@@ -99,9 +100,11 @@ def _fov_to_see(points: FloatArray, eye: FloatArray, middle: FloatArray, aspect:
 
 
 def _eye_in_base(card: RobotCard, torso_m: float) -> FloatArray:
-    """Return where the robot's head is while it looks ahead, base frame (m); all links down to it are unturned."""
+    """Return where the robot's eyes are while it looks ahead, base frame (m); all links down to them are unturned."""
+    if card.eye_frame is None:
+        return np.array([0.0, 0.0, _EYES_OVER_FLOOR_M])
     links = load_robot_model(card.urdf_path, card.package_dir)
-    eye = next(link for link in links if link.name == _EYE_LINK)
+    eye = next(link for link in links if link.name == card.eye_frame)
     return np.asarray(np.sum([_offset(link, card, torso_m) for link in links if _carries(link, eye)], axis=0))
 
 

@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,6 +51,12 @@ def test_the_robots_eye_is_above_its_base_and_looks_ahead() -> None:
     turned = robots_eye(card, Pose2(0.0, 1.0, -math.pi / 2), [(0.0, 0.0)], 1.0, torso_m=0.2, floor_z_m=-0.79)
     assert turned.position[:2] == pytest.approx((0.0, 1.0 - 0.174), abs=1e-3)
     assert turned.fov_rad == FOV_RAD
+
+
+def test_a_robot_without_a_head_looks_from_a_persons_height_over_its_base() -> None:
+    headless = replace(load_robot("pr2").card, eye_frame=None)
+    seen = robots_eye(headless, Pose2(-0.95, 0.2, 0.0), [(-0.4, 0.2)], 1.0, torso_m=0.2, floor_z_m=-0.79)
+    assert seen.position == pytest.approx((-0.95 + 0.15, 0.2, 1.4 - 0.79))
 
 
 @pytest.mark.parametrize("aspect", [1.0, 1.5, 2.0])
