@@ -7,7 +7,7 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.jobs.apart import template_is_ready
+from app.jobs.apart import start_template
 from app.jobs.lanes import Lanes
 from app.open_document import OpenDocument
 from app.settings import Settings
@@ -63,7 +63,7 @@ class Workspace:
             self.opened(self.first()).show()
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
-        template_is_ready()  # so that the first search does not wait for it
+        start_template()
         threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
 
     def first(self) -> str:

@@ -16,7 +16,7 @@ from starlette.responses import Response
 from app.api.answers import Says
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
-from app.jobs.apart import StoppedError
+from app.jobs.apart import PlannerNotLoadedError, StoppedError
 from app.jobs.job_pool import BusyError
 from app.store.document_files import NewerDocumentError, UnknownDocumentError
 from app.store.document_reader import BrokenDocumentError
@@ -52,6 +52,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     ReadOnlyGarmentError: 409,
     UnsolvedPlanError: 409,
     StoppedError: 503,
+    PlannerNotLoadedError: 503,
     GarmentFileError: 422,
 }
 _REQUEST_PARTS = ("body", "query", "path", "header")

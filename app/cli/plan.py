@@ -28,8 +28,11 @@ from planner.cloth.garment import Garment
 from planner.cloth.garment_files import read_json
 from planner.errors import SceneError
 from planner.task.plan_files import read_plan, write_plan
-from planner.task.task import TaskOptions
+from planner.task.task import TIME_LIMIT_S, TaskOptions
 from planner.words.catalogue import sentence
+
+_SLOWDOWN_MAX = 6.0
+"""How many times as long as its counted work a search for suggestions may take, on a machine that is slow or busy."""
 
 PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan file, as `pleat plan --out` writes it.")]
 
@@ -148,11 +151,15 @@ def _read_scene(path: Path) -> Scene:
 
 
 def _print_suggestions(answer: Plan) -> None:
-    found = list(suggestions(answer.task, plan=answer))
+    limits = answer.task.limits
+    work_s = limits.work_limit_s or limits.time_limit_s
+    time_s = min(_SLOWDOWN_MAX * work_s, TIME_LIMIT_S[1])
+    task = replace(answer.task, limits=replace(limits, work_limit_s=work_s, time_limit_s=time_s))
+    found = list(suggestions(task, plan=answer))
     if found:
         output.print(suggestion_table(answer.garment, found))
     else:
-        output.print(f"No change was found within {answer.task.limits.time_limit_s:g} s.")
+        output.print(f"No change was found within {work_s:g} s of work.")
 
 
 def _status(answer: Plan) -> int:

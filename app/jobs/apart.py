@@ -7,7 +7,7 @@ and some 20 MB (measured: a plan of 0.2 s takes 9 ms longer than in a thread).
 """
 
 import contextlib
-import functools
+import logging
 import multiprocessing
 import multiprocessing.connection
 import os
@@ -16,6 +16,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from concurrent.futures import Future
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
@@ -32,11 +33,12 @@ _TEMPLATE = "app.jobs.template"
 _LOOK_EVERY_S = 0.02
 """Period of the check whether to stop (s)."""
 
-_STARTS_MAX = 50
-"""Largest number of attempts to start a process."""
+_STARTED_WITHIN_S = 10.0
+"""Time for attempts to start a process (s)."""
 
 _NEWS, _ANSWER, _ERROR = "news", "answer", "error"
 _context = multiprocessing.get_context("forkserver")
+_log = logging.getLogger(__name__)
 
 
 class StoppedError(FoldingError):
@@ -50,26 +52,57 @@ class LostProcessError(Exception):
     """The process ended before the work did: it crashed, or the system ended it."""
 
 
+class PlannerNotLoadedError(FoldingError):
+    """The template process could not load the planner or its kernels."""
+
+    def __str__(self) -> str:
+        return "the planner could not be loaded; the server's log says why"
+
+
 def ignore(_: object) -> None:
     """Ignore news."""
 
 
-@functools.cache
-def template_is_ready() -> threading.Event:
-    """Start the template process, once; return an event that is set after loading, which takes seconds."""
-    is_ready = threading.Event()
-    threading.Thread(target=_load_template, args=(is_ready,), name="template", daemon=True).start()
-    return is_ready
+class _Template:
+    """The template process, as far as it is loaded."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._loading: Future[None] | None = None
+
+    def loading(self) -> Future[None]:
+        """Start the template process unless that is done; return the end of its loading, which takes seconds.
+
+        A template that failed is replaced.
+        """
+        with self._lock:
+            if self._loading is None or (self._loading.done() and self._loading.exception()):
+                self._loading = Future()
+                threading.Thread(target=_load_template, args=(self._loading,), name="template", daemon=True).start()
+            return self._loading
 
 
-def _load_template(is_ready: threading.Event) -> None:
+_template = _Template()
+
+
+def start_template() -> None:
+    """Start the template process, so that the first work does not wait for it."""
+    _template.loading()
+
+
+def _load_template(loading: Future[None]) -> None:
     _context.set_forkserver_preload([_TEMPLATE])
     resource_tracker.ensure_running()  # started later, it would unblock Ctrl-C again
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # only the server handles Ctrl-C, and ends the rest
     first = _context.Process(target=ignore, args=(None,), daemon=True)
-    first.start()
-    first.join()
-    is_ready.set()
+    try:
+        first.start()  # where loading fails the template ends, after it has written why
+        first.join()
+    except Exception:
+        _log.exception("the template process could not load the planner")
+        loading.set_exception(PlannerNotLoadedError())
+    else:
+        loading.set_result(None)
 
 
 def run_apart(
@@ -90,12 +123,11 @@ def run_apart(
 
     Raises:
         StoppedError: the work was stopped.
+        PlannerNotLoadedError: no process has the planner; the next work tries again.
         LostProcessError: its process ended before it did.
         Exception: whatever the work raises.
     """
-    while not template_is_ready().wait(_LOOK_EVERY_S):
-        if should_stop():
-            raise StoppedError
+    _wait_until_loaded(should_stop)
     ours, theirs = _context.Pipe(duplex=False)
     process = _context.Process(target=_work, args=(theirs, work, arguments, options), daemon=True)
     _start(process)
@@ -122,9 +154,20 @@ def run_apart(
         ours.close()
 
 
+def _wait_until_loaded(should_stop: ShouldStop) -> None:
+    loading = _template.loading()
+    while True:
+        try:
+            return loading.result(_LOOK_EVERY_S)
+        except TimeoutError:
+            if should_stop():
+                raise StoppedError from None
+
+
 def _start(process: ForkServerProcess) -> None:
     """Start a process; if the template was killed from outside, retry until the system has noticed and replaced it."""
-    for _ in range(_STARTS_MAX):
+    until_s = time.monotonic() + _STARTED_WITHIN_S
+    while time.monotonic() < until_s:
         try:
             process.start()
         except (EOFError, ConnectionError):

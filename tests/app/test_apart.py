@@ -1,5 +1,7 @@
 import os
 import signal
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -79,6 +81,29 @@ def test_a_bug_comes_with_the_place_where_it_is() -> None:
     with pytest.raises(ZeroDivisionError) as raised:
         apart(fail, ZeroDivisionError("no"))
     assert "in fail" in raised.value.__notes__[0]
+
+
+# A template that fails, and then one that does not; `print` is what both are asked for.
+PROGRAM = """
+from app.jobs import apart
+
+whole, apart._TEMPLATE = apart._TEMPLATE, "tests.app.broken_template"
+for _ in range(2):
+    try:
+        apart.run_apart(print, bool, apart.ignore)
+    except apart.PlannerNotLoadedError as error:
+        print(error)
+apart._TEMPLATE = whole
+apart.run_apart(print, bool, apart.ignore)
+print("done")
+"""
+
+
+def test_a_template_that_cannot_load_the_planner_is_told_and_replaced() -> None:
+    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, timeout=120.0)
+    told = [line for line in done.stdout.splitlines() if not line.startswith("<")]
+    assert told == ["the planner could not be loaded; the server's log says why"] * 2 + ["done"], done.stderr
+    assert "the kernels are for another machine" in done.stderr
 
 
 @pytest.mark.slow

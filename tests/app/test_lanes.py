@@ -12,6 +12,7 @@ import httpx
 import pytest
 
 from app.api.asked import SHORTEST_S, TimeLimit
+from app.jobs.apart import PlannerNotLoadedError
 from app.jobs.job_pool import BusyError, JobPool
 from app.jobs.lanes import SEARCHES_WAITING_MAX
 from bench.growth_cases import tabs_on_two_sides
@@ -78,6 +79,20 @@ async def test_a_full_queue_is_told_at_once(client: httpx.AsyncClient) -> None:
         assert int(answer.headers["retry-after"]) >= 1
     async with asyncio.timeout(30.0):
         assert (await client.post("/api/plans", json={"garment": "hand-towel"})).status_code == 200
+
+
+async def test_where_the_planner_cannot_be_loaded_every_search_ends_with_that(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise PlannerNotLoadedError
+
+    for module in ("plan_routes", "suggestion_routes"):
+        monkeypatch.setattr(f"app.api.{module}.run_apart", refuse)
+    for path in ("plans", "suggestions", "placements"):
+        answer = await client.post(f"/api/{path}", json={"garment": "hand-towel"})
+        assert answer.status_code == 503, path
+        assert answer.json()["detail"] == "the planner could not be loaded; the server's log says why"
 
 
 def test_the_time_of_a_request_runs_while_it_waits(monkeypatch: pytest.MonkeyPatch) -> None:

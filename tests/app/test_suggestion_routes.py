@@ -9,6 +9,8 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli import cli
+from planner import Task
+from planner.explain.suggestion import Suggestion
 from tests.app.conftest import Served
 from tests.app.processes import cpu_s
 from tests.app.samples import towel
@@ -149,3 +151,22 @@ def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path) -
     assert "out_of_reach" in result.stderr
     for heading in ("kind", "what", "size", "cost", "assumption?", "placement"):
         assert heading in result.stdout
+
+
+def test_the_command_line_limits_the_work_of_its_suggestions_and_leaves_a_slow_machine_the_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Task] = []
+
+    def noted(task: Task, **_: object) -> list[Suggestion]:
+        asked.append(task)
+        return []
+
+    monkeypatch.setattr("app.cli.plan.suggestions", noted)
+    garment = tmp_path / "towel.json"
+    garment.write_text(json.dumps(towel()))
+    for given, work_s, time_s in ((["--time-limit-s", "2"], 2.0, 12.0), ([], 10.0, 60.0)):
+        result = CliRunner().invoke(cli, ["plan", str(garment), *given, "--suggest"])
+        assert f"No change was found within {work_s:g} s of work." in result.stdout
+        limits = asked.pop().limits
+        assert (limits.work_limit_s, limits.time_limit_s) == (work_s, time_s)
