@@ -23,6 +23,9 @@ from planner.primitives.context import BACK_OFF_STEP_M
 from planner.primitives.reach import Reach
 from planner.robots.load_robot import load_robot
 
+_STEP_M, _LONGEST_M = 0.02, 1.3
+"""The spacing of the points tried, and how far from its shoulder any arm reaches at most (m)."""
+
 _BLOCK = 4
 """Number of grid points along each side of a block."""
 
@@ -50,15 +53,19 @@ class Grid:
         x, y = middle
         return Grid((x - radius_m, y - radius_m), (2 * steps + 1, 2 * steps + 1), radius_m / steps)
 
+    @staticmethod
+    def beside(shoulder: Point2) -> "Grid":
+        """Return a grid about a shoulder beyond which no arm reaches, its points on multiples of the spacing."""
+        low = [math.floor((at - _LONGEST_M) / _STEP_M) for at in shoulder]
+        count = math.ceil(2 * _LONGEST_M / _STEP_M) + 2
+        return Grid((low[0] * _STEP_M, low[1] * _STEP_M), (count, count), _STEP_M)
+
     @property
     def places(self) -> FloatArray:
         """The points, shape (counts[0], counts[1], 2), m."""
         axes = (low + self.step_m * np.arange(count) for low, count in zip(self.low, self.counts, strict=True))
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
-
-ALL_IN_REACH = Grid((-1.0, -1.3), (106, 131), 0.02)
-"""A grid beyond which no arm reaches."""
 
 CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
 """Tells at which points of the base frame, shape (n, 2), m, an arm can take cloth."""
@@ -84,10 +91,12 @@ def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: 
 
 def takeable_region(reach: Reach, arm: int, height_m: float) -> Region:
     """Return where an arm can take cloth at a height above the floor (m), base frame."""
-    return region_where(partial(takeable, reach, arm, height_m), is_open=_may_be_in_reach(reach, arm, height_m))
+    x, y, _ = reach.shoulders[arm]
+    places = Grid.beside((x, y))
+    return region_where(partial(takeable, reach, arm, height_m), places, _may_be_in_reach(reach, arm, height_m, places))
 
 
-def region_where(can_take: CanTake, places: Grid = ALL_IN_REACH, is_open: BoolArray | None = None) -> Region:
+def region_where(can_take: CanTake, places: Grid, is_open: BoolArray | None = None) -> Region:
     """Return the region of the grid's rectangle in which a predicate holds, base frame.
 
     Args:
@@ -119,18 +128,18 @@ def in_approach(reach: Reach, arm: int, height_m: float, approach: int, points: 
     return np.asarray(reach.from_anywhere(arm, tools, np.array([approach]), 1, BACK_OFF_STEP_M)[0])
 
 
-def _may_be_in_reach(reach: Reach, arm: int, height_m: float) -> BoolArray:
+def _may_be_in_reach(reach: Reach, arm: int, height_m: float, places: Grid) -> BoolArray:
     """Return at which grid points an arm may have its reach margin in some approach.
 
     The points lie at a height above the floor (m).
     """
-    first = ALL_IN_REACH.places[::_BLOCK, ::_BLOCK]
+    first = places.places[::_BLOCK, ::_BLOCK]
     tools = np.concatenate([first, np.full((*first.shape[:2], 1), height_m)], axis=-1).reshape(-1, 1, 3)
     every = np.arange(len(reach.approaches))
     short_by_m = reach.at_least_short(arm, tools, every, 1, BACK_OFF_STEP_M).reshape(first.shape[:2])
-    to_last_m = math.sqrt(2.0) * (_BLOCK - 1) * ALL_IN_REACH.step_m
+    to_last_m = math.sqrt(2.0) * (_BLOCK - 1) * places.step_m
     blocks = short_by_m <= to_last_m
-    nx, ny = ALL_IN_REACH.counts
+    nx, ny = places.counts
     return np.asarray(blocks.repeat(_BLOCK, axis=0).repeat(_BLOCK, axis=1)[:nx, :ny])
 
 

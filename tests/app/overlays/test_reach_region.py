@@ -4,7 +4,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from app.overlays.reach_region import reach_regions, region_where, takeable, takeable_region
+from app.overlays.reach_region import Grid, reach_regions, region_where, takeable, takeable_region
 from planner import load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
@@ -13,6 +13,7 @@ from planner.geometry.segment import Segment
 from planner.robots.load_robot import load_robot
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
+GRID = Grid.beside((0.0, 0.2))
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +32,7 @@ def test_a_disc_is_found_to_a_sixteenth_of_the_grid():
     def is_in_disc(points: FloatArray) -> np.ndarray:
         return np.hypot(*(points - middle).T) <= radius
 
-    found = region_where(is_in_disc)
+    found = region_where(is_in_disc, GRID)
     away = np.hypot(*(found.coordinates - middle).T)
     # Corners are inside, at most 2 cm / 2^4 along the grid; chords over a cell of 2 cm sink by 0.02^2 / (8 * 0.5) more.
     assert radius - 0.02 / 16 - 1e-4 <= away.min()
@@ -44,14 +45,14 @@ def test_holes_and_separate_parts_are_kept():
         away = np.hypot(*(points - [0.4, 0.0]).T)
         return ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
 
-    found = region_where(is_in)
+    found = region_where(is_in, GRID)
     assert len(found.pieces) == 2
     assert found.area == pytest.approx(math.pi * (0.16 - 0.04 + 0.01), rel=0.02)
     assert not found.contains((0.4, 0.0))
 
 
 def test_where_nothing_can_be_reached_the_region_is_empty():
-    assert region_where(lambda points: np.zeros(len(points), dtype=bool)).area == 0.0
+    assert region_where(lambda points: np.zeros(len(points), dtype=bool), GRID).area == 0.0
 
 
 @pytest.mark.parametrize(("torso_m", "height_m"), [(0.29, 0.79), (0.0, 0.5)])
@@ -59,7 +60,7 @@ def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: f
     reach = load_robot("pr2").reach(torso_m, 0.02)
     for arm in range(2):
         asked = partial(takeable, reach, arm, height_m)
-        quick, plain = takeable_region(reach, arm, height_m), region_where(asked)
+        quick, plain = takeable_region(reach, arm, height_m), region_where(asked, Grid.beside(reach.shoulders[arm][:2]))
         assert plain.area > 0.3
         assert quick.difference(plain).area + plain.difference(quick).area == 0.0
 
