@@ -13,7 +13,7 @@ from app.drawing.solve import solve
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class Coalescing:
     """A series of commits in quick succession that count as one undo step.
 
     Attributes:
@@ -33,13 +33,13 @@ class Draft:
         solution: the drawing, solved.
         history: the undo and redo steps.
         gesture: the gesture in progress, if any.
-        run: the series of commits that the next commit may join.
+        coalescing: the series of commits that the next commit may join.
     """
 
     solution: Solution
     history: History = field(default_factory=History)
     gesture: Gesture | None = None
-    run: Run | None = None
+    coalescing: Coalescing | None = None
 
     @property
     def drawing(self) -> Drawing:
@@ -91,15 +91,16 @@ class Draft:
         before = self.gesture.before if self.gesture else self.drawing
         if solution.drawing == before:
             return self if self.gesture is None else Draft(solution, self.history)
-        run = Run(edit.coalesce, now_s) if edit.coalesce else None
-        if run is not None and self._goes_on(run):
+        commit = Coalescing(edit.coalesce, now_s) if edit.coalesce else None
+        if commit is not None and self._goes_on(commit):
             last = self.history.past[-1]
             history = self.history.forgotten() if last.drawing == solution.drawing else self.history
-            return Draft(solution, history, run=run if history is self.history else None)
-        return Draft(solution, self.history.stepped(edit.label, before), run=run)
+            return Draft(solution, history, coalescing=commit if history is self.history else None)
+        return Draft(solution, self.history.stepped(edit.label, before), coalescing=commit)
 
-    def _goes_on(self, run: Run) -> bool:
-        return self.run is not None and self.run.key == run.key and run.at_s - self.run.at_s <= COALESCE_S
+    def _goes_on(self, commit: Coalescing) -> bool:
+        before = self.coalescing
+        return before is not None and before.key == commit.key and commit.at_s - before.at_s <= COALESCE_S
 
 
 def draft_of(drawing: Drawing) -> Draft:

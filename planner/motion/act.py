@@ -14,16 +14,18 @@ class Act:
     Attributes:
         first: the index of its first primitive in the plan.
         steps: its primitives, as steps of the plan.
-        run: the transfer with its joint paths; None where nothing is held.
+        transfer: the transfer with its joint paths; None where nothing is held.
     """
 
     first: int
     steps: tuple[Step, ...]
-    run: Transfer | None
+    transfer: Transfer | None
 
     def durations_s(self) -> tuple[float, ...]:
         """Return the duration of each of its primitives (s)."""
-        return self.run.durations_s() if self.run is not None else tuple(step.duration_s for step in self.steps)
+        return (
+            self.transfer.durations_s() if self.transfer is not None else tuple(step.duration_s for step in self.steps)
+        )
 
 
 def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
@@ -31,9 +33,9 @@ def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
     before: Transfer | None = None
     found = []
     for act in acts:
-        run = None if act.run is None else act.run.following(before)
-        found.append(replace(act, run=run))
-        before = run or before
+        transfer = None if act.transfer is None else act.transfer.following(before)
+        found.append(replace(act, transfer=transfer))
+        before = transfer or before
     return tuple(found)
 
 
@@ -42,7 +44,7 @@ def duration_s(acts: Sequence[Act]) -> float:
     return sum(sum(act.durations_s()) for act in acts)
 
 
-def runs_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
+def transfers_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
     """Yield the transfers of a plan: steps that follow one another without letting go, with the index of the first.
 
     The last transfer may end with cloth in the hands, if the task asks for no more.

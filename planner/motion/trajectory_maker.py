@@ -42,9 +42,9 @@ def trajectory(
         acts: the acts, one after the other.
         duration_s: their total duration (s).
     """
-    reel = _Reel(maker.transits, maker.collisions, maker.dwell_s)
-    segments = tuple(reel.segments(acts, _standing(context)))
-    track = reel.track
+    builder = _TrajectoryBuilder(maker.transits, maker.collisions, maker.dwell_s)
+    segments = tuple(builder.segments(acts, _standing(context)))
+    track = builder.track
     rows = np.array(track.joints)
     names = tuple(name for arm in card.arms for name in arm.joint_names)
     return Trajectory(
@@ -81,7 +81,7 @@ def _standing(context: Context) -> Phase:
     return Phase(0.0, (base, base), (None,) * len(context.reach.arm_names), still)
 
 
-class _Reel:
+class _TrajectoryBuilder:
     """Joins transfers and moves into one trajectory."""
 
     def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
@@ -96,7 +96,7 @@ class _Reel:
         self._dwell_s = dwell_s
         self._hands = TransitPlanner(transits, collisions, dwell_s)
         self.track = JointTrack.at_rest(transits.home, len(transits.layout.arms))
-        self._cues: list[TimedPhase] = []
+        self._timed_phases: list[TimedPhase] = []
         self._free: list[TimedPhase] = []
         self._now = 0.0
         self._before: Transfer | None = None
@@ -105,58 +105,64 @@ class _Reel:
     def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
         """Yield the segments of base and cloth in a plan's acts; only `rest` if there are none."""
         for act in acts:
-            if act.run is not None:
-                self._run(act.first, act.run)
+            if act.transfer is not None:
+                self._add_transfer(act.first, act.transfer)
                 continue
             for number, step in enumerate(act.steps):
                 lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
                 self._free += [TimedPhase.even(act.first + number, phase, phase.duration_s) for phase in lasting]
-        self._cues += self._free
-        if not self._cues:
-            self._cues.append(TimedPhase.even(0, rest, 0.0))
-        starts = accumulate((cue.duration_s for cue in self._cues), initial=0.0)
-        for cue, start_s in zip(self._cues, starts, strict=False):
-            times, fractions = tuple(cue.times_s.tolist()), tuple(cue.fractions.tolist())
-            yield Segment(cue.primitive, start_s, cue.phase, times, fractions)
+        self._timed_phases += self._free
+        if not self._timed_phases:
+            self._timed_phases.append(TimedPhase.even(0, rest, 0.0))
+        starts = accumulate((timed.duration_s for timed in self._timed_phases), initial=0.0)
+        for timed, start_s in zip(self._timed_phases, starts, strict=False):
+            times, fractions = tuple(timed.times_s.tolist()), tuple(timed.fractions.tolist())
+            yield Segment(timed.primitive, start_s, timed.phase, times, fractions)
 
-    def _run(self, primitive: int, run: Transfer) -> None:
-        for phase in run.free_phases:
-            extra = run.reach_late_s if any(phase.hands) else 0.0
+    def _add_transfer(self, primitive: int, transfer: Transfer) -> None:
+        for phase in transfer.free_phases:
+            extra = transfer.reach_late_s if any(phase.hands) else 0.0
             self._free.append(TimedPhase.even(primitive, phase, phase.duration_s + extra))
-        if run.carried.cloths[0] is None:
-            self._begin_holding(run)
+        if transfer.carried.cloths[0] is None:
+            self._begin_holding(transfer)
         else:
-            self._reach(run, run.carried.cloths[0])
+            self._reach(transfer, transfer.carried.cloths[0])
         held = self._now
-        timing = run.timing
-        for cue in timing.cues:
-            self._cues.append(TimedPhase(primitive + cue.primitive, cue.phase, cue.times_s, cue.fractions))
-        self.track.add(held + timing.times_s, run.carried.joints[run.carried.first + timing.moments] + self._turns)
-        is_last = run.carried.moments.is_last_held
-        for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
+        timing = transfer.timing
+        for timed in timing.timed_phases:
+            self._timed_phases.append(
+                TimedPhase(primitive + timed.primitive, timed.phase, timed.times_s, timed.fractions)
+            )
+        self.track.add(
+            held + timing.times_s, transfer.carried.joints[transfer.carried.first + timing.moments] + self._turns
+        )
+        is_last = transfer.carried.moments.is_last_held
+        for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
             opens = held + timing.first_s(int(np.argmax(is_last[arm])))
             if held > 0.0:
                 self.track.close(arm, held - self._dwell_s, held)
             self.track.open(arm, opens, opens + self._dwell_s)
         self._now = held + float(timing.times_s[-1])
-        self._before = run
+        self._before = transfer
         self._free = []
 
-    def _begin_holding(self, run: Transfer) -> None:
+    def _begin_holding(self, transfer: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
-        self.track = JointTrack.at_rest(run.carried.joints[run.carried.first], len(self._transits.layout.arms))
-        for arm in np.flatnonzero(run.carried.moments.is_used).tolist():
+        self.track = JointTrack.at_rest(
+            transfer.carried.joints[transfer.carried.first], len(self._transits.layout.arms)
+        )
+        for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
             self.track.begin_closed(arm)
 
-    def _reach(self, run: Transfer, cloth: LyingCloth) -> None:
+    def _reach(self, transfer: Transfer, cloth: LyingCloth) -> None:
         """Add the transit to a transfer's grips, past the cloth on the table."""
-        tail, start = self._tail(), run.carried.joints[0]
+        tail, start = self._tail(), transfer.carried.joints[0]
         self._turns = self._transits.unwound(start, tail.joints[-1]) - start
-        lead = Line(run.carried.joints[: run.carried.first + 1] + self._turns, run.lead_s)
+        lead = Line(transfer.carried.joints[: transfer.carried.first + 1] + self._turns, transfer.lead_s)
         between = TransitTime(self._free, self._now, cloth)
         free, keyframes = self._hands.keyframes(between, tail, lead)
         self.track.add(keyframes.times_s, keyframes.joints)
-        self._cues += free.cues
+        self._timed_phases += free.timed_phases
         self._now = free.end_s
 
     def _tail(self) -> Line:

@@ -97,8 +97,8 @@ class Transfer:
 
     def _durations_s(self, coming_late_s: float, leaving_late_s: float) -> tuple[float, ...]:
         late = [0.0] * len(self.steps)
-        for cue in self.timing.cues:
-            late[cue.primitive] += cue.duration_s - cue.phase.duration_s
+        for timed in self.timing.timed_phases:
+            late[timed.primitive] += timed.duration_s - timed.phase.duration_s
         late[0] += coming_late_s - self.timing.borrowed_s
         late[-1] += leaving_late_s
         exact = (excess if excess > TIME_S else 0.0 for excess in late)

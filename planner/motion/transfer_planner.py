@@ -128,13 +128,13 @@ class TransferPlanner:
         for candidate in self.candidates(choices):
             if sum(step.duration_s for step in candidate.steps) >= best_s - TIME_S:
                 late += 1
-            elif (run := self.made(candidate)) is None:
+            elif (made := self.made(candidate)) is None:
                 failed += 1
-            elif not run.is_late:
-                return run
+            elif not made.is_late:
+                return made
             else:
                 late += 1
-                best, best_s = min((best, best_s), (run, sum(run.durations_at_most_s())), key=lambda found: found[1])
+                best, best_s = min((best, best_s), (made, sum(made.durations_at_most_s())), key=lambda found: found[1])
             if late == tries.late or failed >= (tries.together if candidate.is_together else tries.alone):
                 break
         return best

@@ -28,13 +28,13 @@ class TransferTiming:
         times_s: times since the first grip, rising (s), shape (n,).
         moments: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
             between.
-        cues: the timed phases; their primitives are counted within the transfer.
+        timed_phases: the timed phases; their primitives are counted within the transfer.
         borrowed_s: the rests that are part of the reach before (s).
     """
 
     times_s: FloatArray
     moments: NDArray[np.int64]
-    cues: tuple[TimedPhase, ...]
+    timed_phases: tuple[TimedPhase, ...]
     borrowed_s: float
 
     @staticmethod

@@ -15,45 +15,45 @@ class TransitTime:
     """A time in which hands are empty.
 
     Attributes:
-        cues: the timed phases of base and cloth, one after the other.
+        timed_phases: the timed phases of base and cloth, one after the other.
         start_s: when it begins (s).
         cloth: the cloth on the table meanwhile.
     """
 
-    cues: list[TimedPhase]
+    timed_phases: list[TimedPhase]
     start_s: float
     cloth: LyingCloth
 
     @property
     def end_s(self) -> float:
         """The time at which it ends (s)."""
-        return self.start_s + sum(cue.duration_s for cue in self.cues)
+        return self.start_s + sum(timed.duration_s for timed in self.timed_phases)
 
     @property
     def first(self) -> Pose2:
         """The base's pose at the beginning."""
-        return self.cues[0].phase.base[0]
+        return self.timed_phases[0].phase.base[0]
 
     @property
     def last(self) -> Pose2:
         """The base's pose at the end."""
-        return self.cues[-1].phase.base[1]
+        return self.timed_phases[-1].phase.base[1]
 
     def bases_at(self, times_s: FloatArray) -> FloatArray:
         """Return the base at each of some times: x (m), y (m), yaw (rad), shape (n,) -> (n, 3)."""
-        ends = np.cumsum([self.start_s, *(cue.duration_s for cue in self.cues)])
+        ends = np.cumsum([self.start_s, *(timed.duration_s for timed in self.timed_phases)])
         which = np.searchsorted(ends[1:-1], times_s)
         bases = np.empty((len(times_s), 3))
-        for number, cue in enumerate(self.cues):
+        for number, timed in enumerate(self.timed_phases):
             own = which == number
-            bases[own] = cue.bases_at(times_s[own] - ends[number])
+            bases[own] = timed.bases_at(times_s[own] - ends[number])
         return bases
 
     def after_waiting(self, wait_s: float) -> "TransitTime":
         """Return the transit with a wait of the base before it (s), taken from the reach at its end."""
-        *driving, reach = self.cues
+        *driving, reach = self.timed_phases
         waiting = TimedPhase(
-            reach.primitive, _resting(self.cues[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0])
+            reach.primitive, _resting(self.timed_phases[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0])
         )
         shorter = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s - wait_s)
         return TransitTime([waiting, *driving, shorter], self.start_s, self.cloth)

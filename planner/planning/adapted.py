@@ -46,12 +46,12 @@ def adapted(plan: FoundPlan, problem: Problem, effort: Effort) -> tuple[Act, ...
 def _act(act: Act, problem: Problem, state: State, effort: Effort) -> Act | None:
     ways = islice(_again(act.steps, problem, state, effort), _LOOKS_MAX)
     likest = next(ways, None)
-    if likest is None or act.run is None:
+    if likest is None or act.transfer is None:
         return None if likest is None else Act(act.first, likest, None)
     maker = problem.maker
     with effort.on_joints():
-        run = maker.made_like(maker.candidate(likest), act.run) or maker.first_real(ways, _PATIENT)
-    return None if run is None else Act(act.first, run.steps, run)
+        transfer = maker.made_like(maker.candidate(likest), act.transfer) or maker.first_real(ways, _PATIENT)
+    return None if transfer is None else Act(act.first, transfer.steps, transfer)
 
 
 def _again(steps: Sequence[Step], problem: Problem, state: State, effort: Effort) -> Iterator[tuple[Step, ...]]:

@@ -9,7 +9,7 @@ from planner.primitives.context import Context
 from planner.primitives.primitive import Deferred, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import ANYWHERE, State
-from planner.search.a_star import Edge, Promise, Successors
+from planner.search.a_star import DeferredEdges, Edge, Successors
 
 Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
 """Selects the steps that the search may follow from a state, each with its cost (s)."""
@@ -79,11 +79,11 @@ class Edges:
                 yield from self._of(state, self._worked_out[later])
             else:
                 towards = later.towards if later.is_there else _anywhere(later.towards)
-                yield Promise(later.duration_s, towards, partial(self._redeemed, state, later))
+                yield DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
         for step, cost_s in self._possible(state, (one for one in found if not isinstance(one, Deferred))):
             yield Edge(step, cost_s, step.after)
 
-    def _redeemed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
+    def _computed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
         self._worked_out[later] = tuple(later.steps())
         return self._of(state, self._worked_out[later])
 

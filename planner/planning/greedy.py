@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import count
 
-from planner.motion.act import Act, runs_of
+from planner.motion.act import Act, transfers_of
 from planner.motion.transfer import Transfer
 from planner.motion.tries import QUICK
 from planner.planning.edges import Edges
@@ -99,11 +99,11 @@ class _Greedy:
     def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""
         acts = []
-        for first, run in runs_of(steps):
-            act = None if self._is_over() else self._act(first, run)
+        for first, part in transfers_of(steps):
+            act = None if self._is_over() else self._act(first, part)
             if act is None:
-                self._struck.add(_ends(run[-1]))
-                self._doubted.update(step.after.grasp for step in run if step.after.held)
+                self._struck.add(_ends(part[-1]))
+                self._doubted.update(step.after.grasp for step in part if step.after.held)
                 return None
             acts.append(act)
         return tuple(acts)
@@ -115,8 +115,8 @@ class _Greedy:
         if key not in self._made:
             tries = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
             self._made[key] = self._problem.maker.real(steps, tries)
-        run = self._made[key]
-        return None if run is None else Act(first, run.steps, run)
+        transfer = self._made[key]
+        return None if transfer is None else Act(first, transfer.steps, transfer)
 
 
 def _ends(step: Step) -> tuple[StateKey, StateKey]:

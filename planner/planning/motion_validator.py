@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn, runs_of
+from planner.motion.act import Act, duration_s, in_turn, transfers_of
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import Candidate, TransferPlanner, ways_of
 from planner.motion.tries import QUICK, Tries
@@ -115,40 +115,40 @@ class MotionValidator:
         """
         self.slower = ()
         found: list[Act] = []
-        runs: list[tuple[tuple[Step, ...], Transfer]] = []
-        for first, run in runs_of(steps):
-            made = self._real(run) if any(step.grips for step in run) else None
-            found.append(Act(first, run if made is None else made.steps, made))
+        transfers: list[tuple[tuple[Step, ...], Transfer]] = []
+        for first, part in transfers_of(steps):
+            made = self._real(part) if any(step.grips for step in part) else None
+            found.append(Act(first, part if made is None else made.steps, made))
             if made is not None:
-                runs.append((run, made))
-            elif any(step.grips for step in run):
-                self._all_agree(runs)
-                self._reject(run, sum(self._known_s(step) for step in steps))
+                transfers.append((part, made))
+            elif any(step.grips for step in part):
+                self._all_agree(transfers)
+                self._reject(part, sum(self._known_s(step) for step in steps))
                 return None
         acts = in_turn(found)
         seemed_s = sum(self._known_s(step) for step in steps)
-        if duration_s(acts) <= seemed_s + TIME_S or self._all_agree(runs):
+        if duration_s(acts) <= seemed_s + TIME_S or self._all_agree(transfers):
             return acts
         self.slower = acts
         return None
 
-    def _real(self, run: tuple[Step, ...]) -> Transfer | None:
-        key = tuple(_key(step) for step in run)
+    def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
+        key = tuple(_key(step) for step in steps)
         if key not in self._made:
-            ways = self._in_time(ways_of(run, self._tries))
+            ways = self._in_time(ways_of(steps, self._tries))
             self._made[key] = self._maker.first_real(ways, self._tries)
         return self._made[key]
 
-    def _reject(self, run: tuple[Step, ...], path_s: float) -> None:
+    def _reject(self, steps: tuple[Step, ...], path_s: float) -> None:
         """Reject the first step at which a transfer fails, and find other ways to do the same.
 
         Where one of them is as good as the step itself, the others are left for later; see `catch_up`.
         """
-        number = next((n for n in range(len(run) - 1) if self._real(run[: n + 1]) is None), len(run) - 1)
-        culprit, before = run[number], run[:number]
-        self.rejected.append(run[: number + 1])
+        number = next((n for n in range(len(steps) - 1) if self._real(steps[: n + 1]) is None), len(steps) - 1)
+        culprit, before = steps[number], steps[:number]
+        self.rejected.append(steps[: number + 1])
         self._least_s[_key(culprit)] = math.inf
-        self._doubt(run)
+        self._doubt(steps)
         rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._tries.spread)), path_s)
         found = self._as_good(rejection)
         if found:
@@ -221,14 +221,14 @@ class MotionValidator:
         """Return the least time that a step is known to take (s)."""
         return max(step.duration_s, self._least_s.get(_key(step), 0.0))
 
-    def _all_agree(self, runs: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
+    def _all_agree(self, transfers: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
         """Return whether the steps of all transfers take as long as was known; note their true durations."""
-        agreed = [self._agrees(run, made) for run, made in runs]
+        agreed = [self._agrees(steps, made) for steps, made in transfers]
         return all(agreed)
 
-    def _agrees(self, run: tuple[Step, ...], made: Transfer) -> bool:
+    def _agrees(self, steps: tuple[Step, ...], made: Transfer) -> bool:
         is_known = True
-        for step, lasts_s in zip(run, made.durations_at_most_s(), strict=True):
+        for step, lasts_s in zip(steps, made.durations_at_most_s(), strict=True):
             known = self._known_s(step)
             is_known &= lasts_s <= known + TIME_S
             self._least_s[_key(step)] = max(lasts_s, known)
@@ -236,12 +236,12 @@ class MotionValidator:
             self._succeeded.add(step.task)
             self._given_up.pop(step.task, None)
         if not is_known:
-            self._doubt(run)
+            self._doubt(steps)
         return is_known
 
-    def _doubt(self, run: tuple[Step, ...]) -> None:
+    def _doubt(self, steps: tuple[Step, ...]) -> None:
         """Mark the grasps on the way: the ways that seemed best for them may no longer be."""
-        self._doubted.update(step.after.grasp for step in run if step.after.held)
+        self._doubted.update(step.after.grasp for step in steps if step.after.held)
 
 
 def _key(step: Step) -> tuple[object, ...]:

@@ -319,17 +319,17 @@ class PlanSearch:
 
     def _blocked(self) -> Iterator[tuple[Step, BlockingContact | None]]:
         """Yield steps that the arms could not follow, each with its blocking contact."""
-        for number, run in enumerate(self._some_rejected()):
+        for number, steps in enumerate(self._some_rejected()):
             if number and self._budget.is_late:
                 break
-            yield run[-1], self._problem.maker.contact(run)
+            yield steps[-1], self._problem.maker.contact(steps)
 
     def _some_rejected(self) -> list[tuple[Step, ...]]:
         """Return a few rejected transfers, the first ones of each task, which are its quickest."""
         by_task: dict[tuple[object, ...], list[tuple[Step, ...]]] = {}
-        for run in self._validator.rejected:
-            by_task.setdefault(run[-1].task, []).append(run)
-        in_turns = (run for turn in zip_longest(*by_task.values()) for run in turn if run is not None)
+        for steps in self._validator.rejected:
+            by_task.setdefault(steps[-1].task, []).append(steps)
+        in_turns = (steps for turn in zip_longest(*by_task.values()) for steps in turn if steps is not None)
         return list(islice(in_turns, _COLLISIONS_MAX))
 
     def _possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:

@@ -1,7 +1,7 @@
 """A* on anything hashable (paper, section 5.3). It knows no cloth and no robot.
 
 Successors may be costly to compute, and most of them are never needed: they cost more than the best path. So instead of
-edges a state may yield *deferred* edges (`Promise`) with a lower bound on their costs. They wait in the queue as an
+edges a state may yield deferred ones (`DeferredEdges`) with a lower bound on their costs. They wait in the queue as an
 edge would, and are computed when nothing cheaper is left.
 
 Ties: the larger cost so far first, then the order of insertion, so that the same problem gives the same path on every
@@ -48,21 +48,21 @@ class Edge(Generic[S, A]):
 
 
 @dataclass(frozen=True, slots=True)
-class Promise(Generic[S, A]):
+class DeferredEdges(Generic[S, A]):
     """Deferred edges that leave a state.
 
     Attributes:
         cost: a lower bound on the cost of each.
         towards: a state at which the heuristic is no larger than at any state that they lead to.
-        redeem: computes them; further deferred edges of the same state may be among them.
+        compute: returns them; further deferred edges of the same state may be among them.
     """
 
     cost: float
     towards: S
-    redeem: "Callable[[], Iterable[Edge[S, A] | Promise[S, A]]]"
+    compute: "Callable[[], Iterable[Edge[S, A] | DeferredEdges[S, A]]]"
 
 
-Successors: TypeAlias = Iterable[Edge[S, A] | Promise[S, A]]
+Successors: TypeAlias = Iterable[Edge[S, A] | DeferredEdges[S, A]]
 """The edges that leave a state, some of them deferred."""
 
 
@@ -87,7 +87,7 @@ class SearchResult(Generic[S, A]):
     explored: int
 
 
-_Entry: TypeAlias = tuple[float, float, int, S, Promise[S, A] | None]
+_Entry: TypeAlias = tuple[float, float, int, S, DeferredEdges[S, A] | None]
 """The estimate, the negated cost so far, a number that breaks ties, the state, and its deferred edges or None."""
 
 
@@ -105,12 +105,12 @@ class _Search(Generic[S, A]):
     numbers: Iterator[int] = field(default_factory=count)
     explored: int = 0
 
-    def push(self, state: S, cost: float, beyond: float, promise: Promise[S, A] | None) -> bool:
+    def push(self, state: S, cost: float, beyond: float, deferred: DeferredEdges[S, A] | None) -> bool:
         """Queue a state, or deferred edges of one, and return whether it may lead to a goal below the limit."""
         estimate = round(cost + beyond, _DIGITS)
         if estimate >= self.limit:
             return False
-        heapq.heappush(self.queue, (estimate, -cost, next(self.numbers), state, promise))
+        heapq.heappush(self.queue, (estimate, -cost, next(self.numbers), state, deferred))
         return True
 
     def push_all(self, state: S, cost: float, found: Successors[S, A]) -> None:
@@ -121,7 +121,7 @@ class _Search(Generic[S, A]):
         """
         least = self.heuristic(state) if self.is_consistent else 0.0
         for way in found:
-            if isinstance(way, Promise):
+            if isinstance(way, DeferredEdges):
                 self.push(state, cost, max(least, way.cost + self.heuristic(way.towards)), way)
             else:
                 self._follow(state, round(cost + way.cost, _DIGITS), way)
@@ -171,18 +171,18 @@ def a_star(
     search.push(start, 0.0, heuristic(start), None)
     expanded = 0
     while search.queue:
-        estimate, minus_cost, _, state, promise = heapq.heappop(search.queue)
+        estimate, minus_cost, _, state, deferred = heapq.heappop(search.queue)
         cost = -minus_cost
-        if promise is None and state in search.closed:
+        if deferred is None and state in search.closed:
             continue
-        if promise is None and is_goal(state):
+        if deferred is None and is_goal(state):
             return SearchResult(Outcome.SOLVED, search.path_to(state), cost, cost, expanded, search.explored)
-        if (promise is None and expanded >= max_expanded) or should_stop():
+        if (deferred is None and expanded >= max_expanded) or should_stop():
             return SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, estimate, expanded, search.explored)
-        if promise is None:
+        if deferred is None:
             search.closed.add(state)
             expanded += 1
             search.push_all(state, cost, successors(state, cost))
         else:
-            search.push_all(state, cost, promise.redeem())
+            search.push_all(state, cost, deferred.compute())
     return SearchResult(Outcome.INFEASIBLE, (), math.inf, math.inf, expanded, search.explored)

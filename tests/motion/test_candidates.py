@@ -18,7 +18,7 @@ from tests.replay.planned import planned
 @pytest.mark.parametrize("name", ["t-shirt", "tie", "letter-towel", "big-towel"])
 def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
     found = planned(name).found
-    for act in (act for act in found.acts if act.run is not None):
+    for act in (act for act in found.acts if act.transfer is not None):
         whole = found.problem.maker.candidate(act.steps).moments
         phases = [phase for step in act.steps for phase in step.extremes()]
         ends = moments_of(phases, found.plan.scene.table.height_m)
@@ -30,8 +30,8 @@ def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
 
 def test_what_was_made_real_is_a_candidate():
     found = planned("t-shirt").found
-    runs = [act.steps for act in found.acts if act.run is not None]
-    assert [candidate.steps for candidate in found.problem.maker.candidates(runs)] == runs
+    transfers = [act.steps for act in found.acts if act.transfer is not None]
+    assert [candidate.steps for candidate in found.problem.maker.candidates(transfers)] == transfers
 
 
 class UnderCeiling(Pr2):

@@ -176,7 +176,7 @@ def test_a_hand_that_let_go_takes_its_next_grip_without_a_turn():
 @pytest.mark.parametrize("name", ["letter-towel", "t-shirt"])
 def test_in_a_plan_nothing_goes_further_from_moment_to_moment_than_is_said(name):
     for act in planned(name).found.acts:
-        if act.run is None:
+        if act.transfer is None:
             continue
         phases = [p for step in act.steps for p in step.phases() if p.duration_s > 0.0 and is_carrying(p)]
         moments = moments_of(phases, HEIGHT_M)

@@ -33,11 +33,14 @@ def plan_of(name: str) -> FoundPlan:
 @pytest.mark.parametrize("name", ["t-shirt", "scarf"])
 def test_each_run_of_a_plan_follows_the_one_before_it(name: str):
     plan = plan_of(name)
-    runs = [act.run for act in plan.acts if act.run is not None]
-    assert [run.reach.before_s for run in runs] == [0.0, *(run.reach.leaving_s for run in runs[:-1])]
+    transfers = [act.transfer for act in plan.acts if act.transfer is not None]
+    assert [transfer.reach.before_s for transfer in transfers] == [
+        0.0,
+        *(transfer.reach.leaving_s for transfer in transfers[:-1]),
+    ]
     assert duration_s(in_turn(plan.acts)) == pytest.approx(plan.plan.cost_s)
 
 
 def test_after_the_last_fold_no_hand_needs_to_go_home():
-    *_, last = (act.run for act in plan_of("t-shirt").acts if act.run is not None)
+    *_, last = (act.transfer for act in plan_of("t-shirt").acts if act.transfer is not None)
     assert last.reach.leaving_s == 0.0

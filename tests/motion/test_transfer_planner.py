@@ -35,10 +35,10 @@ def some_fold(arm_motion_s: float = 3.0) -> tuple[TransferPlanner, tuple[Step, .
 def test_what_was_made_real_once_is_not_made_again_but_counted():
     maker, first, again = some_fold()
     assert first[0] is not again[0] and first[0].motion == again[0].motion
-    run = maker.real(first)
-    assert run is not None and maker.tries > 0
+    transfer = maker.real(first)
+    assert transfer is not None and maker.tries > 0
     tries, glances = maker.tries, maker.glances
-    assert maker.real(again) is run
+    assert maker.real(again) is transfer
     assert (maker.tries, maker.glances) == (2 * tries, 2 * glances)
 
 

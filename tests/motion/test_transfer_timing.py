@@ -28,10 +28,10 @@ def timed(*carrying: tuple[int, Phase], least_s: float = 0.0) -> TransferTiming:
 
 def test_the_last_motion_makes_room_for_the_rest_at_its_end():
     timing = timed((0, phase(START, MIDDLE)), (0, phase(MIDDLE, END, motion=1)))
-    assert [cue.duration_s for cue in timing.cues] == pytest.approx([3.0, 3.0])
+    assert [one.duration_s for one in timing.timed_phases] == pytest.approx([3.0, 3.0])
     # The cloth is where it is to be half a second before the end, and lies still from then on.
-    cue = timing.cues[1]
-    assert np.interp([2.5, 1.25], cue.times_s, cue.fractions) == pytest.approx([1.0, 0.5])
+    last_motion = timing.timed_phases[1]
+    assert np.interp([2.5, 1.25], last_motion.times_s, last_motion.fractions) == pytest.approx([1.0, 0.5])
     last = int(timing.moments[-1])
     assert timing.first_s(last) == pytest.approx(5.5) and timing.times_s[-1] == pytest.approx(6.0)
     assert timing.borrowed_s == 0.0
@@ -51,7 +51,7 @@ def test_a_drag_has_no_arm_motion_but_its_reach_to_rest_in():
 
 def test_hands_that_hold_on_rest_only_at_the_end_of_the_run():
     timing = timed((0, phase(START, MIDDLE, 0.4, None)), (1, phase(MIDDLE, END)))
-    assert [cue.duration_s for cue in timing.cues] == pytest.approx([0.4, 3.0])
+    assert [one.duration_s for one in timing.timed_phases] == pytest.approx([0.4, 3.0])
     assert timing.borrowed_s == 0.0
 
 
@@ -61,4 +61,4 @@ def test_a_phase_through_which_hands_rest_takes_no_time_where_there_is_none():
     moments = moments_of([each for _, each in carrying], 0.79)
     least = np.where(np.arange(1, len(moments)) < len(moments) - 3, 0.0, 1.0)
     timing = TransferTiming.of(carrying, moments, least, REST_S)
-    assert [cue.duration_s for cue in timing.cues] == pytest.approx([0.0, 3.0 + REST_S])
+    assert [one.duration_s for one in timing.timed_phases] == pytest.approx([0.0, 3.0 + REST_S])

@@ -64,5 +64,5 @@ def kinds_of(found) -> set[str]:
             step: Step = one.action
             kinds.add(step.kind)
         else:
-            waiting += one.redeem()
+            waiting += one.compute()
     return kinds
