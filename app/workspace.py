@@ -13,8 +13,8 @@ from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
 from app.store.document_reader import KeptDocument
-from app.store.document_shelf import DocumentShelf
-from app.store.garment_shelf import GarmentShelf
+from app.store.document_repository import DocumentRepository
+from app.store.garment_repository import GarmentRepository
 from app.store.plan_store import PlanStore
 from planner.errors import FoldingError
 
@@ -49,8 +49,8 @@ class Workspace:
     def __init__(self, settings: Settings) -> None:
         """Start with no open document."""
         self.folder = DataFolder(settings.data)
-        self.garments = GarmentShelf(self.folder.garments)
-        self.documents = DocumentShelf(self.folder.documents)
+        self.garments = GarmentRepository(self.folder.garments)
+        self.documents = DocumentRepository(self.folder.documents)
         self.plans = PlanStore()
         self.lanes = Lanes()
         self._open: dict[str, OpenDocument] = {}

@@ -45,10 +45,10 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
 )
 async def save_garment(request: Request, name: str, garment: GarmentBody) -> JSONResponse:
     """Save or replace a garment of one's own: 201 if it is new, 200 if it existed."""
-    shelf = workspace_of(request).garments
+    repository = workspace_of(request).garments
     if garment.name != name:
         raise GarmentError("name", f"is {garment.name!r}, but the address says {name!r}")
-    is_new = await run_in_threadpool(shelf.save, garment)
+    is_new = await run_in_threadpool(repository.save, garment)
     return JSONResponse(garment.to_dict(), status_code=201 if is_new else 200)
 
 

@@ -13,7 +13,7 @@ from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.live_search import Begun, LiveSearch
-from app.store.document_shelf import DocumentShelf
+from app.store.document_repository import DocumentRepository
 from planner import Plan, Task, load_garment, make_plan
 from planner.errors import RequestError
 from tests.app.document_requests import moved, put
@@ -113,18 +113,18 @@ async def from_second_step(page: Listener) -> dict[str, Any]:
 
 
 def test_a_start_that_was_chosen_for_another_drawing_or_cannot_be_read_is_none(plan: Plan, tmp_path: Path) -> None:
-    shelf = DocumentShelf(tmp_path)
+    repository = DocumentRepository(tmp_path)
     draft = draft_of(drawing_of(T_SHIRT))
-    keeper = shelf.keeper("aaaabbbb")
+    keeper = repository.keeper("aaaabbbb")
     keeper.keep(1, draft)
     start = plan.state_after(1)
     keeper.keep_start(draft.drawing, start)
-    assert shelf.kept("aaaabbbb").start == start
+    assert repository.kept("aaaabbbb").start == start
     keeper.keep_start(replace(draft.drawing, start_station="left"), start)
-    assert shelf.kept("aaaabbbb").start is None
+    assert repository.kept("aaaabbbb").start is None
     (tmp_path / "aaaabbbb.start").write_bytes(b"{")
-    assert shelf.kept("aaaabbbb").start is None
-    shelf.remove("aaaabbbb")
+    assert repository.kept("aaaabbbb").start is None
+    repository.remove("aaaabbbb")
     assert not list(tmp_path.glob("aaaabbbb*"))
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.document import Document
 from app.drawing.edit import Edit
-from app.store.document_shelf import DocumentShelf
+from app.store.document_repository import DocumentRepository
 from tests.app.store.drafts import TOWEL, moved
 
 ID = "abcd2345"
@@ -16,12 +16,12 @@ _DRAWINGS = [moved(millimetres) for millimetres in range(1, 8)]
 
 def edit_for_ever(folder: Path) -> None:
     """Change a document, new or old, and print each version once it is stored."""
-    shelf = DocumentShelf(folder)
+    repository = DocumentRepository(folder)
     if (folder / f"{ID}.journal").exists():
-        kept = shelf.kept(ID)
+        kept = repository.kept(ID)
         version, draft, keeper = kept.version, kept.draft, kept.keeper
     else:
-        version, draft, keeper = 1, TOWEL, shelf.keeper(ID)
+        version, draft, keeper = 1, TOWEL, repository.keeper(ID)
         keeper.keep(1, TOWEL)
     document = Document(draft, version=version, keep=keeper.keep)
     for number in itertools.count(version):
@@ -39,9 +39,9 @@ def test_after_a_kill_at_any_time_everything_is_there_that_was_acknowledged(tmp_
         writer.kill()
         lines += writer.communicate()[0].split("\n")[:-1]
         acknowledged = max(acknowledged, *map(int, lines))
-        kept = DocumentShelf(tmp_path).kept(ID)
+        kept = DocumentRepository(tmp_path).kept(ID)
         assert kept.version in (acknowledged, acknowledged + 1)
         assert kept.draft.drawing == _DRAWINGS[(kept.version - 1) % 7]
         labels = [step.label for step in kept.draft.history.past]
         assert labels == [f"to {number}" for number in range(1, kept.version)][-200:]
-        assert DocumentShelf(tmp_path).page(None, 10).entries[0].problem is None
+        assert DocumentRepository(tmp_path).page(None, 10).entries[0].problem is None

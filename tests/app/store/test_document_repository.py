@@ -12,52 +12,56 @@ from app.drawing.edit import Edit, Phase
 from app.store.document_files import NewerDocumentError, UnknownDocumentError
 from app.store.document_list import DocumentEntry
 from app.store.document_reader import BrokenDocumentError
-from app.store.document_shelf import DocumentShelf
+from app.store.document_repository import DocumentRepository
 from app.store.storage_error import StorageError
 from tests.app.drawing.drawings import outlined
 from tests.app.store.drafts import TOWEL, moved, older_file, worked_on
 
 
 @pytest.fixture
-def shelf(tmp_path: Path) -> DocumentShelf:
-    return DocumentShelf(tmp_path / "documents")
+def repository(tmp_path: Path) -> DocumentRepository:
+    return DocumentRepository(tmp_path / "documents")
 
 
-def kept_document(shelf: DocumentShelf) -> tuple[str, Document]:
-    document_id = shelf.new_id()
-    keeper = shelf.keeper(document_id)
+def kept_document(repository: DocumentRepository) -> tuple[str, Document]:
+    document_id = repository.new_id()
+    keeper = repository.keeper(document_id)
     keeper.keep(1, TOWEL)
     return document_id, Document(TOWEL, keep=keeper.keep)
 
 
-def restored(shelf: DocumentShelf, document_id: str, tmp_path: Path) -> tuple[int, Draft]:
+def restored(repository: DocumentRepository, document_id: str, tmp_path: Path) -> tuple[int, Draft]:
     """Return the state that a server finds if it starts after this one was killed."""
-    kept = DocumentShelf(tmp_path / "documents").kept(document_id)
+    kept = DocumentRepository(tmp_path / "documents").kept(document_id)
     return kept.version, kept.draft
 
 
-def entries(shelf: DocumentShelf) -> tuple[DocumentEntry, ...]:
-    return shelf.page(None, 100).entries
+def entries(repository: DocumentRepository) -> tuple[DocumentEntry, ...]:
+    return repository.page(None, 100).entries
 
 
-def test_every_committed_change_is_there_after_the_server_was_killed(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, document = kept_document(shelf)
+def test_every_committed_change_is_there_after_the_server_was_killed(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     document.edit(Edit("two", moved(2)))
     document.edit(Edit("spoilt", outlined(moved(2), (0.0, 0.0), (0.4, 0.3), (0.4, 0.0), (0.0, 0.3))))
     document.undo()
-    version, draft = restored(shelf, document_id, tmp_path)
+    version, draft = restored(repository, document_id, tmp_path)
     assert version == document.state.version
     assert draft.drawing == document.state.drawing
     assert draft.history == document.state.draft.history
 
 
-def test_what_a_gesture_had_changed_is_a_step_after_the_server_was_killed(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, document = kept_document(shelf)
+def test_what_a_gesture_had_changed_is_a_step_after_the_server_was_killed(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     document.edit(Edit("drag", moved(2), Phase.PREVIEW))
     document.edit(Edit("drag", moved(3), Phase.PREVIEW))
-    version, draft = restored(shelf, document_id, tmp_path)
+    version, draft = restored(repository, document_id, tmp_path)
     assert version == document.state.version
     assert draft.drawing == moved(3)
     assert [step.label for step in draft.history.past] == ["one", "drag"]
@@ -65,36 +69,36 @@ def test_what_a_gesture_had_changed_is_a_step_after_the_server_was_killed(shelf:
 
 
 def test_a_gesture_that_was_cancelled_or_committed_is_over_for_the_disk_too(
-    shelf: DocumentShelf, tmp_path: Path
+    repository: DocumentRepository, tmp_path: Path
 ) -> None:
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     document.edit(Edit("drag", moved(1), Phase.PREVIEW))
     document.edit(Edit("", None, Phase.CANCEL))
-    version, draft = restored(shelf, document_id, tmp_path)
+    version, draft = restored(repository, document_id, tmp_path)
     assert (version, draft.drawing, draft.history) == (3, TOWEL.drawing, TOWEL.history)
     document.edit(Edit("drag", moved(1), Phase.PREVIEW))
     document.edit(Edit("drag", moved(2), Phase.COMMIT))
-    version, draft = restored(shelf, document_id, tmp_path)
+    version, draft = restored(repository, document_id, tmp_path)
     assert (version, draft.drawing, draft.history.can_undo) == (5, moved(2), "drag")
 
 
-def test_a_gesture_that_another_closed_is_kept_as_its_step(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, document = kept_document(shelf)
+def test_a_gesture_that_another_closed_is_kept_as_its_step(repository: DocumentRepository, tmp_path: Path) -> None:
+    document_id, document = kept_document(repository)
     document.edit(Edit("first", moved(1), Phase.PREVIEW, gesture="1"))
     document.edit(Edit("second", moved(2), Phase.PREVIEW, gesture="2"))
-    _, draft = restored(shelf, document_id, tmp_path)
+    _, draft = restored(repository, document_id, tmp_path)
     assert [step.label for step in draft.history.past] == ["first", "second"]
     assert draft.undone().drawing == moved(1)
 
 
 def test_a_server_that_was_killed_while_it_wrote_leaves_the_old_file_and_no_rubbish(
-    shelf: DocumentShelf, tmp_path: Path
+    repository: DocumentRepository, tmp_path: Path
 ) -> None:
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     half_written = tmp_path / "documents" / f".{document_id}-abcd"
     half_written.write_text("{")
-    assert restored(shelf, document_id, tmp_path)[1].drawing == moved(1)
+    assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
     assert not half_written.exists()
 
 
@@ -102,58 +106,60 @@ def test_a_server_that_was_killed_while_it_wrote_leaves_the_old_file_and_no_rubb
     "content", ["", "{", "[]", "null", '{"format": 2}', '{"format": "3"}', "\x00" * 100, "[" * 100_000]
 )
 def test_a_spoilt_file_is_put_aside_and_told_of_and_the_others_are_read(
-    shelf: DocumentShelf, tmp_path: Path, content: str
+    repository: DocumentRepository, tmp_path: Path, content: str
 ) -> None:
-    good, _ = kept_document(shelf)
-    spoilt, _ = kept_document(shelf)
+    good, _ = kept_document(repository)
+    spoilt, _ = kept_document(repository)
     path = tmp_path / "documents" / f"{spoilt}.journal"
     path.write_text(content)
     with pytest.raises(BrokenDocumentError, match=f"{spoilt}.broken"):
-        shelf.kept(spoilt)
+        repository.kept(spoilt)
     assert (tmp_path / "documents" / f"{spoilt}.broken").read_text() == content
-    shown = entries(shelf)
+    shown = entries(repository)
     assert [entry.id for entry in shown] == [good, spoilt]
     assert shown[0].problem is None
     assert shown[1].problem is not None and "broken" in shown[1].problem
-    assert list(shelf.recent()) == [good]
+    assert list(repository.recent()) == [good]
     with pytest.raises(BrokenDocumentError):
-        shelf.kept(spoilt)
-    shelf.remove(spoilt)
-    assert [entry.id for entry in entries(shelf)] == [good]
+        repository.kept(spoilt)
+    repository.remove(spoilt)
+    assert [entry.id for entry in entries(repository)] == [good]
 
 
-def test_a_spoilt_preview_loses_only_itself(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, document = kept_document(shelf)
+def test_a_spoilt_preview_loses_only_itself(repository: DocumentRepository, tmp_path: Path) -> None:
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     (tmp_path / "documents" / f"{document_id}.preview").write_text("{")
-    assert restored(shelf, document_id, tmp_path)[1].drawing == moved(1)
+    assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
 
 
-def test_the_list_has_the_one_changed_last_first(shelf: DocumentShelf) -> None:
-    first, changed = kept_document(shelf)
-    second, _ = kept_document(shelf)
-    shelf.remember_last(second)
-    assert list(shelf.recent()) == [second, first]
+def test_the_list_has_the_one_changed_last_first(repository: DocumentRepository) -> None:
+    first, changed = kept_document(repository)
+    second, _ = kept_document(repository)
+    repository.remember_last(second)
+    assert list(repository.recent()) == [second, first]
     changed.edit(Edit("one", moved(1)))
-    assert [entry.id for entry in entries(shelf)] == [first, second]
-    assert entries(shelf)[0].title == "My towel"
+    assert [entry.id for entry in entries(repository)] == [first, second]
+    assert entries(repository)[0].title == "My towel"
 
 
-def test_ids_are_short_and_fit_into_an_address(shelf: DocumentShelf) -> None:
-    ids = {shelf.new_id() for _ in range(100)}
+def test_ids_are_short_and_fit_into_an_address(repository: DocumentRepository) -> None:
+    ids = {repository.new_id() for _ in range(100)}
     assert len(ids) == 100
     assert all(len(document_id) == 8 and document_id.isalnum() for document_id in ids)
 
 
 @pytest.mark.parametrize("document_id", ["../../x", "", "abcdefgh", "ABCDEFGH", ".last", "a" * 300, "\x00"])
-def test_what_is_no_document_is_unknown(shelf: DocumentShelf, document_id: str) -> None:
-    for ask in (shelf.kept, shelf.remove):
+def test_what_is_no_document_is_unknown(repository: DocumentRepository, document_id: str) -> None:
+    for ask in (repository.kept, repository.remove):
         with pytest.raises(UnknownDocumentError):
             ask(document_id)
 
 
-def test_a_change_that_cannot_be_written_says_so_and_is_not_made(shelf: DocumentShelf, tmp_path: Path) -> None:
-    _, document = kept_document(shelf)
+def test_a_change_that_cannot_be_written_says_so_and_is_not_made(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
+    _, document = kept_document(repository)
     folder = tmp_path / "documents"
     folder.rename(tmp_path / "elsewhere")
     folder.write_text("in the way")
@@ -170,31 +176,35 @@ def put_older(tmp_path: Path, document_id: str, draft: Draft, format_: int = 1) 
     return path
 
 
-def test_a_document_of_the_format_before_is_read_and_goes_on_as_a_journal(shelf: DocumentShelf, tmp_path: Path) -> None:
+def test_a_document_of_the_format_before_is_read_and_goes_on_as_a_journal(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
     *_, draft = (draft for draft in worked_on(5, 40) if draft.gesture is None)
     assert draft.history.past
     path = put_older(tmp_path, "oldone22", draft)
-    assert [(entry.id, entry.problem) for entry in entries(shelf)] == [("oldone22", None)]
-    kept = shelf.kept("oldone22")
+    assert [(entry.id, entry.problem) for entry in entries(repository)] == [("oldone22", None)]
+    kept = repository.kept("oldone22")
     assert (kept.version, kept.draft.drawing, kept.draft.history) == (7, draft.drawing, draft.history)
     assert path.exists(), "reading changes nothing"
     document = Document(kept.draft, version=kept.version, keep=kept.keeper.keep)
     document.edit(Edit("new", moved(9)))
     assert not path.exists()
-    version, after = restored(shelf, "oldone22", tmp_path)
+    version, after = restored(repository, "oldone22", tmp_path)
     assert (version, after.drawing, after.history) == (8, moved(9), document.state.draft.history)
-    assert [entry.id for entry in entries(shelf)] == ["oldone22"]
+    assert [entry.id for entry in entries(repository)] == ["oldone22"]
 
 
-def test_a_spoilt_drawing_in_an_older_file_is_told_of_by_its_field(shelf: DocumentShelf, tmp_path: Path) -> None:
+def test_a_spoilt_drawing_in_an_older_file_is_told_of_by_its_field(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
     path = put_older(tmp_path, "oldone22", TOWEL)
     path.write_text(path.read_text().replace("[0.4, 0.0]", '[0, "x"]'))
-    assert "outline[1].point[1]" in str(entries(shelf)[0].problem)
+    assert "outline[1].point[1]" in str(entries(repository)[0].problem)
     with pytest.raises(BrokenDocumentError, match=r"outline\[1\]\.point\[1\]"):
-        shelf.kept("oldone22")
+        repository.kept("oldone22")
 
 
-def newer_files(shelf: DocumentShelf, tmp_path: Path) -> dict[str, int]:
+def newer_files(repository: DocumentRepository, tmp_path: Path) -> dict[str, int]:
     """Return documents of future formats, possibly cut off or reordered, with their formats."""
     put_older(tmp_path, "newerabc", TOWEL, 2)
     cut = put_older(tmp_path, "newercut", TOWEL, 17)
@@ -205,69 +215,71 @@ def newer_files(shelf: DocumentShelf, tmp_path: Path) -> dict[str, int]:
 
 
 def test_a_document_of_a_newer_format_is_refused_by_its_version_and_left_alone(
-    shelf: DocumentShelf, tmp_path: Path
+    repository: DocumentRepository, tmp_path: Path
 ) -> None:
-    formats = newer_files(shelf, tmp_path)
+    formats = newer_files(repository, tmp_path)
     before = {path.name: path.read_bytes() for path in (tmp_path / "documents").iterdir()}
-    problems = {entry.id: str(entry.problem) for entry in entries(shelf)}
-    assert list(shelf.recent()) == []
+    problems = {entry.id: str(entry.problem) for entry in entries(repository)}
+    assert list(repository.recent()) == []
     for document_id, number in formats.items():
         assert f"format {number}" in problems[document_id]
         with pytest.raises(NewerDocumentError, match=f"format {number}"):
-            shelf.kept(document_id)
-    DocumentShelf(tmp_path / "documents")
+            repository.kept(document_id)
+    DocumentRepository(tmp_path / "documents")
     assert {path.name: path.read_bytes() for path in (tmp_path / "documents").iterdir()} == before
 
 
 @pytest.mark.parametrize("share", [0.3, 0.7, 0.99])
-def test_a_document_that_was_cut_off_does_not_look_well(shelf: DocumentShelf, tmp_path: Path, share: float) -> None:
+def test_a_document_that_was_cut_off_does_not_look_well(
+    repository: DocumentRepository, tmp_path: Path, share: float
+) -> None:
     """What was acknowledged is missing: that is told, where a line that a kill left unfinished is not."""
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     for number in range(4):
         document.edit(Edit("Move", moved(number + 1)))
     put_older(tmp_path, "oldone22", document.state.draft)
     for name in (f"{document_id}.journal", "oldone22.json"):
         path = tmp_path / "documents" / name
         path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
-    for here in (shelf, DocumentShelf(tmp_path / "documents")):
+    for here in (repository, DocumentRepository(tmp_path / "documents")):
         assert {entry.id for entry in entries(here) if entry.problem} == {document_id, "oldone22"}
     for cut in (document_id, "oldone22"):
         with pytest.raises(BrokenDocumentError):
-            shelf.kept(cut)
+            repository.kept(cut)
 
 
 def test_a_line_that_was_never_finished_is_no_harm_and_the_next_takes_its_place(
-    shelf: DocumentShelf, tmp_path: Path
+    repository: DocumentRepository, tmp_path: Path
 ) -> None:
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     with (tmp_path / "documents" / f"{document_id}.journal").open("ab") as file:
         file.write(b"0123abcd {" + b"x" * 100_000)
-    assert entries(shelf)[0].problem is None
-    kept = DocumentShelf(tmp_path / "documents").kept(document_id)
+    assert entries(repository)[0].problem is None
+    kept = DocumentRepository(tmp_path / "documents").kept(document_id)
     assert kept.draft.drawing == moved(1)
     Document(kept.draft, version=kept.version, keep=kept.keeper.keep).edit(Edit("two", moved(2)))
-    assert restored(shelf, document_id, tmp_path)[1].drawing == moved(2)
+    assert restored(repository, document_id, tmp_path)[1].drawing == moved(2)
 
 
-def test_without_its_head_a_document_is_the_same(shelf: DocumentShelf, tmp_path: Path) -> None:
+def test_without_its_head_a_document_is_the_same(repository: DocumentRepository, tmp_path: Path) -> None:
     """A power failure may lose it, or bring an older one back."""
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     head = tmp_path / "documents" / f"{document_id}.head"
     older = head.read_bytes()
     document.edit(Edit("one", moved(1)))
-    shown = entries(shelf)
+    shown = entries(repository)
     for content in (older, b"", None):
         head.unlink() if content is None else head.write_bytes(content)
-        found = entries(DocumentShelf(tmp_path / "documents"))
+        found = entries(DocumentRepository(tmp_path / "documents"))
         assert [(one.id, one.title, one.problem) for one in found] == [(one.id, one.title, None) for one in shown]
-        assert restored(shelf, document_id, tmp_path)[1].drawing == moved(1)
+        assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
 
 
 def test_a_commit_writes_about_one_step_and_the_journal_does_not_grow_for_ever(
-    shelf: DocumentShelf, tmp_path: Path
+    repository: DocumentRepository, tmp_path: Path
 ) -> None:
-    document_id, document = kept_document(shelf)
+    document_id, document = kept_document(repository)
     journal = tmp_path / "documents" / f"{document_id}.journal"
     one_drawing, sizes = journal.stat().st_size, []
     for number in range(450):
@@ -278,12 +290,14 @@ def test_a_commit_writes_about_one_step_and_the_journal_does_not_grow_for_ever(
     anew = sum(size < 0 for size in grown)
     assert 1 <= anew <= 4, "now and then, not at every commit"
     assert max(sizes) < 3 * 200 * one_drawing
-    assert restored(shelf, document_id, tmp_path)[1].history == document.state.draft.history
+    assert restored(repository, document_id, tmp_path)[1].history == document.state.draft.history
 
 
-def test_a_document_whose_files_somebody_took_away_is_written_whole_again(shelf: DocumentShelf, tmp_path: Path) -> None:
-    document_id, document = kept_document(shelf)
+def test_a_document_whose_files_somebody_took_away_is_written_whole_again(
+    repository: DocumentRepository, tmp_path: Path
+) -> None:
+    document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     shutil.rmtree(tmp_path / "documents")
     document.edit(Edit("two", moved(2)))
-    assert restored(shelf, document_id, tmp_path)[1].history == document.state.draft.history
+    assert restored(repository, document_id, tmp_path)[1].history == document.state.draft.history

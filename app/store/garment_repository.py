@@ -13,7 +13,7 @@ from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, U
 
 
 @dataclass(frozen=True, slots=True)
-class ShelfEntry:
+class ListedGarment:
     """A garment as listed."""
 
     name: str
@@ -21,17 +21,17 @@ class ShelfEntry:
     shipped: bool
 
 
-class GarmentShelf:
+class GarmentRepository:
     """A repository of garments by name. Shipped garments come first and are read-only."""
 
     def __init__(self, folder: Path) -> None:
         """Use a folder for the user's garments; saving the first one makes it."""
         self._folder = folder
 
-    def entries(self) -> list[ShelfEntry]:
+    def entries(self) -> list[ListedGarment]:
         """Return all garments, shipped ones first; skip files that are not valid garments."""
-        shipped = [ShelfEntry(name, load_garment(name).title, True) for name in shipped_garment_names()]
-        return shipped + [ShelfEntry(own.name, own.title, False) for own in self._own()]
+        shipped = [ListedGarment(name, load_garment(name).title, True) for name in shipped_garment_names()]
+        return shipped + [ListedGarment(own.name, own.title, False) for own in self._own()]
 
     def garment(self, name: str) -> Garment:
         """Return the garment with a name.

@@ -16,7 +16,7 @@ _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
 """Characters of ids, without those that look alike (0, 1, i, l, o)."""
 
 
-class DocumentShelf:
+class DocumentRepository:
     """A repository of documents in a folder; saving the first one makes the folder."""
 
     def __init__(self, folder: Path) -> None:
