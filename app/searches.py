@@ -35,7 +35,7 @@ def read_plan(_: Tell, data: dict[str, Any]) -> Plan:
 
 
 def suggest(tell: Tell, task: Task) -> bool:
-    """Send None once the request is valid, then each suggestion; return whether all changes were tried."""
+    """Send None once the request is valid, then each suggestion; return whether all changes were tried to the end."""
     found = suggestions(task)
     tell(None)
     while True:

@@ -22,12 +22,14 @@ class TrialBudget:
 
     Attributes:
         spent_s: the work done so far (s).
+        has_unknown: whether a trial was cut off before its answer was known.
     """
 
     def __init__(self, whole: Budget) -> None:
         """Begin with nothing spent of the whole."""
         self._whole = whole
         self.spent_s = 0.0
+        self.has_unknown = False
 
     @property
     def is_late(self) -> bool:
@@ -57,4 +59,5 @@ class TrialBudget:
         search = PlanSearch(Problem.of(task), heuristic, part, most, explainer=explainer, is_patient=with_reasons)
         plan = search.plan().plan
         self.spent_s += part.spent_s
+        self.has_unknown |= plan.status == "budget_exceeded"
         return plan

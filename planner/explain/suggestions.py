@@ -27,7 +27,7 @@ TOLD_MAX = 3
 """Suggestions of one kind at most."""
 
 Suggestions: TypeAlias = Generator[Suggestion, None, bool]
-"""Suggestions as they are found; returns whether all changes were tried before the budget was spent."""
+"""Suggestions as they are found; returns whether of all changes it is known by then if they give a plan."""
 
 _FIRST_PLAN_SHARE = 0.5
 """Share of the work for planning the task itself."""
@@ -52,7 +52,7 @@ def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, pl
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
-        possible change was tried before the budget was spent.
+        possible change was tried before the budget was spent, and no trial was cut off before its answer was known.
 
     Raises:
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
@@ -77,7 +77,7 @@ def _searched(task: Task, known: Plan, budget: TrialBudget) -> Suggestions:
     yield from _by_turns(assumptions, budget, 1.0)
     yield from _by_turns(changes, budget, 1.0)
     lanes = (*changes, *assumptions)
-    is_complete = all(lane.is_done for lane in lanes)
+    is_complete = all(lane.is_done for lane in lanes) and not budget.has_unknown
     for lane in () if budget.is_stopped else lanes:
         yield from lane.last_words()
     return is_complete

@@ -272,6 +272,17 @@ def test_a_search_says_whether_it_has_tried_everything():
         assert not is_complete(suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits)))
 
 
+def test_a_trial_that_was_cut_off_before_its_answer_is_not_taken_for_a_no():
+    # Two folds take two states to expand, so none of the trials comes to an answer.
+    once = towel(Pose2(-0.2, 0.15, -math.pi / 2))
+    cloth = replace(once, folds=(*once.folds, fold((0.15, 0.2), (0.15, 0.4))))
+    small = Scene(table=Table(0.5, 0.5), stations=(("front", Pose2(-0.4, 0.0, 0.0)),))
+    known = make_plan(cloth, small)
+    cut_off = Task.of(cloth, small, max_expanded=1, time_limit_s=60.0)
+    assert find_plan(cut_off, with_reasons=False).plan.status == "budget_exceeded"
+    assert not is_complete(suggestions(cut_off, plan=known))
+
+
 def slow() -> bool:
     """Return a question whether to stop that a slow machine answers slowly."""
     time.sleep(0.001)

@@ -30,6 +30,14 @@ def looks_at(name: str) -> list[Look]:
     return looks(planned(name).answer, RATE_HZ)
 
 
+@cache
+def sampled(name: str, rate_hz: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Return the times of the samples (s), and the fingers' angles at them."""
+    frames = list(Timeline.of(planned(name).answer).samples(rate_hz))
+    angles = {joint: np.array([frame.joints[joint] for frame in frames]) for joint in FINGERS.values()}
+    return np.array([frame.t_s for frame in frames]), angles
+
+
 @each_looked_at
 def test_no_part_of_a_free_hand_is_in_the_table(name: str):
     for look in looks_at(name):
@@ -63,10 +71,9 @@ def test_no_finger_opens_before_the_cloth_lies(name: str):
 
 @each_solvable
 def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
-    frames = list(Timeline.of(planned(name).answer).samples(50.0))
-    times = np.array([frame.t_s for frame in frames])
+    times, fingers = sampled(name, 50.0)
     for joint, limit in zip(FINGERS.values(), speed_limits([*FINGERS.values()]), strict=True):
-        angles = np.array([frame.joints[joint] for frame in frames])
+        angles = fingers[joint]
         assert np.ptp(angles) > 0.1 or joint.startswith("l_"), f"{joint} never moves"
         assert np.abs(np.diff(angles) / np.diff(times)).max() <= limit + 1e-6
 
@@ -75,7 +82,7 @@ def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
 @each_solvable
 def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float):
     plan = planned(name).answer
-    times = np.array([frame.t_s for frame in Timeline.of(plan).samples(rate_hz)])
+    times, _ = sampled(name, rate_hz)
     assert times[-1] == plan.cost_s
     steps = np.diff(times)
     assert steps[:-1] == pytest.approx(np.full(len(steps) - 1, 1.0 / rate_hz), abs=1e-9)
