@@ -9,7 +9,8 @@ from app.files.dxf_sketch import read_dxf
 from app.files.garment_json import read_garment_json
 from app.files.import_errors import ImportedFileError
 from app.files.sketch import Sketch
-from app.files.sketch_garment import UNITS_M, Sizes, garment_of
+from app.files.sketch_garment import garment_of
+from app.files.sketch_size import UNITS_M, Sizes
 from app.files.svg_sketch import read_svg
 from planner.cloth.garment import Garment
 from planner.message import Message

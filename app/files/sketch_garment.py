@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +12,16 @@ from app.files.crease_reading import Creases, ReadCreases, read_creases
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.outline import TOLERANCE_M, FoundOutline, find_outline
 from app.files.sketch import Sketch
+from app.files.sketch_size import (
+    SHEET_MAX_M,
+    UNITS_M,
+    UNITS_MIN_MAX_M,
+    Sizes,
+    extent_of,
+    require_likely,
+    require_size,
+    sizes_by_unit,
+)
 from planner.cloth.garment import FOLDS_MAX, TITLE_MAX, Garment
 from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import GarmentError
@@ -21,30 +31,14 @@ from planner.geometry.tolerance import SNAP_M
 from planner.message import Message
 from planner.strict_model import LARGEST_M
 
-UNITS_M: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
-"""Units that a drawing may have, by name (m)."""
-
-UNITS_MIN_MAX_M = (1e-9, 1e3)
-"""Range of the length of a unit (m); other drawings are refused."""
-
 ODD_SIZES_M = (0.05, 4.0)
 """Range of usual garment sizes (m); others give a warning."""
-
-LIKELY_M = (0.01, LARGEST_M)
-"""Range of possible garment sizes (m); others mean that the file's unit is wrong."""
 
 KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
 """Fields of a garment file that an exported drawing keeps besides its lines."""
 
 _NAME_MAX = 63
 """Longest garment name (characters)."""
-
-_SHEET_MAX_M = 100.0
-"""Largest width and height of a whole drawing (m)."""
-
-
-Sizes: TypeAlias = dict[str, tuple[float, float]]
-"""The width and height that the garment would have, for each unit that the drawing may have (m)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,18 +77,18 @@ def garment_of(
     """
     unit_m = UNITS_M[units] if units is not None else sketch.unit_m
     if unit_m is None:
-        raise UnitsNeededError(Message.plain(sketch.why_no_unit), _sizes(sketch, scale))
+        raise UnitsNeededError(Message.plain(sketch.why_no_unit), sizes_by_unit(sketch, scale))
     unit_m *= scale
     if not UNITS_MIN_MAX_M[0] <= unit_m <= UNITS_MIN_MAX_M[1]:
         text = f"one unit of the drawing would be {unit_m:.3g} m; give another scale"
         raise ImportedFileError("scale", Message("unit_out_of_range", text, {"unit_m": unit_m}))
     if units is None and scale == 1.0:
-        _require_likely(sketch, unit_m)
+        require_likely(sketch, unit_m)
     with np.errstate(all="ignore"):
-        extent = _extent(sketch) * unit_m
-    _require_size(extent, _SHEET_MAX_M, "the drawing")
+        extent = extent_of(sketch) * unit_m
+    require_size(extent, SHEET_MAX_M, "the drawing")
     found = find_outline(sketch.curves, unit_m)
-    _require_size(found.points, LARGEST_M, "the outline")
+    require_size(found.points, LARGEST_M, "the outline")
     origin = found.points.min(axis=0) if sketch.kept is None else np.zeros(2)
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
     notes = [*_outline_notes(found, units, unit_m), *map(Message.plain, sketch.notes)]
@@ -162,51 +156,6 @@ def _garment(drawn: Mapping[str, Any], kept: Mapping[str, Any], notes: list[Mess
 def plain_name(title: str) -> str:
     """Return a title as a garment's name: small letters, digits and hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:_NAME_MAX].strip("-") or "imported"
-
-
-def _require_likely(sketch: Sketch, unit_m: float) -> None:
-    """Raise `UnitsNeededError` if the file's unit gives a garment of an impossible size.
-
-    Drawing programs write a unit into every file, even if nobody chose it.
-    """
-    sizes = _sizes(sketch, 1.0)
-    longest_m = max(sizes["m"]) * unit_m
-    if not LIKELY_M[0] <= longest_m <= LIKELY_M[1]:
-        said = f"the unit that it names, {1000 * unit_m:.6g} mm, would make the garment {longest_m:.3g} m long"
-        values = {"unit_m": unit_m, "longest_m": longest_m}
-        raise UnitsNeededError(Message("unit_unlikely", said, values), sizes)
-
-
-def _sizes(sketch: Sketch, scale: float) -> Sizes:
-    """Return the garment's size in each unit (m)."""
-    extent = _extent(sketch)
-    with np.errstate(all="ignore"):
-        span = float((extent.max(axis=0) - extent.min(axis=0)).max()) or 1.0
-    if not math.isfinite(span):
-        raise ImportedFileError("file", "its numbers are too large")
-    outlined = find_outline(sketch.curves, 1.0 / span).points * span
-    width, height = (outlined.max(axis=0) - outlined.min(axis=0)) * scale
-    return {unit: (float(width) * unit_m, float(height) * unit_m) for unit, unit_m in UNITS_M.items()}
-
-
-def _require_size(points: FloatArray, most_m: float, what: str) -> None:
-    """Raise `ImportedFileError` if points, shape (n, 2), m, extend too far."""
-    with np.errstate(all="ignore"):
-        width, height = points.max(axis=0) - points.min(axis=0)
-    if not max(width, height) <= most_m:
-        text = (
-            f"{what} is {width:.3g} m wide and {height:.3g} m high, more than {most_m:g} m; say what its units are, or "
-            "give a scale"
-        )
-        values = {"what": what, "size": [float(width), float(height)], "most_m": most_m}
-        raise ImportedFileError("scale", Message("drawing_too_large", text, values))
-
-
-def _extent(sketch: Sketch) -> FloatArray:
-    curves = (*sketch.curves, *(fold.curve for fold in sketch.folds))
-    if not curves:
-        raise ImportedFileError("file", "there is nothing drawn in it")
-    return np.concatenate([curve.extent for curve in curves])
 
 
 def _folds(
