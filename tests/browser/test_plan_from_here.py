@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
@@ -253,3 +253,24 @@ def test_the_line_says_from_what_is_planned(page: Page, changes: dict[str, Any],
         [{**START, **changes}, drawing],
     )
     assert told == words
+
+
+def test_the_cost_map_is_asked_for_anew_where_another_start_is_chosen(page: Page) -> None:
+    asked: list[str] = []
+
+    def answer(route: Route) -> None:
+        asked.append(route.request.url)
+        route.fulfill(json={"version": 1, "step_m": 0.1, "cells": [], "best": None, "complete": True})
+
+    chip = page.get_by_role("button", name="Cost map")
+    with page.expect_response("**/overlays/places"):
+        page.route("**/overlays/places", answer)
+        chip.click()
+    with page.expect_response("**/overlays/places"):
+        steps(page).nth(first_fold(page)).click(button="right")
+        menu(page).get_by_role("menuitem").click()
+    expect(page.get_by_role("button", name="Plan from the start")).to_be_visible()
+    expect_planned(page)
+    assert len(asked) == 2
+    chip.click()
+    page.unroute("**/overlays/places")

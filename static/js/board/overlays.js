@@ -31,8 +31,8 @@ export class Overlays {
     /** @type {string[]} what `found` was asked for */
     this.known = [];
     this.isMapping = false;
-    /** The map that was made last, and for which version. @type {{version: string, places: Places|null}} */
-    this.mapped = { version: "", places: null };
+    /** The map that was made last, and for which version and start. @type {{key: string, places: Places|null}} */
+    this.mapped = { key: "", places: null };
     /** @type {import("./sheet.js").Item[]} what was drawn last beneath the cloth */
     this.beneath = [];
     /** @type {import("./sheet.js").Item[]} and above it */
@@ -104,14 +104,14 @@ export class Overlays {
   async lookForPlaces() {
     const { store } = this.board;
     const state = store.overlays.has("places") ? store.state : null;
-    const key = state ? String(state.version) : "";
+    const key = state ? `${state.version}#${JSON.stringify(startOf(store))}` : "";
     if (key === this.askedPlaces) return;
     this.askedPlaces = key;
     this.places = null;
     this.isMapping = false;
     this.stopPlaces.abort();
     if (!state || state.gesture) return;
-    if (key === this.mapped.version) {
+    if (key === this.mapped.key) {
       this.places = this.mapped.places;
       this.board.render();
       return;
@@ -123,7 +123,7 @@ export class Overlays {
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;
-    if (places) this.mapped = { version: key, places };
+    if (places) this.mapped = { key, places };
     this.tellPending();
     this.board.render();
   }
@@ -143,6 +143,12 @@ export class Overlays {
     return [...this.beneath, ...this.above];
   }
 }
+
+/**
+ * The state of the world from which the drawing is planned; null for its own start.
+ * @param {import("../store.js").Store} store
+ */
+const startOf = ({ plan, state }) => (plan && plan.version === state?.version ? plan.start : null);
 
 /**
  * What the server answers; null where it does not, or is not waited for.
