@@ -10,13 +10,14 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.document_state import Answer, Checks, DocumentState, HeldFold
+from app.document_state import Answer, Checks, DocumentState, Film, HeldFold
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.playback import Playback
 from planner.errors import FoldingError
+from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.task.world_state import WorldState
@@ -203,6 +204,11 @@ class Document:
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
         self._change(lambda state: replace(state, is_dark=is_dark))
+
+    def preview(self, plan: Plan | None) -> None:
+        """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""
+        film = None if plan is None else Film(self._state.version, plan, Timeline.of(plan))
+        self._change(lambda state: state if state.preview is film else replace(state, preview=film))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""

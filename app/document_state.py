@@ -100,6 +100,7 @@ class DocumentState:
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
+        preview: the plan of a change that is pointed at; the stage shows it in place of the film.
     """
 
     version: int
@@ -114,6 +115,7 @@ class DocumentState:
     is_thorough: bool = False
     playback: Playback = Playback()
     is_dark: bool = False
+    preview: Film | None = None
 
     @property
     def solution(self) -> Solution:
@@ -164,7 +166,7 @@ class DocumentState:
         An answer stays valid if the task is the same. A garment of another name starts without answers.
         """
         version = self.version + 1
-        after = replace(self, version=version, draft=draft, start=None, failure=None, is_thorough=False)
+        after = replace(self, version=version, draft=draft, start=None, failure=None, is_thorough=False, preview=None)
         if draft.drawing.name != self.drawing.name:
             after = replace(after, answer=None, committed=None, before=None)
         elif self.start is not None:  # whole plans cannot be compared with the rest of one

@@ -29,6 +29,9 @@ Drawing the stage is the most expensive work of a browser, and the board comes f
 REST_S = 0.4
 """Pause in a gesture after which a stage drawn by software follows it (s)."""
 
+PREVIEW_S = 6.0
+"""Time in which the plan of a change that is pointed at is shown (s)."""
+
 _CLOSING_S = 1.0
 """Time to wait for the thread to end (s)."""
 
@@ -61,6 +64,7 @@ class Player:
         self._plan: Plan | None = None
         self._spread: Garment | None = None
         self._bare: Pose2 | None = None
+        self._preview: tuple[Film, float] | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         if desk is not None:
@@ -97,7 +101,8 @@ class Player:
     def _period_s(self) -> float | None:
         """Return the time to wait if nothing changes (s); None for no limit."""
         now_s = time.monotonic()
-        if not self._document.state.playback.is_playing:
+        state = self._document.state
+        if not (self._is_previewing(now_s) if state.preview is not None else state.playback.is_playing):
             return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
         period_s = 1.0 / UPDATES_PER_S if self._stage.has_watchers else _UNWATCHED_PERIOD_S
         self._due_s = max(self._due_s + period_s, now_s)
@@ -115,6 +120,10 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._stage.set_theme(is_dark=state.is_dark)
+        if state.preview is not None:
+            self._show_preview(state.preview)
+            return
+        self._preview = None
         if self._is_to_rest(state):
             return
         if state.film is None or self._has_left(state, state.film):
@@ -127,6 +136,21 @@ class Player:
         self._spread = self._bare = self._waits_until_s = None
         self._stage.show(state.film.timeline.at(self._document.t_s))
         self._document.stop_at_end()
+
+    def _is_previewing(self, now_s: float) -> bool:
+        """Return whether the plan of a change has still to be shown to its end."""
+        return self._preview is None or now_s < self._preview[1] + PREVIEW_S
+
+    def _show_preview(self, film: Film) -> None:
+        """Show the plan of a change that is pointed at, in a few seconds from its start; it stays at its end."""
+        now_s = time.monotonic()
+        if self._preview is None or self._preview[0] is not film:
+            self._preview = (film, now_s)
+            self._plan, self._spread, self._bare, self._waits_until_s = film.plan, None, None, None
+            self._stage.show_scene(film.plan.scene)
+            self._stage.show_plan(film.plan)
+        share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
+        self._stage.show(film.timeline.at(share * film.timeline.duration_s))
 
     def _is_to_rest(self, state: DocumentState) -> bool:
         """Return whether to leave the stage as it is, because drawing it would slow down a gesture."""

@@ -1,5 +1,6 @@
 """The functions that run in processes of their own; their arguments and results are picklable."""
 
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +23,17 @@ class Suggested:
     plan: Plan
 
 
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """A change that is being planned, as JSON."""
+
+    body: dict[str, Any]
+
+
+_NICENESS = 10
+"""Niceness of a search for suggestions: people who draw and the plans of their drawings come first."""
+
+
 def plan(_: Tell, task: Task) -> Plan:
     """Plan a task, as `make_plan` does."""
     return make_plan(task)
@@ -34,9 +46,12 @@ def read_plan(_: Tell, data: dict[str, Any]) -> Plan:
     return plan
 
 
-def suggest(tell: Tell, task: Task) -> bool:
-    """Send None once the request is valid, then each suggestion; return whether all changes were tried to the end."""
-    found = suggestions(task)
+def suggest(tell: Tell, task: Task, known: Plan | None) -> bool:
+    """Send None once the request is valid, then each trial and suggestion; return whether all were tried to the end."""
+    os.nice(_NICENESS)
+    found = suggestions(
+        task, plan=known, on_trial=lambda trial: tell(Tried({"kind": trial.kind, "says": trial.says.to_dict()}))
+    )
     tell(None)
     while True:
         try:

@@ -112,6 +112,8 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "wider_grip", "grip_radius_m": 0.02, "needed_grip_radius_m": 0.0301, "in_drags": True},
     {"code": "stiffer_cloth", "support_angle_rad": 0.0873, "needed_support_angle_rad": 0.5236},
     {"code": "one_more_hand", "hands": 2},
+    {"code": "split_fold", "fold": 1, "depth_m": 0.175},
+    {"code": "halve_first", "fold": 0},
     {"code": "fold_before", "fold": 1, "before": 0},
     {"code": "fold_in_order", "folds": [1, 0]},
     {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},

@@ -14,6 +14,7 @@ from app.api.messages import (
     PlanAgain,
     PlanFrom,
     Play,
+    Preview,
     Seek,
     SetSpeed,
     SetTheme,
@@ -62,6 +63,10 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             document.plan_from(step)
         case Stop():
             document.stop_planning()
+        case Preview(plan=None):
+            document.preview(None)
+        case Preview(plan=str(plan_id)):
+            document.preview(workspace.plans.plan(plan_id))
 
 
 def put_garment(

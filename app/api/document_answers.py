@@ -6,6 +6,7 @@ from pydantic import BaseModel
 
 from app.api.answers import GarmentAnswer, LayerAnswer, Point, Says
 from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
+from app.store.picture import Picture
 from planner.geometry.pose import Pose2
 from planner.task.scene import Scene
 
@@ -61,6 +62,15 @@ class DocumentEntryAnswer(BaseModel):
     name: str
     changed_at: str
     problem: str | None
+    picture: Picture | None
+
+
+class VersionAnswer(BaseModel):
+    """A drawing that a document can go back to: the step that led to it, and when."""
+
+    label: str
+    changed_at: str
+    drawing: DrawingAnswer
 
 
 class SolvedFold(BaseModel):

@@ -21,6 +21,7 @@ from app.api.document_answers import (
     PlaybackAnswer,
     QuickFixesAnswer,
     StepsAnswer,
+    VersionAnswer,
 )
 from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest, NewDocument, TravelRequest
 from app.api.live_messages import document_message, playback_message
@@ -165,6 +166,13 @@ async def read_steps(request: Request, document_id: str) -> JSONResponse:
     opened = await _opened(request, document_id)
     state = opened.document.state
     return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
+
+
+@router.get("/{document_id}/versions", responses={200: {"model": list[VersionAnswer]}, **problems(403, 404, 422)})
+async def read_versions(request: Request, document_id: str) -> JSONResponse:
+    """The drawings before the current one that the document can go back to, the latest first."""
+    found = await run_in_threadpool(workspace_of(request).documents.versions, document_id)
+    return JSONResponse([asdict(version) for version in found])
 
 
 @router.get(

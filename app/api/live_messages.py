@@ -86,7 +86,7 @@ def status_text(state: DocumentState) -> str:
         if not plan.garment.folds:
             return "No folds yet: draw the first one"
         count = len(plan.primitives)
-        return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
+        return f"Planned: {count} step{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
     if plan.status == "budget_exceeded":
         return f"No plan: {_out_of_time(plan.statistics)}"
     first = next((reason.message for reason in plan.reasons if reason.message), None)

@@ -147,6 +147,15 @@ class PlanFrom(StrictModel):
     step: Annotated[int, Field(ge=-1, le=10_000)] | None
 
 
-Command: TypeAlias = Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger | PlanFrom
+class Preview(StrictModel):
+    """Have the stage show a plan by its id, that of a suggestion; null: the document's own again."""
+
+    do: Literal["preview"]
+    plan: Annotated[str, Field(max_length=64)] | None
+
+
+Command: TypeAlias = (
+    Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger | PlanFrom | Preview
+)
 AnyCommand = Annotated[Command, Field(discriminator="do")]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)

@@ -5,11 +5,11 @@ import time
 from collections.abc import AsyncIterator
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends, Query, Request
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
@@ -36,10 +36,25 @@ PlacementsRequestBody = Annotated[
 PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment": "hand-towel", "time_limit_s": 2.0}))]
 
 
+Kind = Literal[
+    "placement", "fold_line", "split", "halve", "order", "station", "friction", "grip_radius", "comfort_radius"
+]
+
+
+Known = Annotated[str | None, Query(description="id of the answer to this request, which then is not planned again")]
+
+
+class TryingEvent(BaseModel):
+    """The data of an event `trying`: a change that is being planned."""
+
+    kind: Kind
+    says: Says
+
+
 class SuggestionEvent(BaseModel):
     """The data of an event `suggestion`; the last event, `done`, has `count`, `elapsed_s` and `complete`."""
 
-    kind: Literal["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"]
+    kind: Kind
     is_assumption: bool
     message: str
     says: Says
@@ -76,14 +91,15 @@ class PlacementsAnswer(BaseModel):
 class SuggestionSearch:
     """A search for one client, begun before the answer starts so that a bad request is answered as an error."""
 
-    def __init__(self, workspace: Workspace, wanted: PlanRequest) -> None:
-        """Prepare the search; plan nothing yet."""
+    def __init__(self, workspace: Workspace, wanted: PlanRequest, known: str | None) -> None:
+        """Prepare the search; plan nothing yet. `known` is the id of the answer to the request, if there is one."""
         self._workspace = workspace
+        self._known = None if known is None else workspace.plans.plan(known)
         self._wanted = wanted
         self._limit = TimeLimit(wanted.time_limit_s)
         self._started = time.perf_counter()
         self._loop = asyncio.get_running_loop()
-        self._told: asyncio.Queue[searches.Suggested | None] = asyncio.Queue()
+        self._told: asyncio.Queue[searches.Suggested | searches.Tried | None] = asyncio.Queue()
         self._begun: Future[None] = Future()
         self._job: Job[bool] | None = None
 
@@ -104,6 +120,9 @@ class SuggestionSearch:
         count = 0
         try:
             while (found := await self._told.get()) is not None:
+                if isinstance(found, searches.Tried):
+                    yield ServerSentEvent(event="trying", data=found.body)
+                    continue
                 count += 1
                 plan_id = self._workspace.plans.add(found.plan)
                 yield ServerSentEvent(event="suggestion", data={**found.body, "plan_id": plan_id})
@@ -114,10 +133,13 @@ class SuggestionSearch:
 
     def _search(self, should_stop: ShouldStop) -> bool:
         task = asked_task(self._workspace, self._wanted, self._limit)
+        known = self._known
+        if known is not None and replace(known.task, limits=task.limits) != task:
+            known = None
         with within_request():
-            return run_apart(searches.suggest, should_stop, self._hear, task)
+            return run_apart(searches.suggest, should_stop, self._hear, task, known)
 
-    def _hear(self, news: searches.Suggested | None) -> None:
+    def _hear(self, news: searches.Suggested | searches.Tried | None) -> None:
         if news is None:
             self._begun.set_result(None)
         else:
@@ -131,7 +153,7 @@ class SuggestionSearch:
                 self._begun.set_exception(future.exception())
         self._tell(None)
 
-    def _tell(self, found: searches.Suggested | None) -> None:
+    def _tell(self, found: searches.Suggested | searches.Tried | None) -> None:
         with suppress(RuntimeError):  # the loop has ended: nobody reads the events
             self._loop.call_soon_threadsafe(self._told.put_nowait, found)
 
@@ -141,9 +163,9 @@ class SuggestionSearch:
         return ServerSentEvent(event="done", data=data)
 
 
-async def _begun(request: Request, wanted: PlanRequestBody) -> SuggestionSearch:
+async def _begun(request: Request, wanted: PlanRequestBody, known: Known = None) -> SuggestionSearch:
     """Return the search of a request that has been checked."""
-    search = SuggestionSearch(workspace_of(request), wanted)
+    search = SuggestionSearch(workspace_of(request), wanted, known)
     await search.begin(request)
     return search
 
@@ -151,15 +173,16 @@ async def _begun(request: Request, wanted: PlanRequestBody) -> SuggestionSearch:
 @router.post(
     "/suggestions",
     response_class=EventSourceResponse,
-    responses={200: {"model": SuggestionEvent}, **problems(404, 413, 422, 503)},
+    responses={200: {"model": SuggestionEvent | TryingEvent}, **problems(404, 413, 422, 503)},
 )
 async def post_suggestions(
     search: Annotated[SuggestionSearch, Depends(_begun)],
 ) -> AsyncIterator[ServerSentEvent]:
     """Find the smallest changes that give a plan, each with its plan, and return them as server-sent events.
 
-    Each event `suggestion` has one change as it is found; `done` then says whether all changes were tried in the time.
-    A change replaces fields of the request. If there is a plan already, only a better placement is suggested.
+    Each event `trying` names a change before it is planned, each event `suggestion` has one change as it is found;
+    `done` then says whether all changes were tried in the time. A change replaces fields of the request. If there is a
+    plan already, only a better placement is suggested.
     """
     async for event in search.events():
         yield event

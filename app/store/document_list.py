@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from app.store.document_files import BROKEN, HEAD, ID_PATTERN, JOURNAL, JSON
+from app.store.picture import Picture
 
 _SHOWN = (JOURNAL, HEAD, JSON, BROKEN)
 
@@ -27,6 +28,7 @@ class DocumentEntry:
         name: the garment's name; empty if the file cannot be read.
         changed_at: the time of the last change, UTC, as in RFC 3339; empty if the file cannot be read.
         problem: why it cannot be opened, or None.
+        picture: what it looks like; None where the file was only glanced at, or cannot be read.
     """
 
     id: str
@@ -34,6 +36,7 @@ class DocumentEntry:
     name: str = ""
     changed_at: str = ""
     problem: str | None = None
+    picture: Picture | None = None
 
     @property
     def place(self) -> tuple[str, str]:

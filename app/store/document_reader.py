@@ -27,6 +27,7 @@ from app.store.document_files import (
 from app.store.document_keeper import DocumentKeeper
 from app.store.document_list import DocumentEntry
 from app.store.journal import Journal, read_journal
+from app.store.picture import Picture
 from app.store.tape import Tape, history_of, tape_of
 from planner.errors import FoldingError, RequestError
 from planner.strict_model import first_error
@@ -104,9 +105,11 @@ def read_entry(files: DocumentFiles) -> DocumentEntry:
     except (ValueError, OSError) as error:
         return DocumentEntry(files.id, problem=_in_short(error))
     if isinstance(content, DocumentModel):
-        return DocumentEntry(files.id, content.title, content.name, content.changed_at)
-    title, name = (str(content.raw_drawing.get(field, "")) for field in ("title", "name"))
-    return DocumentEntry(files.id, title, name, content.changed_at)
+        shown = Picture.of(content.drawing.model_dump())
+        return DocumentEntry(files.id, content.title, content.name, content.changed_at, picture=shown)
+    drawing = content.raw_drawing
+    title, name = (str(drawing.get(field, "")) for field in ("title", "name"))
+    return DocumentEntry(files.id, title, name, content.changed_at, picture=Picture.of(drawing))
 
 
 def _kept(files: DocumentFiles, path: Path) -> KeptDocument:

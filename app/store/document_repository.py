@@ -11,6 +11,7 @@ from app.store.document_list import DocumentEntry, DocumentList, DocumentPage
 from app.store.document_reader import KeptDocument, glance_at, read_document, read_entry
 from app.store.durable_file import sync_folder, write_at_once
 from app.store.storage_error import storing
+from app.store.versions import KeptVersion, read_versions
 
 _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
 """Characters of ids, without those that look alike (0, 1, i, l, o)."""
@@ -57,6 +58,17 @@ class DocumentRepository:
         files = DocumentFiles(document_id, self._folder)
         with storing(f"document {document_id!r} could not be read"):
             return read_document(files)
+
+    def versions(self, document_id: str) -> tuple[KeptVersion, ...]:
+        """Return the drawings that a document can go back to, the latest first.
+
+        Raises:
+            UnknownDocumentError: there is no such document.
+            StorageError: the system refuses to read it.
+        """
+        files = DocumentFiles(document_id, self._folder)
+        with storing(f"document {document_id!r} could not be read"):
+            return read_versions(files)
 
     def remove(self, document_id: str) -> None:
         """Remove a document.

@@ -64,6 +64,7 @@ class Journal:
         version: the document's version.
         changed_at: the time of the last change, UTC, as in RFC 3339.
         raw_tape: the drawings as JSON.
+        times: when each drawing of the tape was committed, as `changed_at`; empty where a rewriting forgot it.
         base_bytes: the length of its first two lines.
         whole_bytes: the length of all complete lines.
     """
@@ -73,6 +74,7 @@ class Journal:
     version: int
     changed_at: str
     raw_tape: Tape[_RawDrawing]
+    times: tuple[str, ...]
     base_bytes: int
     whole_bytes: int
 
@@ -123,14 +125,17 @@ def read_journal(data: bytes) -> Journal:
     if not changes:
         raise ValueError("it ends before the first drawing")
     tape: Tape[_RawDrawing] = Tape((), 0)
+    times: tuple[str, ...] = ()
     for number, change in enumerate(changes):
         try:
             tape = tape.changed(change.value())
         except ValueError as error:
             raise ValueError(f"line {number + 2}: {error}") from None
+        unknown = ("",) * (len(change.added) - 1)
+        times = (*times[change.dropped :][: change.kept], *unknown, *((change.changed_at,) if change.added else ()))
     sizes = [len(line) + 1 for line in (first, *lines[: len(changes)])]
     last = changes[-1]
-    return Journal(start.id, start.generation, last.version, last.changed_at, tape, sum(sizes[:2]), sum(sizes))
+    return Journal(start.id, start.generation, last.version, last.changed_at, tape, times, sum(sizes[:2]), sum(sizes))
 
 
 def _body(line: bytes) -> bytes | None:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TypeAlias
 
 from planner.explain.suggestion import Suggestion
+from planner.explain.suggestion_added_fold import halvings, splits
 from planner.explain.suggestion_assumption import comforts, frictions, grip_radii
 from planner.explain.suggestion_budget import TrialBudget
 from planner.explain.suggestion_fold_line import fold_lines
@@ -39,7 +40,13 @@ _FOLDS_MAX = 3
 """Folds to blame that changes are tried for."""
 
 
-def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, plan: Plan | None = None) -> Suggestions:
+def suggestions(
+    task: Task,
+    *,
+    should_stop: Callable[[], bool] | None = None,
+    plan: Plan | None = None,
+    on_trial: Callable[[Trial], None] | None = None,
+) -> Suggestions:
     """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
 
     The task is planned before this returns, so that bad input raises here and not while iterating.
@@ -49,6 +56,7 @@ def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, pl
             plan.
         should_stop: polled while searching; true ends the suggestions.
         plan: the answer to the task, where it is known.
+        on_trial: called with each change before it is planned.
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
@@ -62,20 +70,27 @@ def suggestions(task: Task, *, should_stop: Callable[[], bool] | None = None, pl
     whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     budget = TrialBudget(whole)
     known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
-    return _searched(task, known, budget)
+    return _searched(task, known, budget, on_trial or _ignore)
 
 
-def _searched(task: Task, known: Plan, budget: TrialBudget) -> Suggestions:
+def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Suggestions:
     """Give every kind of change its turns, and in the end its last word."""
     if known.is_solved:
         changes, assumptions = [_Lane(placements(task, known.cost_s))], []
     else:
         folds = _blocking(known)
-        changes = _lanes(fold_lines(task, folds), placements(task, None), orders(task), stations(task))
+        changes = _lanes(
+            placements(task, None),
+            fold_lines(task, folds),
+            splits(task, folds),
+            halvings(task, folds),
+            orders(task),
+            stations(task),
+        )
         assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
-    yield from _by_turns(changes, budget, _CHANGES_SHARE if assumptions else 1.0)
-    yield from _by_turns(assumptions, budget, 1.0)
-    yield from _by_turns(changes, budget, 1.0)
+    yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else 1.0)
+    yield from _by_turns(assumptions, budget, on_trial, 1.0)
+    yield from _by_turns(changes, budget, on_trial, 1.0)
     lanes = (*changes, *assumptions)
     is_complete = all(lane.is_done for lane in lanes) and not budget.has_unknown
     for lane in () if budget.is_stopped else lanes:
@@ -95,13 +110,19 @@ def _lanes(*searches: Search) -> list["_Lane"]:
     return [_Lane(search) for search in searches]
 
 
-def _by_turns(lanes: Sequence["_Lane"], budget: TrialBudget, share: float) -> Iterator[Suggestion]:
+def _ignore(_: Trial) -> None:
+    """Tell nobody of a trial."""
+
+
+def _by_turns(
+    lanes: Sequence["_Lane"], budget: TrialBudget, on_trial: Callable[[Trial], None], share: float
+) -> Iterator[Suggestion]:
     """Continue the lane that has done the least work, until this share of the budget is spent."""
     while not budget.has_spent(share):
         running = [lane for lane in lanes if not lane.is_done]
         if not running:
             return
-        yield from min(running, key=lambda lane: lane.spent_s).go_on(budget)
+        yield from min(running, key=lambda lane: lane.spent_s).go_on(budget, on_trial)
 
 
 class _Lane:
@@ -119,11 +140,12 @@ class _Lane:
         self._trial: Trial | None = None
         self._told = 0
 
-    def go_on(self, budget: TrialBudget) -> Iterator[Suggestion]:
+    def go_on(self, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Iterator[Suggestion]:
         """Plan the next trial, and yield the suggestions that result."""
         begun_s = budget.spent_s
         found = [] if self._trial is not None else list(self._told_of(None))
         if self._trial is not None and not self.is_done:
+            on_trial(self._trial)
             found += self._told_of(budget.plan(self._trial.task))
         self.spent_s += budget.spent_s - begun_s
         yield from found

@@ -6,6 +6,7 @@
 import { goTo, goToNew } from "./dialogs/documents.js";
 import { sentenceOf } from "./dialogs/dialog.js";
 import { byId, element } from "./dom.js";
+import { titleOf, when } from "./gallery/tile.js";
 
 /** @import { DocumentEntry as Entry, GarmentEntry } from "pleat" */
 
@@ -25,14 +26,14 @@ export function mountGarments(store) {
   const show = () => {
     if (!store.state) return;
     const { name, title } = store.state.drawing;
-    const own = { id: store.id, title, name, changed_at: "", problem: null };
+    const own = { id: store.id, title, name, changed_at: "", problem: null, picture: null };
     const drawn = [own, ...documents.filter((entry) => entry.id !== store.id && entry.problem === null)];
     select.value = DOCUMENT + store.id;
     const wanted = JSON.stringify([drawn, garments]);
     if (wanted === shown) return; // a list that somebody has open stays as it is
     shown = wanted;
     const counts = new Map();
-    for (const entry of drawn) counts.set(nameOf(entry), (counts.get(nameOf(entry)) ?? 0) + 1);
+    for (const entry of drawn) counts.set(titleOf(entry), (counts.get(titleOf(entry)) ?? 0) + 1);
     select.replaceChildren(
       group("Documents", drawn.map((entry) => new Option(called(entry, counts), DOCUMENT + entry.id))),
       group("New, of", garments.map((entry) => new Option(entry.title, GARMENT + entry.name))),
@@ -69,22 +70,9 @@ function group(label, options) {
  * @param {Map<string, number>} counts
  */
 function called(entry, counts) {
-  const shown = nameOf(entry);
+  const shown = titleOf(entry);
   const isAlone = (counts.get(shown) ?? 0) < 2;
-  return isAlone || !entry.changed_at ? shown : `${shown}, ${when(new Date(entry.changed_at))}`;
-}
-
-/** @param {Entry} entry */
-function nameOf({ title, name }) {
-  return title || name;
-}
-
-/** @param {Date} moment */
-function when(moment) {
-  const isToday = moment.toDateString() === new Date().toDateString();
-  return isToday
-    ? moment.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })
-    : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
+  return isAlone || !entry.changed_at ? shown : `${shown}, ${when(entry.changed_at)}`;
 }
 
 /**
@@ -94,7 +82,7 @@ function when(moment) {
  * @param {T[]} before
  * @returns {Promise<T[]>}
  */
-async function listed(address, before) {
+export async function listed(address, before) {
   /** @type {T[]} */
   const found = [];
   for (let page = /** @type {string|null} */ (address); page; ) {

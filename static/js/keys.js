@@ -12,7 +12,7 @@ export function isTyping(target) {
 }
 
 /**
- * @param {Record<string, () => void>} verbs what the keys do: undo, redo, save, help, play, and tools by their letters
+ * @param {Record<string, () => void>} verbs what the keys do: undo, redo, save, help, gallery, play, and tools by their letters
  * @returns {(event: KeyboardEvent) => void}
  */
 export function keyHandler(verbs) {
@@ -39,5 +39,6 @@ function named(event) {
   if (isTyping(target) || event.altKey) return "";
   if (key === " ") return ["BUTTON", "SELECT", "A"].includes(target.tagName) ? "" : "play";
   if (key === "?") return "help";
+  if (key === "/") return "gallery";
   return target.tagName === "SELECT" ? "" : key;
 }

@@ -15,6 +15,7 @@ import { mountPhone } from "./phone.js";
 import { mountSplitter } from "./splitter.js";
 import { mountStagePlay } from "./stage_play.js";
 import { mountStage } from "./stage.js";
+import { Repair } from "./repair/repair.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
 
@@ -31,19 +32,22 @@ mountSplitter();
 mountPhone();
 const dialogs = mountDialogs(store);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
+const repair = new Repair(store, byId("board"));
+board.cover(repair);
 const verbs = {
   undo: () => board.takeBack() || store.undo(),
   redo: () => board.tool.isBusy || store.redo(),
   play: togglePlay,
   save: dialogs.save,
   help: dialogs.help,
+  gallery: dialogs.gallery,
 };
 mountHistory(store, verbs);
 mountOffline(store);
 mountStagePlay(store, togglePlay);
 mountStage(store, keyHandler(verbs)); // letters move the camera there
 
-document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board) }));
+document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board), h: () => repair.takeFocus() }));
 theme.addEventListener("change", tellTheme);
 store.addEventListener("connection", () => store.isLive && tellTheme());
 store.addEventListener("refused", (event) => notice(/** @type {CustomEvent} */ (event).detail));

@@ -70,7 +70,7 @@ def test_a_new_document_wants_a_plan() -> None:
 def test_the_status_says_how_many_primitives_and_seconds(plan: Plan) -> None:
     text = status_text(answered(plan).state)
     count = len(plan.primitives)
-    assert text == f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
+    assert text == f"Planned: {count} step{'' if count == 1 else 's'}, {plan.cost_s:.1f} s"
 
 
 def test_every_change_is_a_new_version_and_what_changes_nothing_is_none() -> None:

@@ -49,7 +49,9 @@ async def test_documents_are_listed_and_removed(client: httpx.AsyncClient) -> No
     one, other = await created(client), await created(client, title="Other")
     entries = (await client.get("/api/documents")).json()
     assert {entry["id"]: entry["title"] for entry in entries} == {one["id"]: "My towel", other["id"]: "Other"}
-    assert set(entries[0]) == {"id", "title", "name", "changed_at", "problem"}
+    assert set(entries[0]) == {"id", "title", "name", "changed_at", "problem", "picture"}
+    assert entries[0]["picture"]["outline"] == [corner["point"] for corner in other["drawing"]["outline"]]
+    assert [fold["kind"] for fold in entries[0]["picture"]["folds"]] == ["blue"]
     assert (await client.delete(f"/api/documents/{one['id']}")).status_code == 204
     for answer in (
         await client.get(f"/api/documents/{one['id']}"),
@@ -59,6 +61,22 @@ async def test_documents_are_listed_and_removed(client: httpx.AsyncClient) -> No
     ):
         assert_problem(answer, 404)
     assert [entry["id"] for entry in (await client.get("/api/documents")).json()] == [other["id"]]
+
+
+async def test_versions_are_the_steps_with_their_times_and_drawings(client: httpx.AsyncClient) -> None:
+    first = await created(client)
+    path = f"/api/documents/{first['id']}"
+    assert (await client.get(f"{path}/versions")).json() == []
+    second = (await put(client, first, moved(first, -0.02))).json()
+    await put(client, second, moved(second, -0.02))
+    found = (await client.get(f"{path}/versions")).json()
+    assert [version["drawing"] for version in found] == [second["drawing"], first["drawing"]]
+    assert [bool(version["label"]) for version in found] == [True, False]
+    times = [version["changed_at"] for version in found]
+    assert all(times) and times == sorted(times, reverse=True)
+    await client.post(f"{path}/undo", json={})
+    assert [version["drawing"] for version in (await client.get(f"{path}/versions")).json()] == [first["drawing"]]
+    assert_problem(await client.get("/api/documents/aaaaaaaa/versions"), 404)
 
 
 async def test_a_long_list_comes_in_pages_each_of_which_leads_to_the_next(client: httpx.AsyncClient) -> None:

@@ -59,7 +59,7 @@ def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() ->
     plan = planned("t-shirt").answer
     states = [answered(plan, is_final=is_final) for is_final in (False, True)]
     assert [plan_message(state)["plan"]["is_final"] for state in states] == [False, True]
-    told = f"Planned: {len(plan.primitives)} primitives, {plan.cost_s:.1f} s"
+    told = f"Planned: {len(plan.primitives)} steps, {plan.cost_s:.1f} s"
     assert [status_text(state) for state in states] == [told, told]
 
 

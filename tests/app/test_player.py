@@ -302,3 +302,17 @@ def test_where_a_graphics_card_draws_it_the_stage_follows_a_hand_at_once(
             until(lambda number=number: stage.lying == number)
     finally:
         player.close()
+
+
+def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(plan: Plan, monkeypatch):
+    monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
+    document, stage = towel_document(), CountingStage(has_watchers=True)
+    answer(document, plan)
+    player = Player(document, stage)
+    until(lambda: stage.times == [0.0])
+    document.preview(plan)
+    until(lambda: stage.times[-1] == plan.cost_s)
+    assert stage.plans == 2 and document.t_s == 0.0
+    document.preview(None)
+    until(lambda: stage.times[-1] == 0.0)
+    player.close()

@@ -38,9 +38,11 @@ async def test_suggestions_come_as_events_and_done_comes_last(client: httpx.Asyn
     took_s = time.perf_counter() - began_s
     assert answer.status_code == 200
     assert answer.headers["content-type"].startswith("text/event-stream")
-    *found, (last, done) = events_in(answer.text)
+    *told, (last, done) = events_in(answer.text)
+    found = [one for one in told if one[0] == "suggestion"]
     assert found
-    assert {name for name, _ in found} == {"suggestion"}
+    assert {name for name, _ in told} == {"suggestion", "trying"}
+    assert told[0][0] == "trying" and set(told[0][1]) == {"kind", "says"}
     assert last == "done"
     assert done["count"] == len(found)
     assert 0.0 < done["elapsed_s"] <= took_s

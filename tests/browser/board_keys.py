@@ -20,7 +20,7 @@ def walk(page: Page, start: Point, end: Point) -> None:
 
 def cross(page: Page) -> Point:
     """Return the cursor's position, as announced to screen readers."""
-    words = str(page.locator(".board-pane .unseen").text_content()).replace(" cm", "").split(",")
+    words = str(page.locator(".board-pane > .unseen").text_content()).replace(" cm", "").split(",")
     return float(words[0]) / 100, float(words[1]) / 100
 
 

@@ -65,7 +65,7 @@ def test_while_a_quicker_plan_is_looked_for_the_one_on_show_can_be_kept(
     page.goto(new_sheet(napkin()).page_url)
     status, numbers = page.get_by_role("status"), page.get_by_role("region", name="Numbers")
     expect(numbers).to_contain_text("Looking for a quicker plan")
-    expect(status).to_have_text(re.compile(r"^Planned: \d primitives, [\d.]+ s$"))
+    expect(status).to_have_text(re.compile(r"^Planned: \d steps, [\d.]+ s$"))
     keep = page.get_by_role("button", name="Stop")
     expect(keep).to_have_attribute("title", "Keep this plan")
     before = status.inner_text()

@@ -62,7 +62,6 @@ def test_a_reason_is_told_from_its_numbers(page: Page, apron: Sheet) -> None:
     expect(page.get_by_role("status")).to_have_text(
         re.compile(r"^No plan: Half: needs more hands than there are, unless one holds all within [\d.]+ cm$")
     )
-    page.get_by_role("button", name="Why?").click()
     reasons = page.get_by_role("list", name="Reasons")
     expect(reasons).to_contain_text("12.7 cm")  # what one grip holds round itself
     page.get_by_role("button", name="Unit: cm").click()

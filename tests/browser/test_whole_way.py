@@ -56,7 +56,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     assert pulled["history"]["can_undo"] == "Move vertex"
     assert pulled["drawing"]["outline"][PULLED]["point"][1] < -0.05
 
-    expect(page.locator(".suggestions button", has_text="Move the garment").first).to_be_attached(timeout=SEARCH_MS)
+    expect(page.locator(".cards button", has_text="Move the garment").first).to_be_attached(timeout=SEARCH_MS)
     way.press("Move the garment")
     expect_planned(page)
     helped = sheet.state

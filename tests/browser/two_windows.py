@@ -133,4 +133,4 @@ def beginning(plan: dict[str, Any]) -> str:
     if plan["dag"]["folds"] == 0:
         return "No folds yet: draw the first one"
     count = len(plan["primitives"])
-    return f"Planned: {count} primitive{'' if count == 1 else 's'}, {plan['cost_s']:.1f} s"
+    return f"Planned: {count} step{'' if count == 1 else 's'}, {plan['cost_s']:.1f} s"

@@ -22,6 +22,7 @@ export type Table = Schemas["Table"];
 
 export type DocumentState = Schemas["DocumentAnswer"];
 export type DocumentEntry = Schemas["DocumentEntryAnswer"];
+export type DocumentVersion = Schemas["VersionAnswer"];
 export type DrawingProblem = Schemas["DrawingProblem"];
 export type Step = Schemas["StepAnswer"];
 export type Layer = Schemas["MovedLayerAnswer"];
@@ -45,6 +46,7 @@ export type Region = Schemas["RegionAnswer"];
 export type Places = Schemas["PlacesAnswer"];
 
 export type SuggestionEvent = Schemas["SuggestionEvent"];
+export type TryingEvent = Schemas["TryingEvent"];
 export type PlanChange = Partial<Schemas["Change"]>;
 
 export type Template = Schemas["TemplateAnswer"];

@@ -65,6 +65,8 @@ export class Board extends Shown {
     this.blank = null;
     /** @type {number|undefined} the frame that is to be drawn */
     this.frame = undefined;
+    /** @type {{height: number}|null} what lies over the board's upper edge */
+    this.over = null;
     this.framing = new Framing(this);
     this.svg = drawingArea();
     const scene = svg("g", { id: "board-scene" });
@@ -115,6 +117,20 @@ export class Board extends Shown {
 
   get kindOfNext() {
     return this.paint.kind;
+  }
+
+  /**
+   * Something lies over the board's upper edge: what is fitted to the board is fitted to what is left of it.
+   * @param {EventTarget & {height: number}} over
+   */
+  cover(over) {
+    this.over = over;
+    over.addEventListener("change", () => this.framing.uncover());
+  }
+
+  /** How much of the board's upper edge is covered (px). */
+  get covered() {
+    return Math.max((this.over?.height ?? 0) - this.place.top, 0);
   }
 
   /** @param {number} step */

@@ -7,9 +7,11 @@ import { drawFolds, drawGhost } from "./draw_folds.js";
 import { drawGrid } from "./draw_grid.js";
 import { drawHandles } from "./draw_handles.js";
 import { drawAxis, drawCursor, drawPreview } from "./draw_marks.js";
+import { drawHolds } from "./draw_holds.js";
 import { drawQuickFix } from "./draw_quick_fix.js";
 import { drawOverhang } from "./draw_overhang.js";
 import { drawReason } from "./draw_reason.js";
+import { drawRobot } from "./draw_robot.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
 
 /** The layers, the lowest first. */
@@ -48,11 +50,13 @@ export function drawAll(board) {
   sheets.ghost.draw(drawGhost(board));
   sheets.folds.draw(drawFolds(board));
   sheets.findings.draw([
+    ...drawRobot(board),
     ...drawTableEdge(board, "table-line"),
     ...drawChecks(board),
     ...drawProblems(board),
     ...drawOverhang(board),
     ...drawReason(board),
+    ...drawHolds(board),
   ]);
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
   sheets.handles.draw(drawHandles(board));

@@ -26,7 +26,7 @@ export function drawChecks(board) {
 }
 
 /** @param {string} key @param {Point} at @returns {Item} */
-function diamond(key, [x, y]) {
+export function diamond(key, [x, y]) {
   const r = 7;
   return {
     key,

@@ -40,9 +40,18 @@ export class Framing {
 
   fit() {
     const { board } = this;
-    board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: 0, bottom: HINT_PX });
+    board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: board.covered, bottom: HINT_PX });
     this.fitted = this.seen();
     board.render();
+  }
+
+  /** Fit again where nobody has moved the view since, once the upper edge is covered, so that no cloth is hidden. */
+  uncover() {
+    const { tool, state, store, covered, view } = this.board;
+    const box = this.clothBox();
+    const isUntouched = this.isFitted && this.fitted === this.seen() && !tool.isBusy && !state?.gesture && !store.selection;
+    if (covered && box && isUntouched && view.toPx(box.high)[1] < covered) this.fit();
+    this.board.render();
   }
 
   /** What is seen, and of what: the same as long as nobody has moved the view or pulled the cloth. */

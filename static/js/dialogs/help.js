@@ -52,10 +52,12 @@ const SECTIONS = {
     [",  .", "Turn the garment on the table"],
   ],
   Plan: [
+    ["H", "Help where there is no plan: to the cards over the board; arrows from one to the next"],
     ["Click", "Go to where a step begins"],
     ["Right-click", "Plan from there; so do a long press, Shift + F10 and the menu key"],
   ],
   View: [
+    ["/", "Gallery: all garments, templates, examples"],
     ["Wheel", "Zoom at the cursor"],
     ["Space + drag", "Pan; so does the middle button"],
     ["0", "Show the whole cloth"],

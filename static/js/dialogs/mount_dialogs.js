@@ -1,6 +1,7 @@
 /** The buttons `New`, `Import`, `Export` and help. */
 
 import { byId, element } from "../dom.js";
+import { showGallery } from "../gallery/gallery.js";
 import { icon } from "../icons.js";
 import { showExport } from "./export.js";
 import { showHelp } from "./help.js";
@@ -12,6 +13,7 @@ import { showRename } from "./rename.js";
 export function mountDialogs(store) {
   const verbs = {
     startNew: () => showNew(),
+    gallery: () => showGallery(store),
     startImport: () => showImport(store),
     help: () => showHelp(),
     save: () => save(store),
@@ -26,6 +28,7 @@ export function mountDialogs(store) {
     byId(id).append(icon(name), ...(word ? [element("span", "word", word)] : []));
     byId(id).addEventListener("click", verb);
   };
+  put("gallery", "gallery", "", verbs.gallery);
   put("new", "new", "New", verbs.startNew);
   put("import", "import", "Import", verbs.startImport);
   put("export", "export", "Export", () => showExport(store));

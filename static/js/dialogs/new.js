@@ -20,7 +20,8 @@ const STEPS = {
   End: () => Infinity,
 };
 
-export async function showNew() {
+/** @param {string} name of the template that is chosen first; the first of all if there is none of it */
+export async function showNew(name = "") {
   const list = element("div", "templates");
   const detail = element("div", "template-detail");
   list.setAttribute("role", "listbox");
@@ -50,8 +51,9 @@ export async function showNew() {
     options[index].focus();
   });
   list.append(...options);
-  choose(0);
-  options[0].focus();
+  const first = Math.max(templates.findIndex((template) => template.name === name), 0);
+  choose(first);
+  options[first].focus();
 }
 
 /** @param {Template|null} template @param {() => void} onClick */

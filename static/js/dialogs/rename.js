@@ -7,10 +7,16 @@ const LONGEST_NAME = 63;
 const LONGEST_TITLE = 200;
 
 /** @param {import("../store.js").Store} store */
-export function showRename(store) {
+export async function showRename(store) {
   if (!store.state) return;
+  const title = await askTitle(store.state.drawing.title);
+  if (title) store.edit("Rename garment", (drawing) => Object.assign(drawing, { title, name: fileName(title) }));
+}
+
+/** Ask what a garment is to be called. @param {string} before @returns {Promise<string>} empty if nothing was said */
+export function askTitle(before) {
   const input = /** @type {HTMLInputElement} */ (element("input", "field title-field"));
-  input.value = store.state.drawing.title;
+  input.value = before;
   input.maxLength = LONGEST_TITLE;
   input.required = true;
   input.autocomplete = "off";
@@ -23,17 +29,19 @@ export function showRename(store) {
   const dialog = openDialog("Rename garment", "", form);
   input.select();
   input.focus();
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    const title = input.value.trim();
-    if (!title) return;
-    store.edit("Rename garment", (drawing) => Object.assign(drawing, { title, name: fileName(title) }));
-    dialog.close();
+  return new Promise((resolve) => {
+    let title = "";
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      title = input.value.trim();
+      if (title) dialog.close();
+    });
+    dialog.addEventListener("close", () => resolve(title));
   });
 }
 
 /** The name of a garment's file: small letters without accents, digits and dashes. @param {string} title */
-function fileName(title) {
+export function fileName(title) {
   const plain = title.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase();
   const dashed = plain.replace(/[^a-z0-9]+/g, "-").replace(/^-+/, "");
   return dashed.slice(0, LONGEST_NAME).replace(/-+$/, "") || "garment";

@@ -88,7 +88,7 @@ function counters(statistics) {
   const add = (name, value) => list.append(element("dt", "", name), element("dd", "", value));
   for (const [name, key] of COUNTERS) add(name, statistics[key].toLocaleString("en"));
   for (const [name, key] of TIMES) add(name, `${Math.round(1000 * statistics[key]).toLocaleString("en")} ms`);
-  return list;
+  return element("details", "search-figures", element("summary", "hint", "How it was found"), list);
 }
 
 /**

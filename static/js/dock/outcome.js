@@ -28,7 +28,7 @@ export class Outcome {
     this.numbers = element("section", "numbers");
     this.numbers.setAttribute("aria-label", "Numbers");
     this.place = new BestPlace(store);
-    this.none = new NoPlan(store);
+    this.none = new NoPlan();
     this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
     this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), "Look longer");
     this.longer.title = "Search on for a quicker plan, six times as long";
@@ -38,7 +38,7 @@ export class Outcome {
     this.refining = new Refining(store);
     for (const waiting of [this.planning, this.refining]) waiting.addEventListener("change", () => this.offerStop());
     this.offerStop();
-    const head = element("header", "dock-head", this.title, this.none.why, this.place.button, this.stop);
+    const head = element("header", "dock-head", this.title, this.place.button, this.stop);
     const plan = element("div", "plan-scroll", this.place.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
     this.title.tabIndex = -1;
@@ -70,7 +70,6 @@ export class Outcome {
     const { plan: message, state } = this.store;
     const plan = message?.plan?.status === "solved" ? message.plan : null;
     this.place.follow();
-    this.none.follow();
     if (message && message.status === "planning" && !plan) this.wait();
     else if (message && state && NO_PLAN.has(message.status)) this.showNone(message, state);
     else if (plan) this.showPlan(plan, message?.before ?? null);
@@ -114,6 +113,5 @@ export class Outcome {
     this.title.textContent = isNone ? "No plan" : "Plan";
     this.solved.hidden = isNone;
     this.none.root.hidden = !isNone;
-    if (!isNone) this.none.why.hidden = true;
   }
 }

@@ -1,16 +1,21 @@
 /** What a suggestion changes, made to a drawing. */
 
+import { freshId, insertFold } from "../board/edits.js";
+
 /** @import { Drawing, Fold, FoldEnd, GarmentFold, Point } from "pleat" */
 /** @import { Preview } from "../store.js" */
+
+/** @typedef {{index: number, name: string}} Added */
 
 const SAME_M = 1e-9;
 
 /**
  * @param {Drawing} drawing is altered
  * @param {Preview} change fields of a plan request, or the whole drawing as it is to be
+ * @param {Added|null} added the fold that the change adds
  * @returns {Drawing|void} another drawing in place of the altered one, if there is one
  */
-export function applyChange(drawing, change) {
+export function applyChange(drawing, change, added = null) {
   if (change.drawing) return structuredClone(change.drawing);
   drawing.placement = change.placement ?? drawing.placement;
   drawing.scene = change.scene ?? drawing.scene;
@@ -19,9 +24,20 @@ export function applyChange(drawing, change) {
   if (change.garment) {
     const before = drawing.grip_radius_m;
     drawing.grip_radius_m = change.garment.grip_radius_m ?? before;
+    if (added) insertFold(drawing, added.index, newFold(drawing, added.name));
     drawing.folds = changedFolds(drawing, change.garment.folds, before);
   }
 }
+
+/**
+ * A fold whose line is told with the others.
+ * @param {Drawing} drawing
+ * @param {string} name
+ */
+const newFold = ({ folds }, name) => {
+  const nowhere = { point: /** @type {Point} */ ([0, 0]), on: null };
+  return { id: freshId("f", folds), name, kind: /** @type {const} */ ("blue"), start: nowhere, end: nowhere };
+};
 
 /**
  * The drawing's folds in the order and along the lines of a garment's; those that stay keep their ties. Where the

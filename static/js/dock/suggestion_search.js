@@ -3,7 +3,7 @@
 import { sayable } from "../dom.js";
 import { eventStream } from "./event_stream.js";
 
-/** @import { DocumentState, GarmentFold, Pose, Says, SuggestionEvent } from "pleat" */
+/** @import { DocumentState, GarmentFold, Pose, Says, SuggestionEvent, TryingEvent } from "pleat" */
 /** @import { Preview } from "../store.js" */
 
 /**
@@ -16,6 +16,7 @@ import { eventStream } from "./event_stream.js";
  * @property {Preview} change
  * @property {number} size
  * @property {number|null} cost_s of the plan with the change; null if that is not known
+ * @property {string|null} plan_id of that plan
  */
 
 const ADDRESS = "../api/suggestions";
@@ -29,6 +30,8 @@ export class SuggestionSearch extends EventTarget {
     /** @type {SuggestionEvent[]} in the order of arrival */
     this.found = [];
     this.isRunning = false;
+    /** What is being tried. @type {TryingEvent|null} */
+    this.trying = null;
     /** Whether every change that could be tried was, before the work was done. */
     this.isComplete = false;
     this.fault = "";
@@ -39,9 +42,10 @@ export class SuggestionSearch extends EventTarget {
   /**
    * Search for a document's drawing, in place of what was searched for before. Tells "change" whenever there is news.
    * @param {DocumentState} state
-   * @param {{delay_ms?: number, work_s?: number}} how how long to wait first, and the work that the search may do
+   * @param {{delay_ms?: number, work_s?: number, known?: string}} how how long to wait first, the work that the search
+   *   may do, and the id of the answer to the drawing if it has one
    */
-  async start(state, { delay_ms = 0, work_s = WORK_S } = {}) {
+  async start(state, { delay_ms = 0, work_s = WORK_S, known = "" } = {}) {
     this.forget();
     const abort = new AbortController();
     this.abort = abort;
@@ -50,8 +54,10 @@ export class SuggestionSearch extends EventTarget {
     try {
       await rest(delay_ms, abort.signal);
       const asked = { ...request(state), time_limit_s: TIME_LIMIT_S, work_limit_s: work_s };
-      for await (const { event, data } of eventStream(ADDRESS, asked, abort.signal)) {
+      const address = known ? `${ADDRESS}?${new URLSearchParams({ known })}` : ADDRESS;
+      for await (const { event, data } of eventStream(address, asked, abort.signal)) {
         if (event === "done") this.isComplete = data.complete === true;
+        if (event === "trying") this.trying = data;
         if (event !== "suggestion") continue;
         this.found.push(data);
         this.tell();
@@ -73,6 +79,7 @@ export class SuggestionSearch extends EventTarget {
   forget() {
     this.abort?.abort();
     this.found = [];
+    this.trying = null;
     this.isRunning = false;
     this.isComplete = false;
     this.fault = "";
@@ -104,8 +111,8 @@ function rest(delay_ms, signal) {
 const SAME_M = 0.01;
 const WORTH_S = 1;
 
-/** What is easily done comes first. */
-const EASE = ["placement", "fold_line", "order", "station", "friction", "grip_radius", "comfort_radius"];
+/** What is easily done, and leaves the cloth folded as it is drawn, comes first. */
+const EASE = ["placement", "order", "split", "fold_line", "halve", "station", "friction", "grip_radius", "comfort_radius"];
 
 /**
  * The order in which suggestions are offered: of each kind the smallest change first, then those that save more; what

@@ -4,6 +4,7 @@ import { direction, moved } from "./directions.js";
 import { length, listed } from "./lengths.js";
 import { called, place } from "./names.js";
 
+/** @import { Says } from "pleat" */
 /** @import { Named } from "./names.js" */
 
 /** @typedef {{fold: number, by_m: number, towards: number[]}} Shift */
@@ -19,6 +20,8 @@ export const CHANGES = {
   },
   shift_fold: shiftFold,
   shift_folds: ({ shifts }, folds) => listed(shifts.map((/** @type {Shift} */ one) => shiftFold(one, folds))),
+  split_fold: ({ fold, depth_m: depth }, folds) => `do ${called(folds, fold)} in two, the outer ${length(depth)} first`,
+  halve_first: ({ fold }, folds) => `halve the cloth across ${called(folds, fold)} first`,
   fold_before: ({ fold, before }, folds) => `make ${called(folds, fold)} before ${called(folds, before)}`,
   fold_in_order: ({ folds: order }, folds) =>
     `fold in the order ${order.map((/** @type {number} */ index) => called(folds, index)).join(", ")}`,
@@ -53,3 +56,13 @@ function shiftFold({ fold, by_m: by, towards }, folds) {
 
 /** @param {number} number */
 const short = (number) => String(Number(number.toPrecision(3)));
+
+/** Kinds of help, in front of what would help. */
+export const HELP = { place: "Move the cloth", fold: "Change a fold", assume: "Assume" };
+
+/** The fold that a suggestion adds, and before which; null for none. @param {Says} says @param {Named[]} folds */
+export function addedFold({ code, fold }, folds) {
+  if (code === "halve_first") return { index: fold, name: "halve across" };
+  const name = folds[fold]?.name;
+  return code === "split_fold" ? { index: fold, name: name ? `${name}, outer part` : "outer part" } : null;
+}

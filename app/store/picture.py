@@ -1,0 +1,47 @@
+"""What a drawing looks like in small: its outline and its fold lines, for lists of documents and versions."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from planner.geometry.pose import Point2
+
+
+@dataclass(frozen=True, slots=True)
+class PictureFold:
+    """A fold line, article frame (m)."""
+
+    kind: Literal["blue", "red"]
+    start: Point2
+    end: Point2
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A drawing in small.
+
+    Attributes:
+        outline: the corners, article frame (m).
+        folds: the fold lines in the user's order.
+    """
+
+    outline: tuple[Point2, ...] = ()
+    folds: tuple[PictureFold, ...] = ()
+
+    @staticmethod
+    def of(drawing: Mapping[str, Any]) -> "Picture":
+        """Return the picture of a drawing as it is written in a file; an empty one if it is damaged."""
+        try:
+            outline = tuple(_point(corner["point"]) for corner in drawing["outline"])
+            folds = tuple(
+                PictureFold(fold["kind"], _point(fold["start"]["point"]), _point(fold["end"]["point"]))
+                for fold in drawing["folds"]
+            )
+        except (KeyError, TypeError, ValueError):
+            return Picture()
+        return Picture(outline, folds)
+
+
+def _point(pair: Any) -> Point2:  # noqa: ANN401
+    x, y = pair
+    return (float(x), float(y))

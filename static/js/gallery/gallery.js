@@ -1,0 +1,198 @@
+/** The gallery: one's documents, templates and examples as pictures; found by name, opened, copied, renamed, removed. */
+
+import { goTo, goToNew } from "../dialogs/documents.js";
+import { openDialog, OFFLINE, sentenceOf } from "../dialogs/dialog.js";
+import { showNew } from "../dialogs/new.js";
+import { button, element } from "../dom.js";
+import { listed } from "../garments.js";
+import { icon } from "../icons.js";
+import { Menu } from "../menu.js";
+import { Removal } from "./removal.js";
+import { renamed } from "./rename_document.js";
+import { garmentTile, tile, titleOf, when } from "./tile.js";
+import { showVersions } from "./versions.js";
+
+/** @import { DocumentEntry, GarmentEntry, Template } from "pleat" */
+
+const DOCUMENTS = "../api/documents";
+
+/** @param {import("../store.js").Store} store */
+export function showGallery(store) {
+  const gallery = new Gallery(store);
+  gallery.load();
+}
+
+class Gallery {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    this.search = /** @type {HTMLInputElement} */ (element("input", "field gallery-search"));
+    this.search.type = "search";
+    this.search.placeholder = "Find a garment";
+    this.search.setAttribute("aria-label", "Find a garment");
+    this.search.addEventListener("input", () => this.filter());
+    this.own = row("Yours");
+    this.templates = row("Templates, by measures");
+    this.examples = row("Examples");
+    this.said = element("p", "dialog-problem");
+    this.said.setAttribute("role", "alert");
+    this.none = element("p", "dialog-text", "Nothing has that name.");
+    this.none.hidden = true;
+    const rows = [this.own, this.templates, this.examples].map(({ root }) => root);
+    this.removal = new Removal((sentence) => this.say(sentence), () => this.loadOwn());
+    const body = element("div", "gallery", this.search, this.removal.root, this.said, ...rows, this.none);
+    this.dialog = openDialog("Garments", "is-wide is-gallery", body);
+    this.menu = new Menu();
+    this.dialog.append(this.menu.root); // what is beside an open dialog can not be pressed
+    this.dialog.addEventListener("close", () => this.removal.finish());
+    this.dialog.addEventListener("keydown", (event) => this.onKey(event));
+    this.search.focus();
+  }
+
+  async load() {
+    const blank = tile("Blank board", "", [], [], () => this.make({}, "outline"));
+    await Promise.all([
+      this.loadOwn(),
+      fetched("../api/templates").then((/** @type {Template[]} */ found) =>
+        this.templates.list.replaceChildren(
+          blank,
+          ...found.map(({ name, title, outline, folds }) => tile(title, "", outline, folds, () => this.fromTemplate(name))),
+        ),
+      ),
+      fetched("../api/garments").then((/** @type {GarmentEntry[]} */ found) =>
+        this.examples.list.replaceChildren(
+          ...found.map((entry) => garmentTile(entry, () => this.make({ garment: entry.name }))),
+        ),
+      ),
+    ]);
+    this.filter();
+  }
+
+  async loadOwn() {
+    /** @type {DocumentEntry[]} */
+    const found = await listed(DOCUMENTS, []);
+    const shown = found.filter(({ id, problem }) => problem === null && id !== this.removal.id);
+    this.own.list.replaceChildren(...shown.map((entry) => this.ownTile(entry)));
+    this.filter();
+  }
+
+  /** @param {DocumentEntry} entry */
+  ownTile(entry) {
+    const isOpen = entry.id === this.store.id;
+    const { outline, folds } = entry.picture ?? { outline: [], folds: [] };
+    const about = isOpen ? "open now" : when(entry.changed_at);
+    const open = tile(titleOf(entry), about, outline, folds, () => (isOpen ? this.dialog.close() : goTo(entry.id)));
+    const more = button("icon-button is-dense tile-more", () => this.openMenu(entry, more), icon("more"));
+    more.setAttribute("aria-label", `More for ${titleOf(entry)}`);
+    more.setAttribute("aria-haspopup", "menu");
+    open.addEventListener("contextmenu", (event) => {
+      event.preventDefault();
+      this.openMenu(entry, more);
+    });
+    const made = element("div", "tile-own", open, more);
+    made.dataset.title = titleOf(entry);
+    return made;
+  }
+
+  /** @param {DocumentEntry} entry @param {HTMLElement} opener */
+  openMenu(entry, opener) {
+    const isOpen = entry.id === this.store.id;
+    const { left, bottom } = opener.getBoundingClientRect();
+    /** @param {string} text @param {() => void} choose */
+    const verb = (text, choose, isOff = false, hint = "") => ({ text, hint, isOff, choose });
+    const verbs = [
+      verb("Duplicate", () => this.duplicate(entry)),
+      verb("Rename", () => this.rename(entry)),
+      verb("Versions", () => showVersions(this.store, entry)),
+      verb("Delete", () => this.remove(entry), isOpen, isOpen ? "It is open" : ""),
+    ];
+    this.menu.open(titleOf(entry), verbs, opener, { x: left, y: bottom });
+  }
+
+  /** @param {DocumentEntry} entry */
+  async duplicate({ id }) {
+    const answer = await sent(DOCUMENTS, "POST", { copy_of: id });
+    if (await this.isDone(answer)) this.loadOwn();
+  }
+
+  /** @param {DocumentEntry} entry */
+  async rename(entry) {
+    const answer = await renamed(entry);
+    if (answer === undefined) return;
+    if (await this.isDone(answer)) this.loadOwn();
+  }
+
+  /** @param {DocumentEntry} entry */
+  remove(entry) {
+    this.removal.begin(entry.id, titleOf(entry));
+    this.loadOwn();
+  }
+
+  /** @param {string} name of a template */
+  fromTemplate(name) {
+    this.dialog.close();
+    showNew(name);
+  }
+
+  /** @param {{garment?: string}} wanted */
+  async make(wanted, tool = "") {
+    const answer = await goToNew(wanted, tool).catch(() => null);
+    await this.isDone(answer);
+  }
+
+  /** @param {Response|null} answer */
+  async isDone(answer) {
+    this.say(!answer ? OFFLINE : answer.ok ? "" : sentenceOf(await answer.json()));
+    return Boolean(answer?.ok);
+  }
+
+  /** @param {string} sentence */
+  say(sentence) {
+    this.said.textContent = sentence;
+  }
+
+  /** Show what has the words of the search in its title. */
+  filter() {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let count = 0;
+    for (const { root, list } of [this.own, this.templates, this.examples]) {
+      const tiles = /** @type {HTMLElement[]} */ ([...list.children]);
+      for (const one of tiles) one.hidden = !words.every((word) => one.dataset.title?.toLowerCase().includes(word));
+      const shown = tiles.filter((one) => !one.hidden).length;
+      root.hidden = shown === 0;
+      count += shown;
+    }
+    this.none.hidden = count > 0;
+  }
+
+  /** Arrow keys lead from tile to tile, Enter in the search opens the first that is found. @param {KeyboardEvent} event */
+  onKey(event) {
+    const tiles = /** @type {HTMLElement[]} */ ([...this.dialog.querySelectorAll(".tile")]).filter((one) => one.offsetParent);
+    if (event.key === "Enter" && event.target === this.search) return tiles[0]?.click();
+    const by = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 1, ArrowUp: -1 }[event.key];
+    const index = tiles.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+    const isFromSearch = event.target === this.search && event.key === "ArrowDown";
+    if (!by || (index < 0 && !isFromSearch)) return;
+    event.preventDefault();
+    tiles[(index + by + tiles.length) % tiles.length]?.focus();
+  }
+}
+
+/** A row of tiles under a heading. @param {string} title */
+function row(title) {
+  const list = element("div", "tiles");
+  const root = element("section", "gallery-row", element("h3", "", title), list);
+  list.setAttribute("role", "group");
+  list.setAttribute("aria-label", title);
+  return { root, list };
+}
+
+/** @param {string} address */
+const fetched = (address) =>
+  fetch(address)
+    .then((answer) => (answer.ok ? answer.json() : []))
+    .catch(() => []);
+
+/** @param {string} address @param {string} method @param {any} body @returns {Promise<Response|null>} */
+export const sent = (address, method, body) =>
+  fetch(address, { method, headers: { "content-type": "application/json" }, body: JSON.stringify(body) }).catch(() => null);

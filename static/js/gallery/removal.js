@@ -1,0 +1,55 @@
+/** A document that is deleted: for a while it can be had back, and only then it is removed for good. */
+
+import { button, element } from "../dom.js";
+
+/** How long it can be had back (ms). */
+const REGRET_MS = 8000;
+
+export class Removal {
+  /** @param {(sentence: string) => void} onFault @param {() => void} onBack */
+  constructor(onFault, onBack) {
+    this.onFault = onFault;
+    this.onBack = onBack;
+    /** @type {string|null} the document's */
+    this.id = null;
+    this.timer = 0;
+    this.words = element("span", "");
+    this.root = element("p", "removal", this.words, button("chip", () => this.takeBack(), "Undo"));
+    this.root.setAttribute("role", "status");
+    this.root.hidden = true;
+    addEventListener("pagehide", () => this.finish());
+  }
+
+  /** @param {string} id @param {string} title */
+  begin(id, title) {
+    this.finish();
+    this.id = id;
+    this.words.textContent = `\u201C${title}\u201D is deleted.`;
+    this.root.hidden = false;
+    this.timer = setTimeout(() => this.finish(), REGRET_MS);
+  }
+
+  takeBack() {
+    clearTimeout(this.timer);
+    this.id = null;
+    this.root.hidden = true;
+    this.onBack();
+  }
+
+  /** Remove it for good. */
+  finish() {
+    const { id } = this;
+    clearTimeout(this.timer);
+    this.root.hidden = true;
+    if (id === null) return;
+    this.id = null;
+    fetch(`../api/documents/${id}`, { method: "DELETE", keepalive: true })
+      .then((answer) => answer.ok || this.fail())
+      .catch(() => this.fail());
+  }
+
+  fail() {
+    this.onFault("It could not be deleted, and is still there.");
+    this.onBack();
+  }
+}

@@ -1,0 +1,46 @@
+/** A tile of the gallery: a picture, a title, and a word about it. */
+
+import { picture } from "../dialogs/picture.js";
+import { button, element } from "../dom.js";
+
+/** @import { DocumentEntry, Garment, GarmentEntry, Point } from "pleat" */
+
+/**
+ * @param {string} title
+ * @param {string} about
+ * @param {Point[]} outline
+ * @param {{kind: string, start: Point, end: Point}[]} folds
+ * @param {() => void} onClick
+ */
+export function tile(title, about, outline, folds, onClick) {
+  const words = [element("span", "tile-title", title), ...(about ? [element("span", "tile-about", about)] : [])];
+  const made = button("tile", onClick, picture(outline, folds), ...words);
+  made.dataset.title = title;
+  made.title = title;
+  return made;
+}
+
+/** A garment of which a new document is made; its picture comes by itself. @param {GarmentEntry} entry @param {() => void} onClick */
+export function garmentTile({ name, title, shipped }, onClick) {
+  const made = tile(title, shipped ? "" : "your garment", [], [], onClick);
+  fetch(`../api/garments/${name}`)
+    .then((answer) => (answer.ok ? answer.json() : null))
+    .then((/** @type {Garment|null} */ garment) => {
+      if (garment) made.firstElementChild?.replaceWith(picture(garment.outline, garment.folds));
+    })
+    .catch(() => {});
+  return made;
+}
+
+/** @param {Pick<DocumentEntry, "title"|"name">} entry */
+export const titleOf = ({ title, name }) => title || name;
+
+/** When something was changed, as people say it; empty where that is not known. @param {string} changedAt */
+export function when(changedAt) {
+  if (!changedAt) return "";
+  const moment = new Date(changedAt);
+  const isToday = moment.toDateString() === new Date().toDateString();
+  return isToday
+    ? moment.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })
+    : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
+}

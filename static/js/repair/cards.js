@@ -1,0 +1,125 @@
+/** The cards of the repair strip: one place for each kind of help, and all others on demand. */
+
+import { button, element } from "../dom.js";
+import { ranked } from "../dock/suggestion_search.js";
+import { HELP } from "../messages/changes.js";
+import { card, GROUPS, groupOf } from "./card.js";
+
+/** @import { Suggestion } from "../dock/suggestion_search.js" */
+/** @import { SuggestionEvent } from "pleat" */
+
+const SHOWN_MAX = 3;
+
+/** What each card offers. @type {WeakMap<Element, Suggestion>} */
+const OFFERED = new WeakMap();
+
+export class Cards {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    this.root = element("div", "cards");
+    this.root.setAttribute("role", "group");
+    this.root.setAttribute("aria-label", "Suggestions");
+    this.root.addEventListener("keydown", (event) => this.step(event));
+    this.more = button("chip more-cards", () => this.showAll(!this.isAll));
+    this.more.hidden = true;
+    this.isAll = false;
+    /** @type {Suggestion[]} the best first */
+    this.order = [];
+    this.isRunning = false;
+    for (const name of ["pointerleave", "focusout"]) this.root.addEventListener(name, () => this.draw());
+  }
+
+  /** The number of changes found. */
+  get count() {
+    return this.order.length;
+  }
+
+  clear() {
+    this.root.replaceChildren();
+  }
+
+  /**
+   * @param {Suggestion[]} quickFixes
+   * @param {SuggestionEvent[]} found
+   * @param {boolean} isRunning
+   */
+  show(quickFixes, found, isRunning) {
+    this.order = [...quickFixes, ...ranked(found)];
+    this.isRunning = isRunning;
+    if (!this.order.length) this.isAll = false;
+    if (!this.isUnderHand()) this.draw();
+  }
+
+  /** Whether somebody is about to press a card: it stays where it is as long as it holds. */
+  isUnderHand() {
+    return this.order.length > 0 && this.root.querySelector("button") !== null && this.root.matches(":hover, :focus-within");
+  }
+
+  draw() {
+    const shown = this.isAll ? this.order : this.chosen();
+    const first = shown[0];
+    /** @type {HTMLElement[]} */
+    const cards = shown.map((one) => this.made(one, one === first));
+    const isWaiting = this.isRunning && !this.isAll;
+    const missing = isWaiting ? GROUPS.filter((group) => !shown.some((one) => groupOf(one) === group)) : [];
+    const slots = missing.map((group) => empty(group));
+    const all = isWaiting ? [...cards, ...slots].sort((a, b) => place(a) - place(b)) : cards;
+    const isSame = all.length === this.root.children.length && all.every((one, n) => isAlike(one, this.root.children[n]));
+    if (!isSame) this.root.replaceChildren(...all);
+    this.root.hidden = !all.length;
+    const others = this.order.length - this.chosen().length;
+    this.more.hidden = others <= 0;
+    this.more.textContent = this.isAll ? "Fewer" : `${others} more`;
+  }
+
+  /** The best of each kind of help; where a kind has none, more of the others. */
+  chosen() {
+    const firsts = GROUPS.flatMap((group) => this.order.find((one) => groupOf(one) === group) ?? []);
+    const others = this.isRunning ? [] : this.order.filter((one) => !firsts.includes(one));
+    return [...firsts, ...others].slice(0, SHOWN_MAX);
+  }
+
+  /** The card there is already, so that a hand on it stays there, or a new one. @param {Suggestion} one @param {boolean} isFirst */
+  made(one, isFirst) {
+    const known = [...this.root.children].find((child) => OFFERED.get(child) === one);
+    const made = /** @type {HTMLElement} */ (known ?? card(this.store, one));
+    OFFERED.set(made, one);
+    made.classList.toggle("is-first", isFirst);
+    return made;
+  }
+
+  /** @param {boolean} isAll */
+  showAll(isAll) {
+    this.isAll = isAll;
+    this.draw();
+  }
+
+  /** Arrow keys lead from card to card. @param {KeyboardEvent} event */
+  step(event) {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const cards = [...this.root.querySelectorAll("button")];
+    const index = cards.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    if (!by || index < 0) return;
+    event.preventDefault();
+    event.stopPropagation();
+    cards[(index + by + cards.length) % cards.length].focus();
+  }
+}
+
+/** Where a card of one kind of help will be. @param {typeof GROUPS[number]} group */
+function empty(group) {
+  const made = element("div", "card is-empty");
+  made.dataset.group = group;
+  made.dataset.title = HELP[group];
+  made.setAttribute("aria-hidden", "true");
+  return made;
+}
+
+/** @param {HTMLElement} one */
+const place = ({ dataset }) => GROUPS.findIndex((group) => group === dataset.group);
+
+/** @param {HTMLElement} one @param {Element} other */
+const isAlike = (one, other) =>
+  one === other ||
+  (one.matches(".is-empty") && other.matches(".is-empty") && one.dataset.group === /** @type {HTMLElement} */ (other).dataset.group);

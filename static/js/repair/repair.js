@@ -1,0 +1,135 @@
+/**
+ * The repair strip over the board: why there is no plan, what would help as up to three cards that come while it is
+ * looked for, and what is being tried until then. Each place of a card is for one kind of help, so that no card moves
+ * while others come.
+ */
+
+import { button, element } from "../dom.js";
+import { QuickFixes } from "../dock/quick_fixes.js";
+import { explanation, NO_PLAN } from "../dock/reasons.js";
+import { SuggestionSearch } from "../dock/suggestion_search.js";
+import { icon } from "../icons.js";
+import { Cards } from "./cards.js";
+import { SearchNote } from "./search_note.js";
+
+/** @import { DocumentState, PlanMessage } from "pleat" */
+
+/** How long a drawing rests before help is looked for (ms). */
+const REST_MS = 300;
+/** How long is looked when that is asked for: some changes take long to be proven (s). */
+const LONG_S = 60;
+const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
+
+export class Repair extends EventTarget {
+  /** @param {import("../store.js").Store} store @param {HTMLElement} pane */
+  constructor(store, pane) {
+    super();
+    this.store = store;
+    this.search = new SuggestionSearch();
+    this.quickFixes = new QuickFixes(store);
+    /** @type {number|null|undefined} the version that is searched for; undefined before any is known */
+    this.searched = undefined;
+    /** Whether more time was given to the search. */
+    this.isLong = false;
+    this.sentence = element("p", "reason");
+    this.note = new SearchNote(store, this.search);
+    this.cards = new Cards(store);
+    this.again = button("chip", () => store.command({ do: "plan" }), "Plan again");
+    this.onward = button("chip", () => store.command({ do: "look_longer" }), "Look longer for a plan");
+    this.onward.title = "Search on for a plan, six times as long";
+    this.longer = button("chip look-longer", () => this.lookLonger());
+    this.fold = button("icon-button is-small repair-fold", () => this.unfold(!this.isOpen), icon("back"));
+    const head = element("div", "repair-head", this.sentence, this.again, this.onward, this.longer, this.cards.more, this.fold);
+    this.body = element("div", "repair-body", this.cards.root, this.note.root);
+    this.root = element("section", "repair", head, this.body);
+    this.root.setAttribute("aria-label", "No plan");
+    this.root.hidden = true;
+    pane.append(this.root);
+    for (const source of [this.search, this.quickFixes]) source.addEventListener("change", () => this.showFound());
+    for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.follow());
+    addEventListener("unit", () => this.reword());
+    this.unfold(true);
+  }
+
+  get isOpen() {
+    return !this.body.hidden;
+  }
+
+  /** How much of the board it covers (px). */
+  get height() {
+    return this.root.hidden ? 0 : this.root.offsetHeight + this.root.offsetTop;
+  }
+
+  /** To the first card, or back. */
+  takeFocus() {
+    if (this.root.hidden) return;
+    this.unfold(true);
+    /** @type {HTMLElement} */ (this.cards.root.querySelector("button") ?? this.fold).focus();
+  }
+
+  /** Search, or ask for quick fixes, while the drawing rests without a plan; anything else ends it. */
+  follow() {
+    this.quickFixes.follow();
+    const { plan: message, state } = this.store;
+    const isAnswered = state && message?.version === state.version && !state.gesture;
+    if (message && state) this.show(message, state);
+    const resting = isAnswered && SEARCHABLE.has(message.status) ? state : null;
+    const wanted = resting && resting.version;
+    if (wanted === this.searched) return;
+    this.searched = wanted;
+    this.isLong = false;
+    if (resting) this.search.start(resting, { delay_ms: REST_MS, known: message?.plan?.id });
+    else this.search.stop();
+  }
+
+  /** While the next answer is being worked out, what was said before stays. @param {PlanMessage} message @param {DocumentState} state */
+  show(message, state) {
+    if (message.status === "planning" || message.version !== state.version) return;
+    const isBlank = !state.drawing.outline.length;
+    const wasHidden = this.root.hidden;
+    this.root.hidden = isBlank || !NO_PLAN.has(message.status);
+    document.body.classList.toggle("has-repair", !this.root.hidden);
+    if (!this.root.hidden) this.sentence.textContent = explanation(message, state);
+    this.again.hidden = message.status !== "failed";
+    this.onward.hidden = !message.may_look_longer;
+    if (wasHidden !== this.root.hidden) this.tell();
+  }
+
+  /** What has lengths in it is made anew. */
+  reword() {
+    this.cards.clear();
+    const { plan: message, state } = this.store;
+    if (message && state) this.show(message, state);
+    this.showFound();
+  }
+
+  showFound() {
+    const { found, isRunning, fault } = this.search;
+    this.cards.show(this.quickFixes.found, found, isRunning);
+    this.note.show(this.cards.count, typeof this.searched === "number");
+    const isNothing = !isRunning && !this.cards.count && typeof this.searched === "number";
+    this.longer.hidden = !isNothing || (this.isLong && !fault);
+    this.longer.textContent = fault ? "Look again" : "Look longer";
+    this.tell();
+  }
+
+  lookLonger() {
+    this.isLong = true;
+    const { state, plan: message } = this.store;
+    if (state) this.search.start(state, { work_s: LONG_S, known: message?.plan?.id });
+  }
+
+  /** @param {boolean} isOpen */
+  unfold(isOpen) {
+    this.body.hidden = !isOpen;
+    this.fold.setAttribute("aria-expanded", String(isOpen));
+    this.fold.setAttribute("aria-label", isOpen ? "Hide what would help" : "Show what would help");
+    this.fold.title = this.fold.getAttribute("aria-label") ?? "";
+    this.tell();
+  }
+
+  /** It covers more of the board, or less. */
+  tell() {
+    this.dispatchEvent(new Event("change"));
+  }
+}

@@ -1,0 +1,92 @@
+"""Where there is no plan, a strip over the board says why and fills with cards of what would help."""
+
+import json
+import re
+from collections.abc import Callable
+
+from playwright.sync_api import Page, Route, expect
+
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.searches import SEARCH_MS
+from tests.browser.status_pill import expect_planned
+
+APRON = {
+    "name": "apron",
+    "outline": [
+        [0, 0],
+        [0.7, 0],
+        [0.7, 0.5],
+        [0.56, 0.58],
+        [0.5, 0.9],
+        [0.35, 0.88],
+        [0.2, 0.9],
+        [0.14, 0.58],
+        [0, 0.5],
+    ],
+    "folds": [{"name": "half", "kind": "blue", "start": [0.35, 0.0], "end": [0.35, 0.88]}],
+}
+
+
+def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one_undo(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(APRON)
+    page.goto(sheet.page_url)
+    expect(page.locator(".repair .reason")).to_contain_text("Half: needs more hands than there are")
+    expect(page.locator(".search-words")).to_contain_text(re.compile("Trying: |Looking for"))
+    expect(page.locator(".grip-span")).to_have_count(2)
+    expect(page.get_by_text("no hand left")).to_be_visible()
+    expect(page.locator(".robot-name")).to_contain_text("front")
+    split = page.get_by_role("button", name=re.compile("in two, the outer"))
+    expect(split.first).to_be_visible(timeout=SEARCH_MS)
+    expect(split.first.locator(".picture-layer")).not_to_have_count(0)
+    page.keyboard.press("h")
+    expect(split.first).to_be_focused()
+    expect(page.locator(".fold.is-preview")).to_have_count(2)
+    page.keyboard.press("Enter")
+    expect_planned(page)
+    assert sheet.fold_names == ["half, outer part", "half"]
+    expect(page.locator(".repair")).to_be_hidden()
+    page.keyboard.press("Control+z")
+    expect(page.locator(".repair")).to_be_visible()
+    assert sheet.fold_names == ["half"]
+
+
+def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    def some(route: Route) -> None:
+        says = {"code": "assume_friction", "friction": 1.5, "now": 1.0}
+        events = [
+            {"kind": "friction", "is_assumption": True, "says": says, "change": {}, "size": 0.5, "cost_s": 20.0},
+            {"kind": "split", "is_assumption": False, "change": {}, "size": 1.0, "cost_s": 38.5}
+            | {"says": {"code": "split_fold", "fold": 0, "depth_m": 0.175}},
+            *(
+                {
+                    "kind": "placement",
+                    "is_assumption": False,
+                    "change": {"placement": place},
+                    "size": 0.1,
+                    "cost_s": cost,
+                }
+                | {"says": {"code": "place", "quarters": 0, "by": [0.1, 0.0]}}
+                for place, cost in (
+                    ({"x_m": 0.1, "y_m": 0.0, "yaw_rad": 0.0}, 30.0),
+                    ({"x_m": 0.5, "y_m": 0.0, "yaw_rad": 0.0}, 25.0),
+                )
+            ),
+        ]
+        told = [{**event, "message": "RUBBISH", "plan_id": "gone"} for event in events]
+        lines = [f"event: suggestion\ndata: {json.dumps(event)}\n\n" for event in told]
+        done = 'event: done\ndata: {"count": 4, "elapsed_s": 1.0, "complete": true}\n\n'
+        route.fulfill(content_type="text/event-stream", body="".join(lines) + done)
+
+    page.route("**/api/suggestions*", some)
+    page.goto(new_sheet(APRON).page_url)
+    cards = page.get_by_role("group", name="Suggestions").get_by_role("button")
+    expect(cards).to_have_count(3)
+    kinds = [card.get_attribute("data-title") for card in cards.all()]
+    assert kinds == ["Move the cloth", "Change a fold", "Assume"]
+    page.get_by_role("button", name="1 more").click()
+    expect(cards).to_have_count(4)
+    assert "RUBBISH" not in page.locator("body").inner_text()
