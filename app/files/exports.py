@@ -8,8 +8,11 @@ from typing import Any
 from app.document_state import DocumentState
 from app.drawing.solve import garment_of
 from app.files.fold_format import fold_format
+from app.files.instruction_sheet import instruction_sheet
 from app.files.plan_table import plan_table
 from app.files.recording import recording
+from app.files.sheet_pdf import page_pdf
+from app.files.sheet_svg import page_svg
 from app.files.svg_drawing import svg_drawing
 from app.jobs.job_pool import ShouldStop
 from planner.cloth.garment import Garment
@@ -58,8 +61,7 @@ class Export:
 
     def file(self, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
         """Return the file; raise `UnavailableFileError` if it cannot be made now."""
-        reason = self.why_not(state)
-        if reason is not None:
+        if (reason := self.why_not(state)) is not None:
             raise UnavailableFileError(reason.text)
         return self.make(state, rate_hz, should_stop)
 
@@ -119,9 +121,8 @@ def _no_plan(state: DocumentState) -> Message | None:
     plan = _plan(state)
     if plan.is_solved:
         return None
-    if not plan.reasons:
+    if not (first := next(iter(plan.reasons), None)):
         return Message.plain("There is no plan: the planner ran out of time.")
-    first = plan.reasons[0]
     values = {"fold": first.fold, "message": first.message, "says": first.says.to_dict()}
     return Message("no_plan", f"There is no plan: {first.message}.", values)
 
@@ -212,11 +213,29 @@ EXPORTS = (
     Export(
         "plan.csv",
         "Plan (CSV)",
-        "A row for each primitive: times, the base, and each hand's points as table and base see them.",
+        "A row for each step: times, the base, and each hand's points as table and base see them.",
         "-plan.csv",
         "text/csv; charset=utf-8",
         _no_plan,
         _plan_csv,
+    ),
+    Export(
+        "sheet.pdf",
+        "Instruction sheet (PDF)",
+        "The steps on one page to print: a numbered picture each, where the hands go, and from where.",
+        "-steps.pdf",
+        "application/pdf",
+        _no_plan,
+        lambda state, *_: page_pdf(instruction_sheet(_plan(state))),
+    ),
+    Export(
+        "sheet.svg",
+        "Instruction sheet (SVG)",
+        "The same page for any drawing program.",
+        "-steps.svg",
+        "image/svg+xml",
+        _no_plan,
+        lambda state, *_: page_svg(instruction_sheet(_plan(state))),
     ),
     Export(
         "recording.html",

@@ -68,7 +68,7 @@ async def test_versions_are_the_steps_with_their_times_and_drawings(client: http
     path = f"/api/documents/{first['id']}"
     assert (await client.get(f"{path}/versions")).json() == []
     second = (await put(client, first, moved(first, -0.02))).json()
-    await put(client, second, moved(second, -0.02))
+    await put(client, second, moved(second, -0.03))
     found = (await client.get(f"{path}/versions")).json()
     assert [version["drawing"] for version in found] == [second["drawing"], first["drawing"]]
     assert [bool(version["label"]) for version in found] == [True, False]

@@ -11,7 +11,16 @@ from tests.app.test_garbage import BODIES, assert_problem
 
 pytestmark = pytest.mark.anyio
 
-FILES = ["garment.json", "garment.svg", "garment.fold", "plan.json", "plan.csv", "recording.html"]
+FILES = [
+    "garment.json",
+    "garment.svg",
+    "garment.fold",
+    "plan.json",
+    "plan.csv",
+    "sheet.pdf",
+    "sheet.svg",
+    "recording.html",
+]
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'
     b'<rect width="40" height="30"/><line x1="40" y1="15" x2="0" y2="15" stroke="blue"/></svg>'
