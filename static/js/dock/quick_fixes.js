@@ -53,9 +53,5 @@ export class QuickFixes extends EventTarget {
  * @returns {Suggestion}
  */
 function suggestion(message, says, change) {
-<<<<<<< HEAD:static/js/dock/quick_fixes.js
-  return { kind: "quick_fix", is_assumption: false, message, says, change, size: 0, cost_s: null };
-=======
-  return { kind: "mend", is_assumption: false, message, says, change, size: 0, cost_s: null, plan_id: null };
->>>>>>> a4a4807 (Where there is no plan a strip over the board shows why and fills with cards that help; a gallery shows all garments):static/js/dock/mending.js
+  return { kind: "quick_fix", is_assumption: false, message, says, change, size: 0, cost_s: null, plan_id: null };
 }
