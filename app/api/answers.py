@@ -187,6 +187,14 @@ class PlanAnswer(BaseModel):
     statistics: Statistics
 
 
+class PictureAnswer(BaseModel):
+    """Cloth and base between two steps, from above: layers in the article frame (m), bottom to top."""
+
+    layers: list[LayerAnswer]
+    placement: Pose2
+    base: BaseStop
+
+
 class SampleAnswer(BaseModel):
     """The robot at one moment."""
 

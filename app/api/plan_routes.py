@@ -9,7 +9,7 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from app import searches
-from app.api.answers import DagAnswer, PlanAnswer, TimelineAnswer
+from app.api.answers import DagAnswer, PictureAnswer, PlanAnswer, TimelineAnswer
 from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
 from app.api.body import JsonBody, read_object
 from app.api.described import DescribedRoute, problems
@@ -110,6 +110,13 @@ async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30
     return Response(sampled, media_type="application/json")
 
 
+@router.get("/plans/{plan_id}/pictures", responses={200: {"model": list[PictureAnswer]}, **problems(404)})
+async def read_pictures(request: Request, plan_id: str) -> JSONResponse:
+    """Return cloth and base before each step of a plan and after the last, as seen from above."""
+    plan = workspace_of(request).plans.plan(plan_id)
+    return JSONResponse(await run_in_threadpool(_pictures, plan))
+
+
 def plan_answer(plan_id: str, plan: Plan) -> dict[str, Any]:
     """Return a plan in its REST form."""
     return {"id": plan_id, **plan.answer()}
@@ -120,6 +127,18 @@ async def _plan_file(plan: Plan) -> Response:
     text = await run_in_threadpool(lambda: json.dumps(plan.to_dict()))
     name = f'attachment; filename="{plan.garment.name}.plan.json"'
     return Response(text, media_type=PLAN_FILE_TYPE, headers={"Content-Disposition": name, "Vary": "Accept"})
+
+
+def _pictures(plan: Plan) -> list[dict[str, Any]]:
+    worlds = [*(step.before for step in plan.steps), plan.end]
+    return [
+        {
+            "layers": [layer.to_dict() for layer in plan.sequence.cloth(world.done).layers],
+            "placement": world.placement.to_dict(),
+            "base": world.base.to_dict(),
+        }
+        for world in worlds
+    ]
 
 
 def _imported(workspace: Workspace, data: dict[str, Any], should_stop: ShouldStop) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import { mountAssumptions } from "./assumptions.js";
 import { boardKeys, mountBoard } from "./board/mount_board.js";
+import { mountCoach } from "./coach.js";
 import { mountDialogs } from "./dialogs/mount_dialogs.js";
 import { mountDock } from "./dock/dock.js";
 import { mountStatus } from "./dock/status.js";
@@ -16,6 +17,7 @@ import { mountSplitter } from "./splitter.js";
 import { mountStagePlay } from "./stage_play.js";
 import { mountStage } from "./stage.js";
 import { Repair } from "./repair/repair.js";
+import { StepPictures } from "./step_pictures.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
 
@@ -26,7 +28,8 @@ const togglePlay = () => store.command({ do: store.playback?.playing ? "pause" :
 
 mountStatus(store, byId("status"));
 mountAssumptions(store, byId("assumptions"));
-mountDock(store);
+const pictures = new StepPictures(store);
+mountDock(store, pictures);
 mountGarments(store);
 mountSplitter();
 mountPhone();
@@ -34,6 +37,8 @@ const dialogs = mountDialogs(store);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
 const repair = new Repair(store, byId("board"));
 board.cover(repair);
+board.play(pictures);
+mountCoach(board);
 const verbs = {
   undo: () => board.takeBack() || store.undo(),
   redo: () => board.tool.isBusy || store.redo(),

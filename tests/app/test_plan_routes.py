@@ -39,6 +39,17 @@ async def test_the_timeline_ends_exactly_at_the_cost(client: httpx.AsyncClient) 
     assert len(timeline["samples"][0]["joints"]) == 20
 
 
+async def test_pictures_show_cloth_and_base_before_each_step_and_at_the_end(client: httpx.AsyncClient) -> None:
+    plan = (await client.post("/api/plans", json={"garment": towel()})).json()
+    pictures = (await client.get(f"/api/plans/{plan['id']}/pictures")).json()
+    assert len(pictures) == len(plan["primitives"]) + 1
+    assert [len(picture["layers"]) for picture in (pictures[0], pictures[-1])] == [1, 2]
+    assert pictures[-1]["layers"] == plan["final_layers"]
+    assert pictures[-1]["placement"] == plan["final_placement"]
+    assert pictures[-1]["base"] == plan["primitives"][-1]["base"]
+    assert (await client.get("/api/plans/unknown/pictures")).status_code == 404
+
+
 @pytest.mark.parametrize("rate", ["0", "0.5", "201", "nan", "inf", "many", "", "-1"])
 async def test_a_rate_out_of_range_names_the_parameter(client: httpx.AsyncClient, rate: str) -> None:
     plan = (await client.post("/api/plans", json={"garment": towel()})).json()

@@ -37,6 +37,7 @@ export type Playback = Schemas["PlaybackAnswer"];
 export type Plan = Schemas["PlanOnShow"];
 export type PlanStart = Schemas["WorldState"];
 export type PlanBefore = Schemas["PlanBefore"];
+export type StepPicture = Schemas["PictureAnswer"];
 export type Primitive = Plan["primitives"][number];
 export type Reason = Schemas["ReasonAnswer"];
 export type Statistics = Schemas["Statistics"];

@@ -2,8 +2,8 @@
 
 import { button, element } from "../dom.js";
 
-/** Tools that need no cloth to begin with. */
-const DRAWING = new Set(["outline", "photo", "measure"]);
+/** Tools at which it stands: of a board with nothing on it there is nothing to select. */
+const BESIDE = new Set(["select", "outline"]);
 
 export class Blank {
   /** @param {import("./board.js").Board} board @param {{startNew: () => void, startImport: () => void}} verbs */
@@ -12,12 +12,10 @@ export class Blank {
     this.root = element(
       "div",
       "blank",
-      element("p", "blank-title", "Nothing is drawn yet"),
-      element("p", "", "Click corner after corner, or begin with a garment that is nearly right."),
+      element("p", "", "Draw, or begin with a garment that is nearly right:"),
       element(
         "div",
         "blank-buttons",
-        button("main-button", () => board.choose("outline"), "Draw an outline"),
         button("plain-button", startNew, "From a template"),
         button("plain-button", startImport, "From a file"),
       ),
@@ -25,12 +23,21 @@ export class Blank {
     this.root.hidden = true;
     board.root.append(this.root);
     board.store.addEventListener("gone", () => this.showGone());
+    board.store.addEventListener("document", () => this.takeUp(), { once: true });
+  }
+
+  /** A board with nothing on it draws at once. */
+  takeUp() {
+    if (this.board.drawing.outline.length || this.board.tool.name !== "select") return;
+    this.board.choose("outline");
+    this.board.svg.blur(); // nobody has asked for the keyboard yet
   }
 
   /** There is no document at this address. */
   showGone() {
     const link = element("a", "main-button", "Go to the last one");
     link.setAttribute("href", "../");
+    this.root.classList.add("is-gone");
     this.root.replaceChildren(
       element("p", "blank-title", "Nothing is kept under this address"),
       element("p", "", "The document was removed, or the address is mistyped."),
@@ -41,6 +48,6 @@ export class Blank {
 
   draw() {
     const { drawing, tool, tools } = this.board;
-    this.root.hidden = drawing.outline.length > 0 || DRAWING.has(tool.name) || tools.outline.isBusy;
+    this.root.hidden = drawing.outline.length > 0 || !BESIDE.has(tool.name) || tools.outline.isBusy;
   }
 }

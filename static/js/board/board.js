@@ -65,6 +65,8 @@ export class Board extends Shown {
     this.blank = null;
     /** @type {number|undefined} the frame that is to be drawn */
     this.frame = undefined;
+    /** @type {import("../step_pictures.js").StepPictures|null} */
+    this.pictures = null;
     /** @type {{height: number}|null} what lies over the board's upper edge */
     this.over = null;
     this.framing = new Framing(this);
@@ -126,6 +128,26 @@ export class Board extends Shown {
   cover(over) {
     this.over = over;
     over.addEventListener("change", () => this.framing.uncover());
+  }
+
+  /**
+   * While the plan is played the board shows the cloth as it is then.
+   * @param {import("../step_pictures.js").StepPictures} pictures
+   */
+  play(pictures) {
+    this.pictures = pictures;
+    pictures.addEventListener("change", () => this.render());
+  }
+
+  /** The cloth and where it lies at the time that is shown; null while nothing is played. */
+  get played() {
+    const index = this.pictures?.current ?? null;
+    return index === null ? null : (this.pictures?.all[index] ?? null);
+  }
+
+  /** Whether time runs: the board shows the film, and nothing to edit. */
+  get isPlaying() {
+    return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;
   }
 
   /** How much of the board's upper edge is covered (px). */

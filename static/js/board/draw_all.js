@@ -48,7 +48,7 @@ export function drawAll(board) {
   sheets.cloth.draw(drawCloth(board));
   sheets.over.draw(board.overlays.over());
   sheets.ghost.draw(drawGhost(board));
-  sheets.folds.draw(drawFolds(board));
+  sheets.folds.draw(board.isPlaying ? [] : drawFolds(board));
   sheets.findings.draw([
     ...drawRobot(board),
     ...drawTableEdge(board, "table-line"),
@@ -59,7 +59,7 @@ export function drawAll(board) {
     ...drawHolds(board),
   ]);
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
-  sheets.handles.draw(drawHandles(board));
+  sheets.handles.draw(board.isPlaying ? [] : drawHandles(board));
   sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
   const [x, y] = view.toPx([0, 0]);

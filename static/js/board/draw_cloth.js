@@ -2,13 +2,28 @@
 
 import { path } from "./sheet.js";
 
-/** @import { Point } from "pleat" */
+/** @import { Layer, Point } from "pleat" */
 /** @import { Board } from "./board.js" */
 /** @import { Items } from "./sheet.js" */
+/** @import { View } from "./view.js" */
 
 /** @param {Board} board @returns {Items} */
 export function drawCloth(board) {
+  const { played } = board;
+  if (board.isPlaying && played) return layers(board.view, played.layers);
   return board.isSpread ? spread(board) : stacked(board);
+}
+
+/** Cloth as it is while the plan is played. @param {View} view @param {Pick<Layer, "polygon"|"face">[]} stack @returns {Items} */
+function layers(view, stack) {
+  return stack.flatMap(({ polygon, face }, index) => {
+    const d = path(polygon.map((point) => view.toPx(point)));
+    return [
+      { key: `layer${index}`, tag: "path", class: `cloth is-${face}`, d },
+      face === "back" && { key: `hatch${index}`, tag: "path", class: "cloth-hatch", d },
+      { key: `rim${index}`, tag: "path", class: "cloth-rim", d },
+    ];
+  });
 }
 
 /** @param {Board} board @returns {Items} */

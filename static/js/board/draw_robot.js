@@ -30,16 +30,17 @@ const HANDS = /** @type {Point[]} */ ([
 ]);
 const HEAD = /** @type {Point} */ ([0.2, 0]);
 
-/** @typedef {{pose: Pose, station: string|null}} Stand in the table's frame */
+/** @typedef {{pose: Pose, station: string|null, placement?: Pose}} Stand in the table's frame, and where the cloth lies then */
 
 /** @param {Board} board @returns {Items} */
 export function drawRobot(board) {
-  const stand = standing(board);
+  const stand = standing(board) ?? playing(board);
   if (!stand || board.isPlacing || board.draft || !board.drawing.outline.length) return [];
-  const { view, drawing } = board;
+  const { view } = board;
   const { pose } = stand;
+  const placement = stand.placement ?? board.drawing.placement;
   /** @param {Point} point of the table's frame */
-  const toPx = (point) => view.toPx(toInner(drawing.placement, point));
+  const toPx = (point) => view.toPx(toInner(placement, point));
   const there = toPx([pose.x_m, pose.y_m]);
   const ahead = toPx([pose.x_m + Math.cos(pose.yaw_rad), pose.y_m + Math.sin(pose.yaw_rad)]);
   const turn = Math.atan2(ahead[1] - there[1], ahead[0] - there[0]);
@@ -62,6 +63,14 @@ function standing({ store, drawing }) {
     return pose ? { pose: backedOff(pose, reason?.back_off_m ?? 0), station: name } : null;
   }
   return null;
+}
+
+/** Where it stands at the time that is shown: at the end of the step that goes on. @param {Board} board @returns {Stand|null} */
+function playing({ played, pictures, store }) {
+  const index = pictures?.current ?? null;
+  if (!played || index === null) return null;
+  const base = store.plan?.plan?.primitives[index]?.base ?? played.base;
+  return { pose: base, station: base.station, placement: played.placement };
 }
 
 /** @param {Pose} pose @param {number} by (m) @returns {Pose} */

@@ -12,8 +12,11 @@ import { StepMenu } from "./step_menu.js";
 import { TimeSlider } from "./time_slider.js";
 import { Transport } from "./transport.js";
 
-/** @param {import("../store.js").Store} store */
-export function mountDock(store) {
+/**
+ * @param {import("../store.js").Store} store
+ * @param {import("../step_pictures.js").StepPictures} pictures
+ */
+export function mountDock(store, pictures) {
   const root = byId("dock");
   const clock = new Clock(store);
   const shown = new ShownPlan(store);
@@ -23,7 +26,7 @@ export function mountDock(store) {
   const timeline = element("section", "dock-timeline", transport.root, lanes.root, seeWhy(store));
   timeline.setAttribute("aria-label", "Timeline");
   const folds = new Folds(store, clock, shown);
-  const outcome = new Outcome(store, clock, shown, (t_s) => slider.seek(t_s));
+  const outcome = new Outcome(store, clock, shown, pictures, (t_s) => slider.seek(t_s));
   const steps = new StepMenu(store, shown, () => outcome.start.takeFocus());
   steps.serve(lanes.root, ".block");
   steps.serve(outcome.list.root, ".plan-row");

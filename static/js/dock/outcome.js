@@ -17,13 +17,14 @@ export class Outcome {
    * @param {import("../store.js").Store} store
    * @param {import("./clock.js").Clock} clock
    * @param {import("./shown_plan.js").ShownPlan} shown
+   * @param {import("../step_pictures.js").StepPictures} pictures
    * @param {(t_s: number) => void} onSeek
    */
-  constructor(store, clock, shown, onSeek) {
+  constructor(store, clock, shown, pictures, onSeek) {
     this.store = store;
     this.shown = shown;
     this.title = element("h2", "", "Plan");
-    this.list = new PlanList(store, clock, onSeek);
+    this.list = new PlanList(store, clock, pictures, onSeek);
     this.empty = element("p", "hint");
     this.numbers = element("section", "numbers");
     this.numbers.setAttribute("aria-label", "Numbers");

@@ -5,6 +5,7 @@ import { button, element } from "../dom.js";
 import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
+import { layersPicture } from "../repair/folded_picture.js";
 import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
@@ -15,9 +16,10 @@ export class PlanList {
   /**
    * @param {import("../store.js").Store} store
    * @param {import("./clock.js").Clock} clock
+   * @param {import("../step_pictures.js").StepPictures} pictures
    * @param {(t_s: number) => void} onSeek
    */
-  constructor(store, clock, onSeek) {
+  constructor(store, clock, pictures, onSeek) {
     this.store = store;
     this.clock = clock;
     this.onSeek = onSeek;
@@ -28,7 +30,9 @@ export class PlanList {
     /** @type {Plan|null} */
     this.plan = null;
     this.current = -1;
+    this.pictures = pictures;
     clock.addEventListener("tick", () => this.tick());
+    pictures.addEventListener("change", () => this.illustrate());
   }
 
   /**
@@ -42,7 +46,20 @@ export class PlanList {
     this.plan = plan;
     this.root.replaceChildren(...(plan?.primitives ?? []).map((primitive, index) => this.row(primitive, index, folds)));
     this.current = -1;
+    this.illustrate();
     this.tick();
+  }
+
+  /** Show in each row the cloth as its step leaves it, as soon as that is known. */
+  illustrate() {
+    const { all, id } = this.pictures;
+    if (id !== this.plan?.id) return;
+    for (const [index, row] of [...this.root.children].entries()) {
+      const shown = all[index + 1];
+      const place = row.querySelector(".plan-picture");
+      if (!shown || !place) continue;
+      place.replaceChildren(layersPicture(shown.layers, shown.placement.yaw_rad + Math.PI / 2));
+    }
   }
 
   tick() {
@@ -88,6 +105,7 @@ export class PlanList {
     const shown = button(
       "plan-row",
       () => this.onSeek(primitive.start_s),
+      element("span", "plan-picture"),
       icon(primitive.kind),
       name,
       about,

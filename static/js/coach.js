@@ -1,0 +1,104 @@
+/**
+ * Three words to someone new, each where it is needed: how to draw an outline, how to fold, how to play. A word goes away
+ * when it is followed or has been read, and does not come again in this browser.
+ */
+
+import { element } from "./dom.js";
+
+/** How long a word is there at most (ms). */
+const READING_MS = 14_000;
+const KEPT = "pleat-coached";
+const GAP_PX = 10;
+
+/**
+ * @typedef {object} Mark
+ * @property {string} name
+ * @property {string} text
+ * @property {string} at the part of the page that it stands beside
+ * @property {"right"|"above"|"over"} side of that part
+ * @property {(board: import("./board/board.js").Board) => boolean} isDue
+ */
+
+/** @type {Mark[]} */
+const MARKS = [
+  {
+    name: "outline",
+    text: "Click where the corners of the garment are. The first one again closes it.",
+    at: "#drafting-board",
+    side: "over",
+    isDue: ({ drawing, tools }) => !drawing.outline.length && !tools.outline.isBusy,
+  },
+  {
+    name: "fold",
+    text: "Now fold it: press F, then drag from edge to edge, or a point of the cloth to where it shall land.",
+    at: '[data-tool="fold"]',
+    side: "right",
+    isDue: ({ drawing }) => drawing.outline.length > 0 && !drawing.folds.length,
+  },
+  {
+    name: "play",
+    text: "The robot can do it. Space lets it run.",
+    at: ".main-button.play",
+    side: "above",
+    isDue: ({ store, drawing }) =>
+      drawing.folds.length > 0 && store.plan?.status === "solved" && !store.playback?.playing && !store.playback?.t_s,
+  },
+];
+
+/** @param {import("./board/board.js").Board} board */
+export function mountCoach(board) {
+  const known = new Set((localStorage.getItem(KEPT) ?? "").split(" "));
+  const root = element("p", "coach");
+  root.setAttribute("aria-live", "polite");
+  root.hidden = true;
+  document.body.append(root);
+  /** @type {Mark|null} */
+  let shown = null;
+  let timer = 0;
+
+  const end = () => {
+    clearTimeout(timer);
+    shown = null;
+    root.hidden = true;
+  };
+  /** @param {Mark} mark */
+  const begin = (mark) => {
+    shown = mark;
+    known.add(mark.name);
+    localStorage.setItem(KEPT, [...known].join(" ").trim());
+    root.textContent = mark.text;
+    root.hidden = false;
+    timer = setTimeout(end, READING_MS);
+  };
+  const look = () => {
+    if (!board.state || document.querySelector("dialog[open]")) return;
+    if (shown && !shown.isDue(board)) end();
+    const due = shown ? null : MARKS.find((mark) => !known.has(mark.name) && mark.isDue(board));
+    if (due && seen(due)) begin(due);
+    if (shown) place(root, shown);
+  };
+  for (const name of ["document", "plan", "playback", "begun"]) board.store.addEventListener(name, look);
+  addEventListener("resize", look);
+}
+
+/** The box of the part that a mark stands beside, where it is seen. @param {Mark} mark */
+function seen({ at }) {
+  const part = /** @type {HTMLElement|null} */ (document.querySelector(at));
+  const box = part?.getBoundingClientRect();
+  return part?.checkVisibility({ visibilityProperty: true }) && box?.width ? box : null;
+}
+
+/** @param {HTMLElement} root @param {Mark} mark */
+function place(root, mark) {
+  const box = seen(mark);
+  if (!box) return;
+  const { offsetWidth: width, offsetHeight: height } = root;
+  const middle = box.left + box.width / 2 - width / 2;
+  const left = mark.side === "right" && box.right + GAP_PX + width < innerWidth ? box.right + GAP_PX : middle;
+  const beside = { right: box.top + box.height / 2 - height / 2, above: box.top - GAP_PX - height, over: box.top + 3 * GAP_PX };
+  const isBelow = mark.side === "right" && left === middle;
+  const top = isBelow ? box.top - GAP_PX - height : beside[mark.side];
+  root.dataset.side = isBelow ? "above" : mark.side;
+  root.style.left = `${Math.max(GAP_PX, Math.min(left, innerWidth - width - GAP_PX))}px`;
+  root.style.top = `${Math.max(GAP_PX, top)}px`;
+}
