@@ -23,8 +23,10 @@ from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.waiting import answer_of, until
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
+from app.store.plan_store import UnknownPlanError
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2
+from planner.task.plan import Plan
 from planner.task.task import Task
 
 router = APIRouter(prefix="/api", tags=["suggestions"], route_class=DescribedRoute)
@@ -94,7 +96,7 @@ class SuggestionSearch:
     def __init__(self, workspace: Workspace, wanted: PlanRequest, known: str | None) -> None:
         """Prepare the search; plan nothing yet. `known` is the id of the answer to the request, if there is one."""
         self._workspace = workspace
-        self._known = None if known is None else workspace.plans.plan(known)
+        self._known = None if known is None else _still_kept(workspace, known)
         self._wanted = wanted
         self._limit = TimeLimit(wanted.time_limit_s)
         self._started = time.perf_counter()
@@ -161,6 +163,14 @@ class SuggestionSearch:
         elapsed_s = time.perf_counter() - self._started
         data = {"count": count, "elapsed_s": elapsed_s, "complete": is_complete}
         return ServerSentEvent(event="done", data=data)
+
+
+def _still_kept(workspace: Workspace, plan_id: str) -> Plan | None:
+    """Return a plan by its id; None if it was dropped, as one is when a document has a better answer."""
+    try:
+        return workspace.plans.plan(plan_id)
+    except UnknownPlanError:
+        return None
 
 
 async def _begun(request: Request, wanted: PlanRequestBody, known: Known = None) -> SuggestionSearch:

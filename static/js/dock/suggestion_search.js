@@ -42,10 +42,10 @@ export class SuggestionSearch extends EventTarget {
   /**
    * Search for a document's drawing, in place of what was searched for before. Tells "change" whenever there is news.
    * @param {DocumentState} state
-   * @param {{delay_ms?: number, work_s?: number, known?: string}} how how long to wait first, the work that the search
-   *   may do, and the id of the answer to the drawing if it has one
+   * @param {{delay_ms?: number, work_s?: number, known?: () => string|undefined}} how how long to wait first, the work
+   *   that the search may do, and what tells the id of the answer to the drawing
    */
-  async start(state, { delay_ms = 0, work_s = WORK_S, known = "" } = {}) {
+  async start(state, { delay_ms = 0, work_s = WORK_S, known = () => undefined } = {}) {
     this.forget();
     const abort = new AbortController();
     this.abort = abort;
@@ -54,7 +54,8 @@ export class SuggestionSearch extends EventTarget {
     try {
       await rest(delay_ms, abort.signal);
       const asked = { ...request(state), time_limit_s: TIME_LIMIT_S, work_limit_s: work_s };
-      const address = known ? `${ADDRESS}?${new URLSearchParams({ known })}` : ADDRESS;
+      const id = known();
+      const address = id ? `${ADDRESS}?${new URLSearchParams({ known: id })}` : ADDRESS;
       for await (const { event, data } of eventStream(address, asked, abort.signal)) {
         if (event === "done") this.isComplete = data.complete === true;
         if (event === "trying") this.trying = data;

@@ -31,6 +31,8 @@ export class Repair extends EventTarget {
     this.searched = undefined;
     /** Whether more time was given to the search. */
     this.isLong = false;
+    /** The id of the answer to the drawing by now. */
+    this.known = () => store.plan?.plan?.id;
     this.sentence = element("p", "reason");
     this.note = new SearchNote(store, this.search);
     this.cards = new Cards(store);
@@ -78,7 +80,7 @@ export class Repair extends EventTarget {
     if (wanted === this.searched) return;
     this.searched = wanted;
     this.isLong = false;
-    if (resting) this.search.start(resting, { delay_ms: REST_MS, known: message?.plan?.id });
+    if (resting) this.search.start(resting, { delay_ms: REST_MS, known: this.known });
     else this.search.stop();
   }
 
@@ -115,8 +117,8 @@ export class Repair extends EventTarget {
 
   lookLonger() {
     this.isLong = true;
-    const { state, plan: message } = this.store;
-    if (state) this.search.start(state, { work_s: LONG_S, known: message?.plan?.id });
+    const { state } = this.store;
+    if (state) this.search.start(state, { work_s: LONG_S, known: this.known });
   }
 
   /** @param {boolean} isOpen */

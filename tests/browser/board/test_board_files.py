@@ -221,15 +221,17 @@ def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
 
 def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
     page.get_by_role("button", name="Export", exact=True).click()
-    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(6)
+    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(8)
     saved = {}
     for link in page.get_by_role("dialog").locator(".export a").all():
         with page.expect_download() as download:
             link.click()
         path = tmp_path / download.value.suggested_filename
         download.value.save_as(path)
-        saved[path.name] = path.read_text()
-    assert sorted(saved) == ["t-shirt-plan.csv", "t-shirt.fold", "t-shirt.json", "t-shirt.plan.json", "t-shirt.svg"]
+        saved[path.name] = path.read_text(errors="replace")
+    sheets = ["t-shirt-steps.pdf", "t-shirt-steps.svg"]
+    files = ["t-shirt.fold", "t-shirt.json", "t-shirt.plan.json", "t-shirt.svg"]
+    assert sorted(saved) == ["t-shirt-plan.csv", *sheets, *files]
     assert len(json.loads(saved["t-shirt.json"])["outline"]) == 10
     plan = json.loads(saved["t-shirt.plan.json"])
     assert (plan["pleat_plan"], plan["status"], len(plan["steps"])) == (1, "solved", len(plan["primitives"]))
