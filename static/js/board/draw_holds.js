@@ -11,7 +11,6 @@ import { distance } from "./geometry.js";
 
 /** Reasons that are about what hands hold. */
 const ABOUT_HANDS = new Set(["too_many_grips", "red_needs_hold"]);
-const HANDS = 2;
 const CROSS_PX = 9;
 const BESIDE_PX = 14;
 
@@ -25,8 +24,7 @@ export function drawHolds(board) {
   if (board.draft || board.isPlacing || !checks || checks.version !== state?.version) return [];
   const points = checks.folds[reason.fold]?.must_hold ?? [];
   const radius = drawing.folds[reason.fold]?.grip_radius_m ?? drawing.grip_radius_m;
-  const { hands = HANDS } = reason.says;
-  const taken = taking(points, radius, Number(hands));
+  const taken = taking(points, radius, state.robot.arms.length);
   const isHeld = points.map((point) => taken.some((hand) => distance(hand, point) <= radius));
   return [
     ...taken.flatMap((hand, n) => span(`span${n}`, view.toPx(hand), radius * view.scale)),
