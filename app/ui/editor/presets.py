@@ -28,6 +28,7 @@ _SIDE_RISE = 0.12
 class Preset(StrEnum):
     """The presets, by the labels of their buttons."""
 
+    FOLLOW = "Follow"
     TOP = "Top"
     ROBOT = "Robot's eye"
     SIDE = "Side"

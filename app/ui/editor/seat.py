@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+import numpy as np
 import viser
 
 from app.document import Document
@@ -13,6 +14,7 @@ from app.ui.editor.aim import Aim, pixel_angle
 from app.ui.editor.camera_panel import CameraPanel
 from app.ui.editor.edit_panel import EditPanel
 from app.ui.editor.editor import Editor
+from app.ui.editor.following import Following, work_of
 from app.ui.editor.glass import Glass, Touch
 from app.ui.editor.ground import Ground, on_table
 from app.ui.editor.presets import Preset, robots_eye, side, top
@@ -54,6 +56,7 @@ class Seat:
         self._zoom = 0
         self._is_dark = document.state.is_dark
         self._is_from_right = False
+        self._following: Following | None = None
         with client.atomic():
             client.gui.set_panel_label(PANEL_LABEL)
             client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
@@ -100,7 +103,7 @@ class Seat:
     def _follow(self, state: DocumentState) -> None:
         """Move the camera with the robot's head, or to the side of the table where the robot does not stand."""
         if self._camera_panel.is_riding:
-            self._camera_panel.ride(self._robots_eye(state))
+            self._camera_panel.ride(self._moving_view(state))
             return
         aside_m, beside_m = self._base(state).y_m, state.drawing.scene.table.width_m / 2
         if abs(aside_m) > beside_m and self._is_from_right != (aside_m > 0.0):
@@ -117,8 +120,18 @@ class Seat:
                 panel.go_to(top(Ground.of(state.drawing), panel.lens))
             case Preset.SIDE:
                 panel.go_to(side(panel.lens, scene.table))
-            case Preset.ROBOT:
-                panel.ride(self._robots_eye(state))
+            case Preset.ROBOT | Preset.FOLLOW:
+                self._following = Following() if preset is Preset.FOLLOW else None
+                panel.ride(self._moving_view(state))
+
+    def _moving_view(self, state: DocumentState) -> Viewpoint:
+        """Return where the camera that follows the work, or that rides on the robot's head, is now."""
+        if self._following is None:
+            return self._robots_eye(state)
+        points = on_table(state.drawing, state.drawing.points) or state.drawing.scene.table.corners
+        x, y = np.array(points).mean(axis=0)
+        work = (float(x), float(y)) if state.film is None else work_of(state.film, self._document.t_s)
+        return self._following.view(self._base(state), work, self._camera_panel.lens)
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
         """Return the view from the robot's head where it stands now."""
