@@ -135,14 +135,14 @@ def exported(page: Page, folder: Path) -> dict[str, str]:
     """Save all files that the dialog `Export` offers; return their contents by name."""
     page.get_by_role("button", name="Export", exact=True).click()
     dialog = page.get_by_role("dialog", name="Export")
-    expect(dialog.get_by_role("listitem")).to_have_count(6)
+    expect(dialog.get_by_role("listitem")).to_have_count(8)
     saved = {}
     for verb in dialog.locator("[aria-label^='Save ']").all():
         with page.expect_download() as download:
             verb.click()
         path = folder / download.value.suggested_filename
         download.value.save_as(path)
-        saved[path.name] = path.read_text(encoding="utf-8")
+        saved[path.name] = path.read_text(encoding="utf-8", errors="replace")
     page.keyboard.press("Escape")
     return saved
 
@@ -187,7 +187,9 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         assert len(json.loads(saved.pop("untitled.fold"))["file_frames"]) == 3  # the first is the file itself
         rows = list(csv.DictReader(io.StringIO(saved.pop("untitled-plan.csv"))))
         assert [row["fold"] for row in rows if row["kind"] == "fold"] == [str(fold) for fold in order]
-        (drawing,) = (saved.pop(name) for name in ("untitled.svg",))
+        assert saved.pop("untitled-steps.pdf").startswith("%PDF-")
+        assert "Untitled" in saved.pop("untitled-steps.svg")
+        drawing = saved.pop("untitled.svg")
         ((name, recording),) = saved.items()
         assert name.endswith(".html")
         assert "<title>Untitled - Pleat</title>" in recording
