@@ -40,6 +40,7 @@ class ByMouse:
     def draw_outline(self, corners: list[Point]) -> None:
         before = scale(self.page)
         self.hand.tool("Draw outline")
+        expect(self.page.locator(".blank")).to_be_hidden()
         self.zoom_in(middle(corners))
         expect_twice_as_large(self.page, before)
         for corner in [*corners, corners[0]]:

@@ -2,13 +2,12 @@
 
 import { button, element } from "../dom.js";
 
-/** Tools at which it stands: of a board with nothing on it there is nothing to select. */
-const BESIDE = new Set(["select", "outline"]);
-
 export class Blank {
   /** @param {import("./board.js").Board} board @param {{startNew: () => void, startImport: () => void}} verbs */
   constructor(board, { startNew, startImport }) {
     this.board = board;
+    /** Whether the outline is drawn with the tool that came with the board: whoever takes one up has decided. */
+    this.isAtOnce = false;
     this.root = element(
       "div",
       "blank",
@@ -30,6 +29,7 @@ export class Blank {
   takeUp() {
     if (this.board.drawing.outline.length || this.board.tool.name !== "select") return;
     this.board.choose("outline");
+    this.isAtOnce = true;
     this.board.svg.blur(); // nobody has asked for the keyboard yet
   }
 
@@ -48,6 +48,7 @@ export class Blank {
 
   draw() {
     const { drawing, tool, tools } = this.board;
-    this.root.hidden = drawing.outline.length > 0 || !BESIDE.has(tool.name) || tools.outline.isBusy;
+    const isDrawn = drawing.outline.length > 0 || tools.outline.isBusy;
+    this.root.hidden = isDrawn || !(tool.name === "select" || this.isAtOnce);
   }
 }

@@ -231,6 +231,7 @@ export class Board extends Shown {
   /** @param {ToolName} name */
   choose(name) {
     if (!this.state) return;
+    if (this.blank) this.blank.isAtOnce = false;
     const before = this.tool;
     before.interrupt();
     this.closeTyped();
