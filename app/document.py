@@ -10,14 +10,13 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.document_state import Answer, Checks, DocumentState, Film, HeldFold
+from app.document_state import Answer, Checks, DocumentState, HeldFold
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.playback import Playback
 from planner.errors import FoldingError
-from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.task.world_state import WorldState
@@ -148,15 +147,7 @@ class Document:
 
     def stop_planning(self) -> None:
         """Stop waiting for an answer to this version, or for a better one."""
-
-        def change(state: DocumentState) -> DocumentState:
-            if state.is_planning:
-                return replace(state, failure=STOPPED)
-            if state.answer is None or not state.is_answered or state.answer.is_final:
-                return state
-            return replace(state, answer=replace(state.answer, is_final=True))
-
-        self._change(change)
+        self._change(lambda state: state.stopped(STOPPED))
 
     def plan_again(self) -> None:
         """Request an answer to a version for which planning was stopped or failed."""
@@ -207,8 +198,7 @@ class Document:
 
     def preview(self, plan: Plan | None) -> None:
         """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""
-        film = None if plan is None else Film(self._state.version, plan, Timeline.of(plan))
-        self._change(lambda state: state if state.preview is film else replace(state, preview=film))
+        self._change(lambda state: state.previewing(plan))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""

@@ -207,6 +207,20 @@ class DocumentState:
         film = Film(answer.version, answer.plan, Timeline.of(answer.plan))
         return replace(self, film=film, playback=self.playback.lasting(now_s, film.timeline.duration_s))
 
+    def stopped(self, why: str) -> "DocumentState":
+        """Return the state that waits for no answer to this version, nor for a better one."""
+        if self.is_planning:
+            return replace(self, failure=why)
+        if self.answer is None or not self.is_answered or self.answer.is_final:
+            return self
+        return replace(self, answer=replace(self.answer, is_final=True))
+
+    def previewing(self, plan: Plan | None) -> "DocumentState":
+        """Return the state in which the stage shows the plan of a change that is pointed at; None: its own again."""
+        if plan is None:
+            return self if self.preview is None else replace(self, preview=None)
+        return replace(self, preview=Film(self.version, plan, Timeline.of(plan)))
+
     def answered(self, answer: Answer) -> "DocumentState":
         """Return the state with an answer; keep an answer to a committed drawing for comparison with the next."""
         after = replace(self, answer=answer)
