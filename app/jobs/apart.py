@@ -96,7 +96,7 @@ def _load_template(loading: Future[None]) -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # only the server handles Ctrl-C, and ends the rest
     first = _context.Process(target=ignore, args=(None,), daemon=True)
     try:
-        first.start()  # where loading fails the template ends, after it has written why
+        _start(first)  # where loading fails the template ends, after it has written why
         first.join()
     except Exception:
         _log.exception("the template process could not load the planner")
@@ -165,7 +165,7 @@ def _wait_until_loaded(should_stop: ShouldStop) -> None:
 
 
 def _start(process: ForkServerProcess) -> None:
-    """Start a process; if the template was killed from outside, retry until the system has noticed and replaced it."""
+    """Start a process; if the template has ended, retry until the system has noticed and replaced it."""
     until_s = time.monotonic() + _STARTED_WITHIN_S
     while time.monotonic() < until_s:
         try:

@@ -88,12 +88,13 @@ PROGRAM = """
 from app.jobs import apart
 
 whole, apart._TEMPLATE = apart._TEMPLATE, "tests.app.broken_template"
+patience_s, apart._STARTED_WITHIN_S = apart._STARTED_WITHIN_S, 0.5
 for _ in range(2):
     try:
         apart.run_apart(print, bool, apart.ignore)
     except apart.PlannerNotLoadedError as error:
         print(error)
-apart._TEMPLATE = whole
+apart._TEMPLATE, apart._STARTED_WITHIN_S = whole, patience_s
 apart.run_apart(print, bool, apart.ignore)
 print("done")
 """
