@@ -7,6 +7,7 @@
     │   ├── GarmentError             a garment's outline, numbers, names
     │   ├── FoldError                a fold that is not legal on the cloth at its turn
     │   ├── SceneError               table, stations, robot settings, costs
+    │   ├── RobotError               a robot's card, or the description it names
     │   └── RequestError             the options of a plan request
     ├── GarmentFileError             a file that cannot be read as a garment (or scene) at all
     ├── UnknownGarmentError          no garment of that name
@@ -74,6 +75,10 @@ class FoldError(FieldError):
 
 class SceneError(FieldError):
     """A scene that is not valid: table, stations, torso, friction, costs."""
+
+
+class RobotError(FieldError):
+    """A robot's card that is not valid, or whose URDF lacks what it names."""
 
 
 class RequestError(FieldError):

@@ -1,13 +1,17 @@
 """Points and poses as people give them in files and requests, with bounded numbers."""
 
+from collections.abc import Mapping
 from dataclasses import fields
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
-from pydantic import BeforeValidator, GetCoreSchemaHandler, GetPydanticSchema
+from pydantic import BeforeValidator, GetCoreSchemaHandler, GetPydanticSchema, PlainSerializer
 from pydantic_core import CoreSchema, PydanticKnownError, core_schema
 
 from planner.geometry.pose import Pose2
+from planner.json_form import NULL_IS_DEFAULT
 from planner.strict_model import Bounded
+
+T = TypeVar("T")
 
 
 def _pair(value: object) -> object:
@@ -47,3 +51,25 @@ def _same(value: object) -> object:
 
 GivenPose = Annotated[Pose2, GetPydanticSchema(_bounded)]
 """A pose (m, rad)."""
+
+
+def _pairs(named: Mapping[str, T]) -> tuple[tuple[str, T], ...]:
+    return tuple(named.items())
+
+
+NamedPoses = Annotated[
+    tuple[tuple[str, Pose2], ...],
+    GetPydanticSchema(
+        lambda _, schema: core_schema.no_info_after_validator_function(_pairs, schema(dict[str, GivenPose]))
+    ),
+    PlainSerializer(dict, return_type=dict[str, Pose2]),
+    NULL_IS_DEFAULT,
+]
+"""Poses by name, in order; in JSON one object."""
+
+NamedNumbers = Annotated[
+    tuple[tuple[str, float], ...],
+    GetPydanticSchema(lambda _, schema: core_schema.no_info_after_validator_function(_pairs, schema(dict[str, float]))),
+    PlainSerializer(dict, return_type=dict[str, float]),
+]
+"""Numbers by name, in order; in JSON one object."""

@@ -11,11 +11,9 @@ from types import MappingProxyType
 from typing import Annotated, Any
 
 from annotated_types import Interval
-from pydantic import GetPydanticSchema, PlainSerializer
-from pydantic_core.core_schema import no_info_after_validator_function
 
 from planner.errors import SceneError
-from planner.geometry.given import GivenPose
+from planner.geometry.given import NamedPoses
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.json_form import NULL_IS_DEFAULT, STRICT, JsonForm, require_intervals
@@ -38,19 +36,6 @@ STATIONS_MAX = 64
 
 SUPPORT_ANGLE_MAX_RAD = math.radians(85.0)
 """The largest support angle (rad): beyond it the cloth beside it would support even the top of a hanging piece."""
-
-
-def _pairs(named: Mapping[str, Pose2]) -> tuple[tuple[str, Pose2], ...]:
-    return tuple(named.items())
-
-
-NamedPoses = Annotated[
-    tuple[tuple[str, Pose2], ...],
-    GetPydanticSchema(lambda _, schema: no_info_after_validator_function(_pairs, schema(dict[str, GivenPose]))),
-    PlainSerializer(dict, return_type=dict[str, Pose2]),
-    NULL_IS_DEFAULT,
-]
-"""Poses by name, in order; in JSON one object."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,167 @@
+"""The parts of a robot's card: URDFs and where they stand, grippers and tools."""
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Interval
+from pydantic import Field
+
+from planner.errors import RobotError
+from planner.geometry.pose import Point3
+from planner.json_form import require_intervals
+
+Length = Annotated[float, Interval(ge=0.0, le=10.0)]
+"""A length (m)."""
+
+_Place = Annotated[float, Interval(ge=-10.0, le=10.0)]
+_Angle = Annotated[float, Interval(ge=-7.0, le=7.0)]
+
+Rate = Annotated[float, Interval(gt=0.0, le=1e3)]
+"""A top speed or acceleration."""
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfFile:
+    """Where a URDF is.
+
+    Attributes:
+        path: its path below the card's folder, or in the package.
+        package: the installed distribution that carries it; None: it is beside the card.
+    """
+
+    path: str
+    package: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    """Where a URDF's root stands in the base frame, or a tool's root on its link.
+
+    Attributes:
+        name: the name put before those of links and joints; empty for none.
+        x_m, y_m, z_m: the position.
+        roll_rad, pitch_rad, yaw_rad: the rotation, as in a URDF.
+    """
+
+    name: str = ""
+    x_m: _Place = 0.0
+    y_m: _Place = 0.0
+    z_m: _Place = 0.0
+    roll_rad: _Angle = 0.0
+    pitch_rad: _Angle = 0.0
+    yaw_rad: _Angle = 0.0
+
+    def __post_init__(self) -> None:
+        require_intervals(self, RobotError)
+
+
+@dataclass(frozen=True, slots=True)
+class Attachment:
+    """A URDF fixed to a link of the robot's URDF, on every mount.
+
+    Attributes:
+        urdf: the tool's URDF.
+        link: the link that carries it.
+        mount: where its root is on that link, and the name put before those of its links and joints.
+    """
+
+    urdf: UrdfFile
+    link: str
+    mount: Mount
+
+
+@dataclass(frozen=True, slots=True)
+class LinearDrive:
+    """Fingers whose opening is proportional to the way of one joint; others mimic it in the URDF.
+
+    Attributes:
+        joint: the joint that drives them.
+        closed: its value where they touch (rad, m).
+        opened: its value where they are as wide open as they go (rad, m).
+    """
+
+    joint: str
+    closed: float
+    opened: float
+    kind: Literal["linear"] = "linear"
+
+    def __post_init__(self) -> None:
+        if self.closed == self.opened:
+            raise RobotError("opened", f"is {self.opened}, as when closed")
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelogramDrive:
+    """Fingers on parallelograms: they swing out and stay parallel.
+
+    Attributes:
+        joint: the joint that drives both fingers.
+        link_x_m: how far the fingertip's hinge is ahead of the driven hinge, gripper closed (m).
+        link_y_m: how far it is to the side (m).
+    """
+
+    joint: str
+    link_x_m: Length
+    link_y_m: Length
+    kind: Literal["parallelogram"] = "parallelogram"
+
+    def __post_init__(self) -> None:
+        require_intervals(self, RobotError)
+
+
+@dataclass(frozen=True, slots=True)
+class Pinch:
+    """How flat over the table a gripper may come, by how its fingers stand.
+
+    Attributes:
+        side_by_side_rad: the least pitch with the fingers side by side.
+        one_over_other_rad: the least pitch with one finger over the other.
+    """
+
+    side_by_side_rad: Annotated[float, Interval(ge=0.0, le=1.5707963267948966)] = 0.0
+    one_over_other_rad: Annotated[float, Interval(ge=0.0, le=1.5707963267948966)] = 0.0
+
+    def __post_init__(self) -> None:
+        require_intervals(self, RobotError)
+
+
+@dataclass(frozen=True, slots=True)
+class GripperFile:
+    """A gripper of two fingers.
+
+    Attributes:
+        drive: the joint that moves the fingers, and how.
+        opening_max_m: how wide it opens.
+        finger_length_m, finger_width_m, finger_thickness_m: a finger's size: along the approach axis, across the
+            closing axis, along it.
+        pinch: how it pinches.
+        speed: the top speed of the driven joint, rad/s or m/s; None: the URDF's.
+    """
+
+    drive: Annotated[LinearDrive | ParallelogramDrive, Field(discriminator="kind")]
+    opening_max_m: Annotated[float, Interval(gt=0.0, le=0.5)]
+    finger_length_m: Length
+    finger_width_m: Length
+    finger_thickness_m: Length
+    pinch: Pinch = Pinch()
+    speed: Rate | None = None
+
+    def __post_init__(self) -> None:
+        require_intervals(self, RobotError)
+
+
+@dataclass(frozen=True, slots=True)
+class ToolFile:
+    """The tool: the point between the fingertips.
+
+    Attributes:
+        link: the link or frame it is fixed to.
+        approach: the direction in which the fingers point, in that frame.
+        closing: the direction along which they close, in that frame.
+        offset_m: where the tool is in that frame.
+    """
+
+    link: str
+    approach: Point3
+    closing: Point3
+    offset_m: Point3 = (0.0, 0.0, 0.0)

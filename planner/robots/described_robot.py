@@ -1,0 +1,174 @@
+"""A robot read from its card: its kinematic tree, and each of its arms as a chain."""
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+
+from planner.errors import FieldError, RobotError
+from planner.geometry.pose import FloatArray
+from planner.robots.card_file import ArmFile, CardFile
+from planner.robots.card_parts import ToolFile
+from planner.robots.chain import Chain
+from planner.robots.chain_reader import read_chain
+from planner.robots.urdf_composing import composed_urdf
+
+_CARDS = Path(__file__).parent / "cards"
+
+CARD_BYTES_MAX = 1_000_000
+"""A larger file is no card."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DescribedArm:
+    """An arm of a described robot.
+
+    Attributes:
+        card: its part of the card.
+        chain: its joints and its tool, seen from its root.
+        root: where its root is in the base frame with the lift down (m), shape (3,).
+    """
+
+    card: ArmFile
+    chain: Chain
+    root: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DescribedRobot:
+    """A robot as its card and its URDF describe it.
+
+    Attributes:
+        card: the card.
+        urdf: the composed URDF, its root the base frame.
+        arms: its arms, from left to right.
+        lift_limits_m: the lowest and highest value of its lift; (0, 0) without one.
+    """
+
+    card: CardFile
+    urdf: str
+    arms: tuple[DescribedArm, ...]
+    lift_limits_m: tuple[float, float]
+
+    @staticmethod
+    def of(card: CardFile, folder: Path) -> "DescribedRobot":
+        """Read the URDF that a card names.
+
+        Args:
+            card: the card.
+            folder: the card's folder.
+
+        Raises:
+            RobotError: names the card's field, and which link, joint, limit or mesh is wrong or missing.
+        """
+        urdf = composed_urdf(card, folder)
+        try:
+            model = pin.buildModelFromXML(urdf)
+        except (ValueError, RuntimeError) as error:
+            raise RobotError("urdf", f"is no tree of links and joints: {error}") from None
+        for number, (name, _) in enumerate(card.resting):
+            _joint(model, name, f"resting.{name}" if name else f"resting[{number}]")
+        arms = []
+        for number, arm in enumerate(card.arms):
+            try:
+                arms.append(_arm(model, card, arm))
+            except FieldError as error:
+                raise RobotError(f"arms[{number}].{error.field}", error.says or error.message) from None
+        return DescribedRobot(card, urdf, tuple(arms), _lift_limits(model, card))
+
+
+def shipped_robots() -> tuple[str, ...]:
+    """Return the names of the robots that are shipped, in alphabetical order."""
+    return tuple(sorted(path.stem for path in _CARDS.glob("*.json")))
+
+
+def read_robot(name_or_path: str) -> DescribedRobot:
+    """Return a robot by the name of a shipped card, or by the path of a card of one's own.
+
+    Raises:
+        RobotError: there is no such card, or it or its URDF is not valid.
+    """
+    if name_or_path in shipped_robots():
+        return _shipped(name_or_path)
+    path = Path(name_or_path)
+    if not path.is_file():
+        raise RobotError("robot", f"there is no robot {name_or_path!r}, only {', '.join(shipped_robots())}")
+    return _read(path)
+
+
+@cache
+def _shipped(name: str) -> DescribedRobot:
+    return _read(_CARDS / f"{name}.json")
+
+
+def _read(path: Path) -> DescribedRobot:
+    try:
+        if path.stat().st_size > CARD_BYTES_MAX:
+            raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        if isinstance(error, RobotError):
+            raise
+        raise RobotError("", f"{path.name} cannot be read as JSON: {error}") from None
+    return DescribedRobot.of(CardFile.from_dict(data), path.parent)
+
+
+def _joint(model: pin.Model, name: str, field: str) -> pin.JointModel:
+    """Return a joint that moves, by name."""
+    if not model.existJointName(name):
+        raise RobotError(field, f"the URDF has no moving joint {name!r}")
+    joint = model.joints[model.getJointId(name)]
+    if joint.nv != 1:
+        raise RobotError(field, f"joint {name!r} has {joint.nv} degrees of freedom, not one")
+    return joint
+
+
+def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
+    for number, (name, q) in enumerate(zip(arm.joints, arm.home, strict=True)):
+        joint = _joint(model, name, f"joints[{number}]")
+        if joint.nq > 1:
+            continue
+        low, high = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
+        if not low < high:
+            raise RobotError(f"joints[{number}]", f"joint {name!r} has limits {low:g} and {high:g}")
+        if not low <= q <= high:
+            raise RobotError(f"home[{number}]", f"{q} is outside of the limits {low:g} and {high:g} of {name!r}")
+        if arm.speeds is None and not 0.0 < model.velocityLimit[joint.idx_v] < np.inf:
+            raise RobotError("speeds", f"the URDF gives joint {name!r} no speed, so the card must")
+    _joint(model, arm.gripper.drive.joint, "gripper.drive.joint")
+    if not model.existFrame(arm.tool.link):
+        raise RobotError("tool.link", f"the URDF has no link or frame {arm.tool.link!r}")
+    frame = model.frames[model.getFrameId(arm.tool.link)]
+    if frame.parentJoint != model.getJointId(arm.joints[-1]):
+        carrier = model.names[frame.parentJoint]
+        raise RobotError("tool.link", f"{arm.tool.link!r} is carried by {carrier!r}, not by {arm.joints[-1]!r}")
+    chain, root = read_chain(model, arm.joints, frame.placement * _tool(arm.tool), dict(card.resting))
+    return DescribedArm(arm, chain, root)
+
+
+def _tool(tool: ToolFile) -> pin.SE3:
+    """Return the tool in the frame it is fixed to: x along the approach axis, y along the closing axis."""
+    approach, closing = np.array(tool.approach), np.array(tool.closing)
+    if not np.linalg.norm(approach) > 0.0:
+        raise RobotError("tool.approach", "has no direction")
+    x = approach / np.linalg.norm(approach)
+    across = closing - (closing @ x) * x
+    if not np.linalg.norm(across) > 1e-3:
+        raise RobotError("tool.closing", "is along the approach axis, or has no direction")
+    y = across / np.linalg.norm(across)
+    return pin.SE3(np.column_stack([x, y, np.cross(x, y)]), np.array(tool.offset_m))
+
+
+def _lift_limits(model: pin.Model, card: CardFile) -> tuple[float, float]:
+    if card.lift is None:
+        return 0.0, 0.0
+    joint = _joint(model, card.lift, "lift")
+    data, q = model.createData(), pin.neutral(model)
+    pin.computeJointJacobians(model, data, q)
+    axis = pin.getJointJacobian(model, data, model.getJointId(card.lift), pin.LOCAL_WORLD_ALIGNED)[:, joint.idx_v]
+    if not np.allclose(axis, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0], atol=1e-6):
+        raise RobotError("lift", f"joint {card.lift!r} does not slide straight up")
+    return float(model.lowerPositionLimit[joint.idx_q]), float(model.upperPositionLimit[joint.idx_q])

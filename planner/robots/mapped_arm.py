@@ -1,0 +1,97 @@
+"""An arm of any robot: which tool poses it can take, and the joints for them."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from planner.geometry.pose import Approach, BoolArray, FloatArray
+from planner.robots.chain import PITCH, WHOLE, tool_poses
+from planner.robots.described_robot import DescribedArm, DescribedRobot
+from planner.robots.newton import solve_from
+from planner.robots.posture_map import PostureMap, reachable_poses
+from planner.robots.posture_maps import Progress, posture_map
+
+_PITCHES_DEG = (15, 30, 45, 60, 75)
+_HEADINGS_DEG = range(0, 360, 30)
+
+ALL_ROUND = (
+    *(Approach(math.radians(heading), math.radians(pitch)) for pitch in _PITCHES_DEG for heading in _HEADINGS_DEG),
+    Approach(0.0, math.pi / 2),
+)
+"""Directions from which a gripper may pinch, all round: fixed arms may stand on opposite sides of a table."""
+
+_BELOW_M, _ABOVE_M = 0.1, 0.8
+"""How far below and above the table's top a tool may be asked to be (m)."""
+
+
+class MappedArm:
+    """An arm with the map of its postures. It does not change, so all users may share one instance.
+
+    Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
+    each question.
+    """
+
+    def __init__(self, arm: DescribedArm, known: PostureMap) -> None:
+        """Take the arm and its map."""
+        self._chain = arm.chain
+        self._root = arm.root
+        self._known = known
+
+    @property
+    def asks_pitch_only(self) -> bool:
+        """Whether the arm has too few joints to choose the heading of an approach, so that only its pitch counts."""
+        return self._chain.rows == PITCH
+
+    @property
+    def size_mb(self) -> float:
+        """The memory that the map takes (MB)."""
+        return (self._known.starts.nbytes + self._known.postures.nbytes) / 1e6
+
+    def can_reach(self, positions: FloatArray, rotations: FloatArray, torso_m: float = 0.0) -> BoolArray:
+        """Return which tool poses, shapes (n, 3) and (n, 3, 3), the arm can take within its limits; shape (n,).
+
+        Where the roll is free, or the arm has too few joints for it, only the approach counts.
+        """
+        return self.joints(positions, rotations, torso_m)[0]
+
+    def joints(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float = 0.0
+    ) -> tuple[BoolArray, FloatArray]:
+        """Return which tool poses the arm can take, see `can_reach`, and joints for each, shape (n, joints)."""
+        points = np.ascontiguousarray(positions - self._shoulder(torso_m))
+        return reachable_poses(self._chain, self._known, points, np.ascontiguousarray(rotations))
+
+    def joints_near(
+        self, position: FloatArray, rotation: FloatArray, near: FloatArray, torso_m: float = 0.0
+    ) -> FloatArray | None:
+        """Return joints that bring the tool to a pose, roll included, led there from joints nearby; or None."""
+        rows = self._chain.rows if self.asks_pitch_only else WHOLE
+        point = np.ascontiguousarray(position - self._shoulder(torso_m))
+        found, joints = solve_from(self._chain, point[None], np.ascontiguousarray(rotation)[None], rows, near[None])
+        return joints[0] if found[0] else None
+
+    def tool_poses(self, joints: FloatArray, torso_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's positions, shape (n, 3), and rotations, shape (n, 3, 3), at rows of joints."""
+        points, rotations = tool_poses(self._chain, np.ascontiguousarray(joints))
+        return points + self._shoulder(torso_m), rotations
+
+    def _shoulder(self, torso_m: float) -> FloatArray:
+        shoulder: FloatArray = self._root + np.array([0.0, 0.0, torso_m])
+        return shoulder
+
+
+@lru_cache(maxsize=16)
+def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = None) -> MappedArm:
+    """Return an arm of a robot with its map, which is read from the user's cache or built (in seconds).
+
+    Args:
+        robot: the robot.
+        number: the arm's index.
+        progress: is told how far a map is that must be built.
+    """
+    arm = robot.arms[number]
+    table_m = robot.card.scene.table.height_m - float(arm.root[2])
+    low, high = robot.lift_limits_m
+    heights_m = (table_m - high - _BELOW_M, table_m - low + _ABOVE_M)
+    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights_m, progress))

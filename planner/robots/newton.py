@@ -1,0 +1,214 @@
+"""Newton's method for the joints that bring a tool to a pose. Compiled.
+
+It is damped and has as many rows as the pose has demands: three for the position, then one for the pitch of the
+approach axis (arms of five joints and fewer: the heading follows), or two for the axis (arms whose last joint gives the
+roll), or three for the whole rotation. Joints at a limit that would leave it are held there.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.chain import AXIS, PITCH, Chain, Scratch, forward, scratch_for
+
+ITERATIONS_MAX = 20
+"""Newton steps before a start is given up."""
+
+EXACT_M = 1e-6
+"""Largest distance of a solution from its pose (m); angles count by the arm's length scale."""
+
+STEP_MAX = 0.5
+"""Largest change of a joint in one step (rad, m)."""
+
+PATIENCE, PROGRESS = 4, 0.6
+"""A start is given up where the error has not fallen to this share of itself within so many steps."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tuple[float, float, float]:
+    """Return how far the pitch is from the wanted one (rad), and the horizontal axis (x, y) that raises it.
+
+    The pitch is measured in the upright plane at a right angle to the second joint's axis, so that it may pass
+    straight down.
+    """
+    hx, hy = scratch.axes[1, 0], scratch.axes[1, 1]
+    length = math.hypot(hx, hy)
+    if length < 1e-9:
+        return 0.0, 0.0, 0.0
+    hx, hy = hx / length, hy / length
+    if hy * point[0] - hx * point[1] < 0.0:
+        hx, hy = -hx, -hy
+    ahead = scratch.frame[0, 0] * hy - scratch.frame[1, 0] * hx
+    wanted = math.atan2(-rotation[2, 0], math.hypot(rotation[0, 0], rotation[1, 0]))
+    lacking = wanted - math.atan2(-scratch.frame[2, 0], ahead)
+    return lacking - math.tau * math.floor(lacking / math.tau + 0.5), hx, hy
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, scratch: Scratch) -> float:
+    """Set the errors and the Jacobian of a pose; return the error's length (m)."""
+    errors, jacobian, frame, scale = scratch.errors, scratch.rows, scratch.frame, chain.scale
+    joints = len(chain.low)
+    for k in range(3):
+        errors[k] = point[k] - scratch.point[k]
+    tx, ty, tz = 0.0, 0.0, 0.0
+    if rows == PITCH:
+        lacking, tx, ty = _pitch_row(point, rotation, scratch)
+        errors[3] = scale * lacking
+    else:
+        ex, ey, ez = 0.0, 0.0, 0.0
+        for axis in range(1 if rows == AXIS else 3):
+            ax, ay, az = frame[0, axis], frame[1, axis], frame[2, axis]
+            wx, wy, wz = rotation[0, axis], rotation[1, axis], rotation[2, axis]
+            cx, cy, cz = ay * wz - az * wy, az * wx - ax * wz, ax * wy - ay * wx
+            share = 1.0
+            if rows == AXIS:
+                sine = math.sqrt(cx * cx + cy * cy + cz * cz)
+                share = math.atan2(sine, ax * wx + ay * wy + az * wz) / sine if sine > 1e-9 else 1.0
+                if sine <= 1e-9 and ax * wx + ay * wy + az * wz < 0.0:
+                    cx, cy, cz = math.pi * frame[0, 1], math.pi * frame[1, 1], math.pi * frame[2, 1]
+            else:
+                share = 0.5
+            ex, ey, ez = ex + share * cx, ey + share * cy, ez + share * cz
+        if rows == AXIS:
+            errors[3] = scale * (ex * frame[0, 1] + ey * frame[1, 1] + ez * frame[2, 1])
+            errors[4] = scale * (ex * frame[0, 2] + ey * frame[1, 2] + ez * frame[2, 2])
+        else:
+            errors[3], errors[4], errors[5] = scale * ex, scale * ey, scale * ez
+    for i in range(joints):
+        wx, wy, wz = scratch.axes[i, 0], scratch.axes[i, 1], scratch.axes[i, 2]
+        if chain.is_prismatic[i]:
+            jacobian[0, i], jacobian[1, i], jacobian[2, i] = wx, wy, wz
+            wx, wy, wz = 0.0, 0.0, 0.0
+        else:
+            dx = scratch.point[0] - scratch.places[i, 0]
+            dy = scratch.point[1] - scratch.places[i, 1]
+            dz = scratch.point[2] - scratch.places[i, 2]
+            jacobian[0, i], jacobian[1, i] = wy * dz - wz * dy, wz * dx - wx * dz
+            jacobian[2, i] = wx * dy - wy * dx
+        if rows == PITCH:
+            jacobian[3, i] = scale * (wx * tx + wy * ty + wz * tz)
+        elif rows == AXIS:
+            jacobian[3, i] = scale * (wx * frame[0, 1] + wy * frame[1, 1] + wz * frame[2, 1])
+            jacobian[4, i] = scale * (wx * frame[0, 2] + wy * frame[1, 2] + wz * frame[2, 2])
+        else:
+            jacobian[3, i], jacobian[4, i], jacobian[5, i] = scale * wx, scale * wy, scale * wz
+    squared = 0.0
+    for k in range(rows):
+        squared += errors[k] * errors[k]
+    return math.sqrt(squared)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _set_step(rows: int, damping: float, scratch: Scratch) -> None:
+    """Set the damped least-squares step of the joints that are not held."""
+    jacobian, normal, errors, step = scratch.rows, scratch.normal, scratch.errors, scratch.step
+    solution = scratch.solution
+    joints = len(step)
+    for a in range(rows):
+        for b in range(a + 1):
+            total = damping if a == b else 0.0
+            for i in range(joints):
+                if not scratch.is_held[i]:
+                    total += jacobian[a, i] * jacobian[b, i]
+            for k in range(b):
+                total -= normal[a, k] * normal[b, k]
+            normal[a, b] = math.sqrt(max(total, 1e-18)) if a == b else total / normal[b, b]
+    for i in range(joints):
+        step[i] = 0.0
+    for a in range(rows):
+        total = errors[a]
+        for k in range(a):
+            total -= normal[a, k] * solution[k]
+        solution[a] = total / normal[a, a]
+    for back in range(rows):
+        a = rows - 1 - back
+        total = solution[a]
+        for k in range(a + 1, rows):
+            total -= normal[k, a] * solution[k]
+        solution[a] = total / normal[a, a]
+    for i in range(joints):
+        if not scratch.is_held[i]:
+            for a in range(rows):
+                step[i] += jacobian[a, i] * solution[a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def solve(
+    chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, joints: FloatArray, scratch: Scratch
+) -> bool:
+    """Return whether Newton's method leads from some joints to a tool pose; the joints are set to where it ends.
+
+    Args:
+        chain: the arm.
+        point: the tool's position, shape (3,).
+        rotation: the tool's axes as columns, shape (3, 3); with `AXIS` and `PITCH` only the first counts.
+        rows: what is asked of the pose.
+        joints: where to begin, shape (n,); within the limits, but for joints that have whole turns.
+        scratch: working memory.
+    """
+    count, before, wait = len(joints), math.inf, 0
+    for _ in range(ITERATIONS_MAX):
+        forward(chain, joints, scratch)
+        error = _set_rows(chain, point, rotation, rows, scratch)
+        if error <= EXACT_M:
+            return _settled(chain, joints)
+        wait += 1
+        if error <= PROGRESS * before:
+            before, wait = error, 0
+        elif wait >= PATIENCE:
+            return False
+        scratch.is_held[:] = False
+        for _ in range(count):
+            _set_step(rows, min(1e-3, 0.02 * error * error) + 1e-12, scratch)
+            is_new = False
+            for i in range(count):
+                if chain.turns[i] or scratch.is_held[i]:
+                    continue
+                step = scratch.step[i]
+                if (step < 0.0 and joints[i] <= chain.low[i]) or (step > 0.0 and joints[i] >= chain.high[i]):
+                    scratch.is_held[i] = is_new = True
+            if not is_new:
+                break
+        longest = 0.0
+        for i in range(count):
+            longest = max(longest, abs(scratch.step[i]))
+        share = min(1.0, STEP_MAX / longest) if longest > 0.0 else 1.0
+        for i in range(count):
+            joints[i] += share * scratch.step[i]
+            if not chain.turns[i]:
+                joints[i] = min(max(joints[i], chain.low[i]), chain.high[i])
+    return False
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _settled(chain: Chain, joints: FloatArray) -> bool:
+    """Bring joints that have whole turns within their limits, nearest to the middle; always possible."""
+    for i in range(len(joints)):
+        if chain.turns[i] and not chain.low[i] <= joints[i] <= chain.high[i]:
+            middle = 0.5 * (chain.low[i] + chain.high[i]) if math.isfinite(chain.low[i] + chain.high[i]) else 0.0
+            joints[i] -= math.tau * math.floor((joints[i] - middle) / math.tau + 0.5)
+    return True
+
+
+@njit(cache=True, nogil=True)
+def solve_from(
+    chain: Chain, points: FloatArray, rotations: FloatArray, rows: int, starts: FloatArray
+) -> tuple[BoolArray, FloatArray]:
+    """Return which poses Newton's method finds joints for, each from its own start, and the joints.
+
+    Args:
+        chain: the arm.
+        points: positions, shape (m, 3).
+        rotations: rotations, shape (m, 3, 3).
+        rows: what is asked of each pose.
+        starts: joints to begin with, shape (m, n).
+    """
+    scratch, joints = scratch_for(starts.shape[1]), starts.copy()
+    found: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
+    for i in range(len(points)):
+        found[i] = solve(chain, points[i], rotations[i], rows, joints[i], scratch)
+    return found, joints

@@ -1,0 +1,188 @@
+"""How a map of postures grows: a posture found in one cell is the start in the cells beside it. Compiled.
+
+Cells whose middle is out of reach, but that lie beside one whose is not, take over postures of their neighbours.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.robots.chain import PITCH, Chain, Scratch, forward, scratch_for
+from planner.robots.newton import solve
+from planner.robots.posture_map import CODES, Grid, approach_of, cell_of, decode
+
+APART = 0.5
+"""Postures of one cell differ by at least this in some joint (rad, m)."""
+
+FRINGE = 8
+"""Postures that a cell out of reach takes over from its neighbours."""
+
+
+class Growth(NamedTuple):
+    """A map that grows.
+
+    Attributes:
+        postures: the joints in steps of their ranges, shape (entries, families, n).
+        known: the number of postures of each entry, shape (entries,).
+        queue: the postures whose neighbours are still to be tried, as entry * families + family.
+        ends: the first and the last of the queue, shape (2,).
+    """
+
+    postures: NDArray[np.int8]
+    known: NDArray[np.int8]
+    queue: NDArray[np.int32]
+    ends: NDArray[np.int64]
+
+
+@njit(cache=True, nogil=True)
+def _encode(grid: Grid, turns: NDArray[np.bool_], joints: FloatArray, codes: NDArray[np.int8]) -> None:
+    for i in range(len(joints)):
+        off = joints[i] - grid.middle[i]
+        if turns[i]:
+            off -= math.tau * math.floor(off / math.tau + 0.5)
+        codes[i] = round(min(max(off / grid.half[i], -1.0), 1.0) * CODES)
+
+
+@njit(cache=True, nogil=True)
+def _is_known(grid: Grid, growth: Growth, turns: NDArray[np.bool_], entry: int, codes: NDArray[np.int8]) -> bool:
+    """Return whether an entry has a posture near to a given one."""
+    for family in range(growth.known[entry]):
+        is_near = True
+        for i in range(len(codes)):
+            off = abs(float(growth.postures[entry, family, i]) - float(codes[i])) / CODES * grid.half[i]
+            if turns[i]:
+                off = min(off, math.tau - off)
+            if off > APART:
+                is_near = False
+                break
+        if is_near:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _try(
+    chain: Chain,
+    grid: Grid,
+    growth: Growth,
+    cell: int,
+    approach: int,
+    codes: NDArray[np.int8],
+    joints: FloatArray,
+    scratch: Scratch,
+) -> None:
+    """Add the posture that a cell's middle has near to a given one, if it is new there."""
+    entry, families = cell * len(grid.rotations) + approach, growth.postures.shape[1]
+    if growth.known[entry] >= families or _is_known(grid, growth, chain.turns, entry, codes):
+        return
+    ny, nz = grid.counts[1], grid.counts[2]
+    middle = np.empty(3)
+    middle[0] = grid.low[0] + (cell // (ny * nz) + 0.5) * grid.cell
+    middle[1] = grid.low[1] + (cell // nz % ny + 0.5) * grid.cell
+    middle[2] = grid.low[2] + (cell % nz + 0.5) * grid.cell
+    decode(grid, codes, joints)
+    if not solve(chain, middle, grid.rotations[approach], chain.rows, joints, scratch):
+        return
+    family = growth.known[entry]
+    found = growth.postures[entry, family]
+    _encode(grid, chain.turns, joints, found)
+    if not _is_known(grid, growth, chain.turns, entry, found):
+        growth.known[entry] += 1
+        growth.queue[growth.ends[1]] = entry * families + family
+        growth.ends[1] += 1
+
+
+@njit(cache=True, nogil=True)
+def sow(chain: Chain, grid: Grid, growth: Growth, samples: FloatArray) -> None:
+    """Add what random joints, shape (m, n), lead to."""
+    scratch, joints = scratch_for(samples.shape[1]), np.empty(samples.shape[1])
+    codes = np.empty(samples.shape[1], dtype=np.int8)
+    for i in range(len(samples)):
+        forward(chain, samples[i], scratch)
+        cell = cell_of(grid, scratch.point)
+        if cell < 0:
+            continue
+        approach = approach_of(grid, scratch.frame[:, 0])
+        r = grid.rotations[approach]
+        along = scratch.frame[0, 0] * r[0, 0] + scratch.frame[1, 0] * r[1, 0] + scratch.frame[2, 0] * r[2, 0]
+        if along > 0.9 or chain.rows == PITCH:
+            _encode(grid, chain.turns, samples[i], codes)
+            _try(chain, grid, growth, cell, approach, codes, joints, scratch)
+
+
+@njit(cache=True, nogil=True)
+def grow(chain: Chain, grid: Grid, growth: Growth, most: int) -> bool:
+    """Try the neighbours of the next postures in the queue, `most` at the most; return whether any are left."""
+    count, families = growth.postures.shape[2], growth.postures.shape[1]
+    scratch, joints = scratch_for(count), np.empty(count)
+    approaches, nx, ny, nz = len(grid.rotations), grid.counts[0], grid.counts[1], grid.counts[2]
+    for _ in range(most):
+        if growth.ends[0] >= growth.ends[1]:
+            return False
+        entry, family = divmod(growth.queue[growth.ends[0]], families)
+        growth.ends[0] += 1
+        cell, approach = divmod(entry, approaches)
+        codes = growth.postures[entry, family]
+        if cell // (ny * nz) + 1 < nx:
+            _try(chain, grid, growth, cell + ny * nz, approach, codes, joints, scratch)
+        if cell // (ny * nz) > 0:
+            _try(chain, grid, growth, cell - ny * nz, approach, codes, joints, scratch)
+        if cell // nz % ny + 1 < ny:
+            _try(chain, grid, growth, cell + nz, approach, codes, joints, scratch)
+        if cell // nz % ny > 0:
+            _try(chain, grid, growth, cell - nz, approach, codes, joints, scratch)
+        if cell % nz + 1 < nz:
+            _try(chain, grid, growth, cell + 1, approach, codes, joints, scratch)
+        if cell % nz > 0:
+            _try(chain, grid, growth, cell - 1, approach, codes, joints, scratch)
+        for other in grid.beside[approach]:
+            _try(chain, grid, growth, cell, other, codes, joints, scratch)
+    return bool(growth.ends[0] < growth.ends[1])
+
+
+@njit(cache=True, nogil=True)
+def finished(chain: Chain, grid: Grid, growth: Growth) -> tuple[NDArray[np.int32], NDArray[np.int8]]:
+    """Return the starts and postures of a grown map, those of the fringe included; see `PostureMap`."""
+    approaches, nx, ny, nz = len(grid.rotations), grid.counts[0], grid.counts[1], grid.counts[2]
+    entries = len(growth.known)
+    within = growth.known.copy()
+    for entry in range(entries):
+        if within[entry] > 0:
+            continue
+        cell, approach = divmod(entry, approaches)
+        x, y, z = cell // (ny * nz), cell // nz % ny, cell % nz
+        for reach in range(1, 4):
+            for dx in range(-1, 2):
+                for dy in range(-1, 2):
+                    for dz in range(-1, 2):
+                        if abs(dx) + abs(dy) + abs(dz) != reach or growth.known[entry] >= FRINGE:
+                            continue
+                        if 0 <= x + dx < nx and 0 <= y + dy < ny and 0 <= z + dz < nz:
+                            other = (((x + dx) * ny + y + dy) * nz + z + dz) * approaches + approach
+                            _take_over(chain, grid, growth, within, entry, other)
+        for beside in grid.beside[approach]:
+            if growth.known[entry] == 0:
+                _take_over(chain, grid, growth, within, entry, cell * approaches + beside)
+    starts = np.zeros(entries + 1, dtype=np.int32)
+    for entry in range(entries):
+        starts[entry + 1] = starts[entry] + growth.known[entry]
+    postures = np.empty((starts[entries], growth.postures.shape[2]), dtype=np.int8)
+    for entry in range(entries):
+        for family in range(growth.known[entry]):
+            postures[starts[entry] + family] = growth.postures[entry, family]
+    return starts, postures
+
+
+@njit(cache=True, nogil=True)
+def _take_over(chain: Chain, grid: Grid, growth: Growth, within: NDArray[np.int8], entry: int, other: int) -> None:
+    """Give an entry the postures of another that are new to it."""
+    for family in range(within[other]):
+        codes = growth.postures[other, family]
+        known = growth.known[entry]
+        if known < FRINGE and not _is_known(grid, growth, chain.turns, entry, codes):
+            growth.postures[entry, known] = codes
+            growth.known[entry] += 1

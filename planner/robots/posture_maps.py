@@ -1,0 +1,130 @@
+"""Build maps of postures, and keep them in the user's cache."""
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Callable, Sequence
+from hashlib import blake2b
+from pathlib import Path
+from zipfile import BadZipFile
+
+import numpy as np
+from platformdirs import user_cache_path
+
+from planner.geometry.pose import Approach
+from planner.robots.chain import Chain
+from planner.robots.posture_growth import APART, FRINGE, Growth, finished, grow, sow
+from planner.robots.posture_map import Grid, PostureMap
+
+CELL_M = 0.075
+"""The largest edge of a cell (m)."""
+
+CELLS_ACROSS = 26
+"""Cells across the reach of a small arm, whose cells are smaller."""
+
+SEEDS = 200_000
+"""Random postures from which a map is begun; a family that none of them is in is not found."""
+
+_FAMILIES = 8
+"""Postures of a cell: an arm of six joints has up to eight that are apart, an arm of seven has curves of them.
+
+At least `FRINGE`: the cells out of reach take over that many.
+"""
+
+_SLICE = 50_000
+"""Postures between two reports of progress."""
+
+_FORMAT = 1
+"""Version of the cache; raise it whenever maps are made or stored differently."""
+
+Progress = Callable[[float], None]
+"""Is told now and then what share of the work is done, roughly (0 to 1)."""
+
+
+def posture_map(
+    chain: Chain,
+    approaches: Sequence[Approach],
+    heights_m: tuple[float, float],
+    progress: Progress | None = None,
+    directory: Path | None = None,
+) -> PostureMap:
+    """Return an arm's map, read from the cache or built (in seconds) and kept.
+
+    A cache that cannot be read is built again; one that cannot be written is ignored.
+
+    Args:
+        chain: the arm.
+        approaches: the approaches that will mostly be asked.
+        heights_m: the lowest and the highest point that will be asked, seen from the arm's root (m).
+        progress: is told how far the work is.
+        directory: the cache directory; None: the platform's own.
+    """
+    grid = _grid(chain, approaches, heights_m)
+    path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return PostureMap(grid, arrays["starts"], arrays["postures"])
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        built = build_map(chain, grid, progress)
+    with contextlib.suppress(OSError):
+        _write(path, built)
+    return built
+
+
+def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> PostureMap:
+    """Return an arm's map, grown from random postures."""
+    joints = len(chain.low)
+    entries = int(np.prod(grid.counts)) * len(grid.rotations)
+    growth = Growth(
+        np.zeros((entries, _FAMILIES, joints), dtype=np.int8),
+        np.zeros(entries, dtype=np.int8),
+        np.empty(entries * _FAMILIES, dtype=np.int32),
+        np.zeros(2, dtype=np.int64),
+    )
+    rng = np.random.default_rng(0)
+    sow(chain, grid, growth, grid.middle + grid.half * rng.uniform(-1.0, 1.0, (SEEDS, joints)))
+    while grow(chain, grid, growth, _SLICE):
+        if progress is not None:
+            done, known = growth.ends
+            progress(0.98 * float(done / known))
+    made = PostureMap(grid, *finished(chain, grid, growth))
+    if progress is not None:
+        progress(1.0)
+    return made
+
+
+def _grid(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float, float]) -> Grid:
+    reach = float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset))
+    reach += float(np.abs(np.concatenate([chain.low, chain.high])[np.tile(chain.is_prismatic, 2)]).sum())
+    cell = min(CELL_M, 2.0 * reach / CELLS_ACROSS)
+    low = np.array([-reach, -reach, max(heights_m[0], -reach)])
+    high = np.array([reach, reach, max(min(heights_m[1], reach), low[2] + cell)])
+    rotations = np.array([approach.rotation for approach in approaches])
+    along = rotations[:, :, 0] @ rotations[:, :, 0].T
+    np.fill_diagonal(along, -2.0)
+    beside = np.argsort(-along, axis=1, kind="stable")[:, : min(4, len(approaches) - 1)]
+    half = np.where(chain.turns, np.pi, 0.5 * (chain.high - chain.low))
+    middle = np.where(chain.turns, 0.0, 0.5 * (chain.high + chain.low))
+    counts = np.ceil((high - low) / cell).astype(np.int64)
+    return Grid(low, cell, counts, rotations, np.ascontiguousarray(beside), middle, half)
+
+
+def _digest(chain: Chain, grid: Grid) -> str:
+    """Return a digest of all that a map depends on: the arm as its card and URDF make it, the cells, the approaches."""
+    digest = blake2b(f"{_FORMAT} {SEEDS} {_FAMILIES} {FRINGE} {APART}".encode(), digest_size=12)
+    for part in (*chain, *grid):
+        digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.hexdigest()
+
+
+def _write(path: Path, made: PostureMap) -> None:
+    """Write a map to a file atomically, so that it exists only once it is complete."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, starts=made.starts, postures=made.postures)
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

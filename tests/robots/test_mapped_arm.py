@@ -1,0 +1,83 @@
+"""Arms of any robot: what their maps of postures answer, against the PR2's closed form and another kinematics."""
+
+import numpy as np
+import pytest
+
+from planner.robots.described_robot import read_robot
+from planner.robots.load_robot import load_robot
+from planner.robots.mapped_arm import ALL_ROUND, MappedArm
+from planner.robots.posture_maps import posture_map
+from tests.robots.model import pin_pose
+
+TORSO_M = 0.29
+LOW_M, HIGH_M = 0.80, 0.95
+"""A slice over the table: the maps of whole arms take seconds."""
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+def mapped(cache, progress=None) -> MappedArm:
+    arm = read_robot("pr2").arms[0]
+    shoulder_m = float(arm.root[2]) + TORSO_M
+    heights_m = (LOW_M - shoulder_m, HIGH_M - shoulder_m)
+    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights_m, progress, cache))
+
+
+@pytest.fixture(scope="module")
+def poses():
+    rng = np.random.default_rng(11)
+    points = rng.uniform((-0.6, -0.6, LOW_M), (1.0, 1.1, HIGH_M), (3000, 3))
+    chosen = rng.integers(0, len(ALL_ROUND), len(points))
+    return points, np.array([ALL_ROUND[number].rotation for number in chosen])
+
+
+def test_the_map_of_a_pr2_answers_as_its_closed_form(cache, poses):
+    arm, reference = mapped(cache), load_robot("pr2")
+    found, true = arm.can_reach(*poses, TORSO_M), reference.can_reach(0, *poses, TORSO_M)
+    assert true.sum() > 300
+    assert not (found & ~true).any()
+    assert (found & true).sum() >= 0.998 * true.sum()
+
+
+def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses):
+    arm, chain = mapped(cache), read_robot("pr2").arms[0].chain
+    found, joints = arm.joints(*poses, TORSO_M)
+    names = read_robot("pr2").card.arms[0].joints
+    assert (joints[found] >= chain.low - 1e-9).all()
+    assert (joints[found] <= chain.high + 1e-9).all()
+    for number in np.flatnonzero(found)[:60]:
+        values = {"torso_lift_joint": TORSO_M, **dict(zip(names, joints[number].tolist(), strict=True))}
+        position, rotation = pin_pose("l_gripper_tool_frame", values)
+        np.testing.assert_allclose(position, poses[0][number], atol=1e-4)
+        np.testing.assert_allclose(rotation[:, 0], poses[1][number][:, 0], atol=1e-4)
+
+
+def test_joints_nearby_lead_to_the_whole_pose(cache, poses):
+    arm = mapped(cache)
+    found, joints = arm.joints(*poses, TORSO_M)
+    for row in joints[found][:40]:
+        points, rotations = arm.tool_poses(row[None], TORSO_M)
+        near = arm.joints_near(points[0], rotations[0], row, TORSO_M)
+        assert near is not None
+        np.testing.assert_allclose(near, row, atol=1e-4)
+
+
+def test_a_map_is_built_once_and_then_read(tmp_path, poses):
+    told: list[float] = []
+    built = mapped(tmp_path, told.append)
+    assert told
+    assert told[-1] == 1.0
+    told.clear()
+    read = mapped(tmp_path, told.append)
+    assert not told
+    np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), read.can_reach(*poses, TORSO_M))
+
+
+def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
+    built = mapped(tmp_path)
+    for path in (tmp_path / "postures").iterdir():
+        path.write_bytes(b"broken")
+    np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), mapped(tmp_path).can_reach(*poses, TORSO_M))
