@@ -7,6 +7,7 @@ from typing import Final
 
 from rich.console import Console
 
+from bench.any_robot import any_robot
 from bench.crowd import crowd
 from bench.environment import environment
 from bench.first_plan import first_plan
@@ -32,12 +33,13 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "first-plan": first_plan,
     "re-plan": re_plan,
     "reach": reach,
+    "any-robot": any_robot,
     "growth": growth,
     "frames": frames,
     "hand": hand,
     "crowd": crowd,
 }
-APART: Final = frozenset({"reach", "growth", "hand", "crowd"})
+APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))

@@ -91,7 +91,11 @@ def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = N
         progress: is told how far a map is that must be built.
     """
     arm = robot.arms[number]
+    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights(robot, arm), progress))
+
+
+def heights(robot: DescribedRobot, arm: DescribedArm) -> tuple[float, float]:
+    """Return the lowest and the highest point that a robot's arm is asked for, seen from its root (m)."""
     table_m = robot.card.scene.table.height_m - float(arm.root[2])
     low, high = robot.lift_limits_m
-    heights_m = (table_m - high - _BELOW_M, table_m - low + _ABOVE_M)
-    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights_m, progress))
+    return table_m - high - _BELOW_M, table_m - low + _ABOVE_M

@@ -59,7 +59,7 @@ def posture_map(
         progress: is told how far the work is.
         directory: the cache directory; None: the platform's own.
     """
-    grid = _grid(chain, approaches, heights_m)
+    grid = grid_of(chain, approaches, heights_m)
     path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
@@ -93,7 +93,8 @@ def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> Pos
     return made
 
 
-def _grid(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float, float]) -> Grid:
+def grid_of(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float, float]) -> Grid:
+    """Return the cells and approaches of an arm's map; see `posture_map`."""
     reach = float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset))
     reach += float(np.abs(np.concatenate([chain.low, chain.high])[np.tile(chain.is_prismatic, 2)]).sum())
     cell = min(CELL_M, 2.0 * reach / CELLS_ACROSS)
