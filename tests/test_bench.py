@@ -16,6 +16,7 @@ from rich.console import Console
 
 from app.drawing.garment_drawing import drawing_of
 from bench.__main__ import BENCHMARKS, main
+from bench.any_robot import any_robot
 from bench.chart import Panel, Point, Series, draw
 from bench.crowd import crowd
 from bench.frames import frames_of
@@ -300,8 +301,18 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     main(["--quick", "--only", "vest"], tmp_path, tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == set(asked)
     assert {"table-1", "re-plan", "first-plan"} <= set(asked)
-    assert not set(asked) & {"reach", "growth"}
+    assert not set(asked) & {"reach", "any-robot", "growth"}
     assert all(articles == ["vest"] for articles in asked.values())
+
+
+def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    thin = {"POSES": 300, "RESTARTS": 3, "shipped_robots": lambda: ("so101-pair",), "heights": lambda *_: (0.0, 0.03)}
+    for name, less in thin.items():
+        monkeypatch.setattr(f"bench.any_robot.{name}", less)
+    (row,) = written(any_robot([], 1), tmp_path)["rows"]
+    assert row["robot"] == "so101-pair"
+    assert row["reachable"] > row["missed"] >= 0
+    assert row["map_mb"] > 0.0
 
 
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
