@@ -1,5 +1,6 @@
 """Compose one URDF from a card: its description on every mount, with the tools on it."""
 
+from collections import Counter
 from copy import deepcopy
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, tostring
@@ -36,9 +37,8 @@ def composed_urdf(card: CardFile, folder: Path) -> str:
     for mount in card.mounts:
         _join(whole, deepcopy(body), BASE_LINK, mount)
     for tag in ("link", "joint"):
-        names = [one.get("name") for one in whole.findall(tag)]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
+        ((twice, times),) = Counter(one.get("name") for one in whole.iterfind(tag)).most_common(1) or (("", 0),)
+        if times > 1:
             raise RobotError("mounts", f"two {tag}s are called {twice!r}: mounts and tools need names of their own")
     return tostring(whole, encoding="unicode")
 

@@ -134,6 +134,13 @@ def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path):
     assert said in caught.value.message
 
 
+def test_mounts_without_names_of_their_own_are_refused(tmp_path):
+    data = read_robot("ur5e-single").card.to_dict()
+    data["tools"].append(data["tools"][0])
+    with pytest.raises(RobotError, match="two links are called 'gripper_base_link'"):
+        read_robot(str(_written(tmp_path, data)))
+
+
 def test_an_unknown_robot_is_told_with_the_known_ones():
     with pytest.raises(RobotError, match="ur5e-pair"):
         read_robot("r2d2")
