@@ -19,6 +19,8 @@ const LARGEST_PX = 34;
 const SMALLEST_PX = 18;
 const MARGIN_PX = 12;
 const WORDS_PX = 14;
+/** How wide a letter is at most on average (px). */
+const LETTER_PX = 6.5;
 /** Its parts in the base frame, in shares of the base's half width: shoulders and the arms ahead of them. */
 const SHOULDERS = /** @type {Point[]} */ ([
   [0.15, 0.75],
@@ -117,11 +119,12 @@ function silhouette([x, y], turn, r) {
 function label([x, y], r, text, { view }) {
   const isLow = y + r + 2 * WORDS_PX > view.height;
   const isRight = x > view.width / 2;
+  const half = (text.length * LETTER_PX) / 2 + 4;
   return {
     key: "robot:name",
     tag: "text",
     class: "robot-name",
-    x: isLow ? x + (isRight ? -1 : 1) * (r * 1.5 + 4) : x,
+    x: isLow ? x + (isRight ? -1 : 1) * (r * 1.5 + 4) : Math.max(Math.min(x, view.width - half), half),
     y: isLow ? y + 4 : y + r + WORDS_PX,
     "text-anchor": isLow ? (isRight ? "end" : "start") : "middle",
     text,
