@@ -15,6 +15,8 @@ from typing import Any
 from planner import Garment, load_garment, make_plan
 from planner.planning.problem import forget_garments
 from planner.planning.warm_up import compile_kernels
+from planner.robots.load_robot import load_robot
+from planner.task.task import DEFAULT_ROBOT
 
 TIME_LIMIT_S = 60.0
 
@@ -130,6 +132,7 @@ def measure(*cases: Case, repetitions: int) -> list[Measurement]:
 def _run(garment: Garment, case: Case) -> _Run:
     started = perf_counter()
     forget_garments()
+    load_robot(DEFAULT_ROBOT).forget_reach()
     plan = make_plan(
         garment,
         comfort_radius_m=case.comfort_radius_m,

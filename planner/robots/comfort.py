@@ -38,8 +38,13 @@ ROW_STEP = 5_000
 ROWS, QUERIES = 0, 1
 """Indices of the counts: rows, and queries made."""
 
-KNOWN, GOOD = 0, 1
-"""Indices of a row's bits: which places have been tested, and which of them are within the comfort radius."""
+KNOWN, GOOD, TESTED, PASSED = range(4)
+"""Indices of a row's bits: which places this plan has asked about, and which of them are within the comfort radius; and
+the same of all plans that have had the memory."""
+
+YES, NO = 5, 1
+"""Queries charged for a place: all five if it is within the comfort radius; if not, mostly one tells. A plan is charged
+for what another has tested too, so that its work does not depend on what came before it."""
 
 FORGETFUL = -1
 """The slot of a row that finds no room in the memory."""
@@ -53,7 +58,7 @@ class Memory(NamedTuple):
 
     Attributes:
         keys: the rows' keys, shape (size,), size a power of two; 0 is empty.
-        bits: the rows' bits, shape (size, 2).
+        bits: the rows' numbers, see `KNOWN`, shape (size, 4).
         counts: see `ROWS` and `QUERIES`, shape (2,).
         hints: for each approach the pan that served last (rad) and its branch, shape (64, 2).
     """
@@ -67,8 +72,13 @@ class Memory(NamedTuple):
 def empty_memory(size_bits: int = 16) -> Memory:
     """Return a memory with room for 2 ** size_bits rows, of which it uses three quarters."""
     size = 1 << size_bits
-    bits, counts = np.zeros((size, 2), dtype=np.int64), np.zeros(2, dtype=np.int64)
-    return Memory(np.zeros(size, dtype=np.int64), bits, counts, np.tile((0.5, 1.0), (64, 1)))
+    bits, counts = np.zeros((size, 4), dtype=np.int64), np.zeros(2, dtype=np.int64)
+    return Memory(np.zeros(size, dtype=np.int64), bits, counts, no_hints())
+
+
+def no_hints() -> FloatArray:
+    """Return the hints of a plan that has not asked anything yet."""
+    return np.tile((0.5, 1.0), (64, 1))
 
 
 class Place(NamedTuple):
@@ -194,10 +204,15 @@ def is_comfortable_at(
         return bool(memory.bits[slot, GOOD] & bit != 0)
     aim, answer = aim_from(ask, place, back_off), False
     if is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim):
-        answer, queries = is_comfortable(ask.shape, aim, ask.comfort, arcs, memory.hints[ask.label])
-        memory.counts[QUERIES] += queries
-        if answer and may_be_hindered(aim):
-            answer = has_room_about(ask.shape, room, ask.label, aim, arcs)
+        if memory.bits[slot, TESTED] & bit != 0:
+            answer = memory.bits[slot, PASSED] & bit != 0
+        else:
+            answer = is_comfortable(ask.shape, aim, ask.comfort, arcs, memory.hints[ask.label])[0]
+            if answer and may_be_hindered(aim):
+                answer = has_room_about(ask.shape, room, ask.label, aim, arcs)
+            memory.bits[slot, TESTED] |= bit
+            memory.bits[slot, PASSED] |= bit if answer else 0
+        memory.counts[QUERIES] += YES if answer and ask.comfort > 0.0 else NO
     if bit != 0:
         memory.bits[slot, KNOWN] |= bit
         if answer:

@@ -15,6 +15,7 @@ from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
 from planner.robots.back_offs import anywhere, back_off_masks
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
+from planner.robots.comfort_memories import Memories
 from planner.robots.driving_task import UNSEEN, Task
 from planner.robots.following import Following
 from planner.robots.posture_room import Room, no_walls
@@ -41,16 +42,24 @@ class ComfortReach:
         torso_m: float,
         comfort_m: float,
         room: Room | None = None,
+        memories: Memories | None = None,
     ) -> None:
-        """Start with an empty memory: names and arms from left to right, torso and comfort in m.
+        """Start with nothing asked.
 
-        `room` holds the obstacles to the left arm's postures; None: the body is no obstacle.
+        Args:
+            arm_names: the arms from left to right.
+            arms: the same arms.
+            torso_m: how far the torso is raised (m).
+            comfort_m: the comfort radius (m).
+            room: the obstacles to the left arm's postures; None: the body is no obstacle.
+            memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
         """
         self._arm_names = arm_names
         self._arms = arms
         self._torso_m = torso_m
         self._comfort_m = comfort_m
-        self._memory = empty_memory()
+        self._memories = memories
+        self._memory = empty_memory() if memories is None else memories.take()
         self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
         self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
         self._numbers = numbers_of(arms[0].shape)
@@ -61,8 +70,11 @@ class ComfortReach:
         self._query_time_s = 0.0
 
     def forget(self) -> None:
-        """Drop the memory, some 2 MB, and keep the counts; the answers stay the same."""
+        """Leave the memory, some 4 MB, to another plan and keep the counts; the answers stay the same."""
         queries = self.queries - self._shortfall_queries
+        if self._memories is not None:
+            self._memories.leave(self._memory)
+            self._memories = None
         self._memory = empty_memory(_SMALL_BITS)
         self._memory.counts[QUERIES] = queries
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -15,12 +15,16 @@ from planner.robots.arm_paths import Together, arm_paths
 from planner.robots.card import RobotCard
 from planner.robots.collision.collisions import OPENING_M, Collisions
 from planner.robots.collision.robot_parts import RobotParts, robot_parts
+from planner.robots.comfort_memories import Memories
 from planner.robots.description import read_model
 from planner.robots.posture_room import Room, room_beside
 from planner.robots.pr2_card import pr2_card
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
 from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
+
+_MEMORIES_KEPT = 4
+"""Torso heights and comfort radii for which it is kept where the arms reach."""
 
 
 class Pr2:
@@ -37,6 +41,7 @@ class Pr2:
         self._model = model
         self._card = pr2_card(model)
         self._rooms: dict[float, Room] = {}
+        self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
         self._arms = (SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True))
 
     @property
@@ -61,7 +66,12 @@ class Pr2:
         if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
             raise RequestError("comfort_m", f"{comfort_m} m is no radius")
         names = tuple(arm.name for arm in self._card.arms)
-        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)))
+        memories = self._memories(float(torso_m), float(comfort_m))
+        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)), memories)
+
+    def forget_reach(self) -> None:
+        """Drop what plans have left about where the arms reach, so that benchmarks measure its computation."""
+        self._memories.cache_clear()
 
     def _room(self, torso_m: float) -> Room:
         """Return the room that the body leaves an arm; cached, because every plan needs it."""

@@ -8,6 +8,7 @@ from planner.geometry.pose import Approach
 from planner.robots import comfort, comfort_reach
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
+from planner.robots.comfort_memories import Memories
 from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
@@ -21,10 +22,10 @@ COUNT = 17
 EVERY_APPROACH = np.arange(len(APPROACHES))
 
 
-def bodiless(comfort_m: float) -> Pr2Reach:
+def bodiless(comfort_m: float, memories: Memories | None = None) -> Pr2Reach:
     """Return the reach of the arms alone, with no body in their way: the naive loop finds the same."""
     arms = tuple(SidedArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
-    return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m)
+    return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m, memories=memories)
 
 
 def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down():
@@ -137,6 +138,33 @@ def test_the_right_arm_profits_from_what_the_left_one_was_asked():
     right = asked.back_offs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
     np.testing.assert_array_equal(left, right)
     assert asked.queries == queries
+
+
+def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were_the_first():
+    memories, paths = Memories(), list(_paths(np.random.default_rng(19)))
+    first, fresh = bodiless(0.03, memories), bodiless(0.03)
+    expected = [first.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
+    queries = first.queries
+    first.forget()
+    assert first.queries == queries
+    again = bodiless(0.03, memories)
+    assert again.queries == 0
+    for points, masks in zip(paths, expected, strict=True):
+        np.testing.assert_array_equal(again.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
+        fresh.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    assert again.queries == fresh.queries == queries
+    again.forget()
+    left = memories.take()
+    assert left.counts[comfort.ROWS] > 0 and not left.bits[:, comfort.KNOWN].any()
+    assert left.bits[:, comfort.TESTED].any()
+
+
+def test_plans_made_at_once_have_memories_of_their_own():
+    memories = Memories()
+    one, other = memories.take(), memories.take()
+    assert one.keys is not other.keys
+    memories.leave(one)
+    assert memories.take().keys is one.keys and memories.take().keys is not other.keys
 
 
 def test_a_full_memory_changes_no_answer(monkeypatch):
