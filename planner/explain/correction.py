@@ -252,9 +252,9 @@ def _reach(context: Context, reason: Reason) -> Iterator[Way]:
     comfort = list(_comfort(context, reason))
     if reason.cause == "comfort_only":
         yield from comfort
-    if reason.station is not None and reason.shift_m is not None and reason.shift_towards is not None:
-        yield from _shifts(context, reason.station, reason.shift_m, reason.shift_towards)
-    elif reason.station is not None and reason.short_by_m is not None and reason.towards is not None:
+    if reason.shift_m is not None and reason.shift_towards is not None:
+        yield from _shifts(context, reason.station or "", reason.shift_m, reason.shift_towards)
+    elif reason.short_by_m is not None and reason.towards is not None:
         x, y, _ = reason.towards
         flat = math.hypot(x, y)
         if flat > _UPRIGHT:

@@ -374,7 +374,7 @@ class _Corrections:
         """Return a member's reason, with the advice that proved true when tried."""
         told, kind = member.told, member.way.kind
         shifts = tuple(k for pair in _SHIFTS for k in pair if k in (kind, *member.also))
-        if told.code is not Code.OUT_OF_REACH or told.station is None or not (shifts or member.way.is_dream):
+        if told.code is not Code.OUT_OF_REACH or not (shifts or member.way.is_dream):
             return told
         return remedied_by(told, self._base.context, shifts)
 

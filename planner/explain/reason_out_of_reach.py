@@ -100,9 +100,9 @@ def remedied_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Rea
             tried works, but arms long enough would.
     """
     shift, towards = reason.shift_m, reason.shift_towards
-    if not kinds or shift is None or towards is None or reason.station is None:
+    pose = dict(context.scene.stations).get(reason.station or "")
+    if not kinds or shift is None or towards is None or pose is None:
         return replace(_advised(reason, context, {"movable": []}), shift_m=None, shift_towards=None)
-    pose = dict(context.scene.stations)[reason.station]
     in_base = _point(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
     return _advised(reason, context, {"movable": list(kinds), "shift_m": shift, "shift_towards": list(in_base)})
 

@@ -15,7 +15,7 @@ const GAP_PX = 10;
  * @property {string} name
  * @property {string} text
  * @property {string} at the part of the page that it stands beside
- * @property {"right"|"above"|"over"} side of that part
+ * @property {"beside"|"above"|"over"} side of that part
  * @property {(board: import("./board/board.js").Board) => boolean} isDue
  */
 
@@ -32,7 +32,7 @@ const MARKS = [
     name: "fold",
     text: "Now fold it: press F, then drag from edge to edge, or a point of the cloth to where it shall land.",
     at: '[data-tool="fold"]',
-    side: "right",
+    side: "beside",
     isDue: ({ drawing }) => drawing.outline.length > 0 && !drawing.folds.length,
   },
   {
@@ -94,10 +94,10 @@ function place(root, mark) {
   if (!box) return;
   const { offsetWidth: width, offsetHeight: height } = root;
   const middle = box.left + box.width / 2 - width / 2;
-  const left = mark.side === "right" && box.right + GAP_PX + width < innerWidth ? box.right + GAP_PX : middle;
-  const beside = { right: box.top + box.height / 2 - height / 2, above: box.top - GAP_PX - height, over: box.top + 3 * GAP_PX };
-  const isBelow = mark.side === "right" && left === middle;
-  const top = isBelow ? box.top - GAP_PX - height : beside[mark.side];
+  const left = mark.side === "beside" && box.right + GAP_PX + width < innerWidth ? box.right + GAP_PX : middle;
+  const tops = { beside: box.top + box.height / 2 - height / 2, above: box.top - GAP_PX - height, over: box.top + 3 * GAP_PX };
+  const isBelow = mark.side === "beside" && left === middle;
+  const top = isBelow ? box.top - GAP_PX - height : tops[mark.side];
   root.dataset.side = isBelow ? "above" : mark.side;
   root.style.left = `${Math.max(GAP_PX, Math.min(left, innerWidth - width - GAP_PX))}px`;
   root.style.top = `${Math.max(GAP_PX, top)}px`;

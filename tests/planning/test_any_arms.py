@@ -114,3 +114,16 @@ def test_a_robot_without_lift_whose_base_is_fixed_folds_where_it_stands(found_fo
 
 def test_a_fixed_base_has_no_plan_where_it_would_have_to_drive(found_for: Planning):
     assert not found_for(BOLTED, load_garment("scarf")).plan.is_solved
+
+
+def test_a_fixed_base_is_told_to_have_the_cloth_brought_nearer(found_for: Planning):
+    vest = load_garment("vest")
+    away = replace(vest, placement=vest.placement.moved(0.25, 0.0))
+    reason = found_for(BOLTED, away).plan.reasons[0]
+    assert reason.code is Code.OUT_OF_REACH and reason.change is not None
+    nearer = reason.change["placement"]
+    assert nearer["x_m"] < away.placement.x_m
+    there = replace(vest, placement=replace(vest.placement, **nearer))
+    assert Code.OUT_OF_REACH not in {
+        told.code for told in found_for(BOLTED, there).plan.reasons if told.fold == reason.fold
+    }
