@@ -1,6 +1,6 @@
 """The tables that the command line prints."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from rich.table import Table
@@ -11,6 +11,8 @@ from planner.explain.garment_check import FoldCheck, GarmentCheck
 from planner.explain.suggestion import Suggestion
 from planner.explain.vertex_check import Support
 from planner.geometry.pose import Point2
+from planner.robots.card_file import CardFile
+from planner.robots.table_reach import TableReach
 from planner.task.plan import Plan, PlanStep
 from planner.words.catalogue import sentence
 
@@ -67,6 +69,30 @@ def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
     for index, fold in enumerate(garment.folds):
         before = ", ".join(str(first) for first, then in edges if then == index)
         table.add_row(str(index), fold.name, fold.kind, before or "-")
+    return table
+
+
+def robots_table(cards: Sequence[CardFile], planned: Collection[str]) -> Table:
+    """Return robots as a table; plans are made for those whose names are in `planned`."""
+    table = _table(f"{len(cards)} robots")
+    for name in ("name", "title", "arms", "joints", "base", "plans"):
+        table.add_column(name)
+    for card in cards:
+        arms, joints = ", ".join(arm.name for arm in card.arms), ", ".join(str(len(arm.joints)) for arm in card.arms)
+        table.add_row(card.name, card.title, arms, joints, card.base.kind, "yes" if card.name in planned else "not yet")
+    return table
+
+
+def robot_check_table(card: CardFile, reach: TableReach) -> Table:
+    """Return a card that is complete as a table: each arm, and how much of the table is in its reach."""
+    table = _table(f"{card.title}: a good card, all that it names is there")
+    for name, is_number in (("arm", False), ("joints", True), ("tool", False), ("reaches of the table", True)):
+        table.add_column(name, justify="right" if is_number else "left")
+    for arm in card.arms:
+        table.add_row(arm.name, str(len(arm.joints)), arm.tool.link, f"{reach.arms[arm.name]:.0%}")
+    table.add_row("any", "", "", f"{reach.any_arm:.0%}")
+    if len(card.arms) > 1:
+        table.add_row("two at once", "", "", f"{reach.two_arms:.0%}")
     return table
 
 

@@ -81,6 +81,16 @@ class RobotError(FieldError):
     """A robot's card that is not valid, or whose URDF lacks what it names."""
 
 
+@dataclass
+class UnknownRobotError(FoldingError):
+    """A name of which there is no robot."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return f"there is no robot named {self.name!r}"
+
+
 class RequestError(FieldError):
     """An option of a plan request that is out of range."""
 

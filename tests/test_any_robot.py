@@ -16,9 +16,12 @@ from tests.test_imports import IMPORTS, ROOT, is_within
 DOOR = (
     "planner.robots.arm_paths",
     "planner.robots.card",
+    "planner.robots.card_file",
     "planner.robots.collision.contact",
+    "planner.robots.described_robot",
     "planner.robots.joint_layout",
     "planner.robots.load_robot",
+    "planner.robots.table_reach",
     "planner.robots.tool_path",
 )
 """What others may import of the robots: descriptions, the way to load one, types of questions and answers."""

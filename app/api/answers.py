@@ -55,6 +55,16 @@ class GarmentEntry(BaseModel):
     shipped: bool
 
 
+class RobotEntry(BaseModel):
+    """A robot in the list; its arms from left to right."""
+
+    name: str
+    title: str
+    arms: list[str]
+    base: Literal["fixed", "omni", "differential"]
+    shipped: bool
+
+
 class LayerAnswer(BaseModel):
     """A layer of the folded cloth, article frame (m)."""
 

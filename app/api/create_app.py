@@ -15,6 +15,7 @@ from app.api import (
     overlay_routes,
     page_routes,
     plan_routes,
+    robot_routes,
     scene_routes,
     stage_routes,
     suggestion_routes,
@@ -55,6 +56,7 @@ def create_app(settings: Settings) -> FastAPI:
     for routes in (
         scene_routes,
         garment_routes,
+        robot_routes,
         plan_routes,
         suggestion_routes,
         template_routes,

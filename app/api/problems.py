@@ -28,6 +28,7 @@ from planner.errors import (
     GarmentFileError,
     ReadOnlyGarmentError,
     UnknownGarmentError,
+    UnknownRobotError,
     UnsolvedPlanError,
 )
 from planner.strict_model import field_path, plain_message
@@ -41,6 +42,7 @@ CLIENT_GONE = 499
 
 _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
+    UnknownRobotError: 404,
     UnknownPlanError: 404,
     UnknownDocumentError: 404,
     EndedDocumentError: 404,

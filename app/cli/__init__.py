@@ -1,9 +1,9 @@
-"""The command line: ``pleat serve``, ``plan``, ``show``, ``timeline``, ``export``, ``dag``, ``check``."""
+"""The command line: ``pleat serve``, ``plan``, ``show``, ``timeline``, ``export``, ``dag``, ``check``, ``robots``..."""
 
-from app.cli import export, garment, plan, serve
+from app.cli import export, garment, plan, robots, serve
 from app.cli.program import cli
 
-__all__ = ["cli", "export", "garment", "main", "plan", "serve"]
+__all__ = ["cli", "export", "garment", "main", "plan", "robots", "serve"]
 
 
 def main() -> None:

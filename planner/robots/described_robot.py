@@ -4,11 +4,12 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
-from planner.errors import FieldError, RobotError
+from planner.errors import FieldError, RobotError, UnknownRobotError
 from planner.geometry.pose import FloatArray
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import ToolFile
@@ -85,6 +86,24 @@ def shipped_robots() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _CARDS.glob("*.json")))
 
 
+def shipped_card(name: str) -> CardFile:
+    """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
+    if name not in shipped_robots():
+        raise UnknownRobotError(name)
+    return _card(_CARDS / f"{name}.json")
+
+
+def robot_entry(card: CardFile) -> dict[str, Any]:
+    """Return a robot's entry in a list of robots, as JSON."""
+    return {
+        "name": card.name,
+        "title": card.title,
+        "arms": [arm.name for arm in card.arms],
+        "base": card.base.kind,
+        "shipped": card.name in shipped_robots(),
+    }
+
+
 def read_robot(name_or_path: str) -> DescribedRobot:
     """Return a robot by the name of a shipped card, or by the path of a card of one's own.
 
@@ -105,6 +124,10 @@ def _shipped(name: str) -> DescribedRobot:
 
 
 def _read(path: Path) -> DescribedRobot:
+    return DescribedRobot.of(_card(path), path.parent)
+
+
+def _card(path: Path) -> CardFile:
     try:
         if path.stat().st_size > CARD_BYTES_MAX:
             raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")
@@ -113,7 +136,7 @@ def _read(path: Path) -> DescribedRobot:
         if isinstance(error, RobotError):
             raise
         raise RobotError("", f"{path.name} cannot be read as JSON: {error}") from None
-    return DescribedRobot.of(CardFile.from_dict(data), path.parent)
+    return CardFile.from_dict(data)
 
 
 def _joint(model: pin.Model, name: str, field: str) -> pin.JointModel:

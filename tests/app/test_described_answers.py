@@ -7,7 +7,7 @@ import httpx
 import pytest
 from pydantic import TypeAdapter
 
-from app.api.answers import GarmentAnswer, GarmentEntry, PlanAnswer
+from app.api.answers import GarmentAnswer, GarmentEntry, PlanAnswer, RobotEntry
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
@@ -22,6 +22,7 @@ from app.api.overlay_answers import OverlaysAnswer
 from app.api.problems import Problem
 from app.api.suggestion_routes import SuggestionEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
+from planner.robots.card_file import CardFile
 from planner.task.scene import Scene
 from tests.app.document_requests import created, put
 from tests.app.samples import towel
@@ -47,6 +48,8 @@ def assert_described(answer: Any, shape: Any) -> None:
     [
         ("/api/garments", list[GarmentEntry]),
         ("/api/garments/t-shirt", GarmentAnswer),
+        ("/api/robots", list[RobotEntry]),
+        ("/api/robots/ur5e-pair", CardFile),
         ("/api/scene", Scene),
         ("/api/templates", list[TemplateAnswer]),
     ],

@@ -1,0 +1,92 @@
+"""Robots over REST and on the command line: which there are, one's card, and the check of a card."""
+
+import json
+from pathlib import Path
+
+import httpx
+import pytest
+
+from app.cli import robots
+from planner.robots.described_robot import shipped_card, shipped_robots
+from planner.robots.table_reach import TableReach
+from tests.app.test_cli import pleat
+
+SHIPPED = {"pr2", "ur5e-pair", "panda-pair", "tiago-pro", "baxter", "so101-pair", "ur5e-single"}
+
+
+@pytest.fixture
+def reach_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spare the maps of postures: that they are right is shown elsewhere."""
+    known = TableReach({"left": 0.75, "right": 0.5}, 1.0, 0.25)
+    monkeypatch.setattr(robots, "table_reach", lambda robot, progress: known)
+
+
+@pytest.mark.anyio
+async def test_the_list_has_every_shipped_robot(client: httpx.AsyncClient) -> None:
+    found = {entry["name"]: entry for entry in (await client.get("/api/robots")).json()}
+    assert set(found) >= SHIPPED
+    pr2 = {"name": "pr2", "title": "PR2", "arms": ["left", "right"], "base": "omni", "shipped": True}
+    assert found["pr2"] == pr2
+    assert len(found["ur5e-single"]["arms"]) == 1 and found["ur5e-pair"]["base"] == "fixed"
+
+
+@pytest.mark.anyio
+@pytest.mark.parametrize("name", sorted(SHIPPED))
+async def test_a_robot_is_its_whole_card(client: httpx.AsyncClient, name: str) -> None:
+    assert (await client.get(f"/api/robots/{name}")).json() == shipped_card(name).to_dict()
+
+
+@pytest.mark.anyio
+@pytest.mark.parametrize("name", ["nobody", "..", "%2e%2e%2fpr2", "PR2"])
+async def test_an_unknown_robot_is_a_404(client: httpx.AsyncClient, name: str) -> None:
+    answer = await client.get(f"/api/robots/{name}")
+    assert answer.status_code == 404
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_the_command_line_lists_what_rest_lists() -> None:
+    listed = json.loads(pleat("robots", "--json", "-").stdout)
+    assert [entry["name"] for entry in listed] == list(shipped_robots())
+    table = pleat("robots").stdout
+    assert "Baxter" in table and "not yet" in table
+
+
+@pytest.mark.usefixtures("reach_known")
+def test_a_good_card_is_told_with_what_it_reaches() -> None:
+    result = pleat("robot", "check", "so101-pair")
+    assert result.exit_code == 0
+    assert "a good card" in result.stdout and "75%" in result.stdout
+    reached = json.loads(pleat("robot", "check", "so101-pair", "--json", "-").stdout)["table_reached"]
+    assert reached == {"arms": {"left": 0.75, "right": 0.5}, "any_arm": 1.0, "two_arms": 0.25}
+
+
+@pytest.mark.usefixtures("reach_known")
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        (("arms", 0, "joints", 4), "left_hand", "arms[0].joints[4]: the URDF has no moving joint 'left_hand'"),
+        (("arms", 1, "tool", "link"), "nowhere", "arms[1].tool.link: the URDF has no link or frame 'nowhere'"),
+        (("base", "kind"), "legs", "base.kind"),
+        (("wheels",), 3, "wheels"),
+        (("urdf", "path"), "nowhere.urdf", "urdf"),
+    ],
+)
+def test_a_bad_card_is_refused_by_its_field(
+    tmp_path: Path, path: tuple[str | int, ...], value: object, told: str
+) -> None:
+    card = shipped_card("so101-pair").to_dict()
+    part = card
+    for key in path[:-1]:
+        part = part[key]
+    part[path[-1]] = value
+    file = tmp_path / "mine.json"
+    file.write_text(json.dumps(card))
+    result = pleat("robot", "check", str(file))
+    assert result.exit_code == 2
+    assert told in result.stderr and result.stdout == ""
+
+
+def test_a_robot_that_is_not_there_is_told_with_those_that_are() -> None:
+    result = pleat("robot", "check", "nobody")
+    assert result.exit_code == 2
+    assert "nobody" in result.stderr and "so101-pair" in result.stderr
