@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
@@ -70,8 +71,7 @@ def _reached(arm: MappedArm, points: FloatArray, rotations: FloatArray, torso_m:
     """Return which points, base frame, an arm reaches in at least one of some rotations; shape (n,)."""
     each = np.repeat(points, len(rotations), axis=0)
     found = arm.can_reach(each, np.tile(rotations, (len(points), 1, 1)), torso_m)
-    reached: BoolArray = found.reshape(len(points), -1).any(axis=1)
-    return reached
+    return np.asarray(found.reshape(len(points), -1).any(axis=1))
 
 
 def _part(progress: Progress | None, number: int, count: int) -> Progress | None:
@@ -79,5 +79,5 @@ def _part(progress: Progress | None, number: int, count: int) -> Progress | None
     return None if progress is None else lambda share: progress((number + share) / count)
 
 
-def _share(points: BoolArray) -> float:
-    return float(points.mean())
+def _share(points: ArrayLike) -> float:
+    return float(np.asarray(points).mean())

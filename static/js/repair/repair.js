@@ -16,6 +16,8 @@ import { SearchNote } from "./search_note.js";
 
 /** How long a drawing rests before help is looked for (ms). */
 const REST_MS = 300;
+/** On a lower board the cards are folded away until they are asked for, and a hand reaches through to the cloth (px). */
+const OPEN_FROM_PX = 320;
 /** How long is looked when that is asked for: some changes take long to be proven (s). */
 const LONG_S = 60;
 const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
@@ -25,6 +27,9 @@ export class Repair extends EventTarget {
   constructor(store, pane) {
     super();
     this.store = store;
+    this.pane = pane;
+    /** Whether somebody chose to see the cards, or not to; null before. @type {boolean|null} */
+    this.chosen = null;
     this.search = new SuggestionSearch();
     this.quickFixes = new QuickFixes(store);
     /** @type {number|null|undefined} the version that is searched for; undefined before any is known */
@@ -40,7 +45,7 @@ export class Repair extends EventTarget {
     this.onward = button("chip", () => store.command({ do: "look_longer" }), "Look longer for a plan");
     this.onward.title = "Search on for a plan, six times as long";
     this.longer = button("chip look-longer", () => this.lookLonger());
-    this.fold = button("icon-button is-small repair-fold", () => this.unfold(!this.isOpen), icon("back"));
+    this.fold = button("icon-button is-small repair-fold", () => this.choose(!this.isOpen), icon("back"));
     const head = element("div", "repair-head", this.sentence, this.again, this.onward, this.longer, this.cards.more, this.fold);
     this.body = element("div", "repair-body", this.cards.root, this.note.root);
     this.root = element("section", "repair", head, this.body);
@@ -50,6 +55,7 @@ export class Repair extends EventTarget {
     for (const source of [this.search, this.quickFixes]) source.addEventListener("change", () => this.showFound());
     for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.follow());
     addEventListener("unit", () => this.reword());
+    addEventListener("resize", () => this.unfold(this.chosen ?? !this.isLow));
     this.unfold(true);
   }
 
@@ -57,15 +63,19 @@ export class Repair extends EventTarget {
     return !this.body.hidden;
   }
 
-  /** How much of the board it covers (px). */
+  get isLow() {
+    return this.pane.clientHeight < OPEN_FROM_PX;
+  }
+
+  /** How much of the board it covers (px): nothing of a low board, whose cloth would have no room left. */
   get height() {
-    return this.root.hidden ? 0 : this.root.offsetHeight + this.root.offsetTop;
+    return this.root.hidden || (this.isLow && !this.isOpen) ? 0 : this.root.offsetHeight + this.root.offsetTop;
   }
 
   /** To the first card, or back. */
   takeFocus() {
     if (this.root.hidden) return;
-    this.unfold(true);
+    this.choose(true);
     /** @type {HTMLElement} */ (this.cards.root.querySelector("button") ?? this.fold).focus();
   }
 
@@ -94,7 +104,8 @@ export class Repair extends EventTarget {
     if (!this.root.hidden) this.sentence.textContent = explanation(message, state);
     this.again.hidden = message.status !== "failed";
     this.onward.hidden = !message.may_look_longer;
-    if (wasHidden !== this.root.hidden) this.tell();
+    if (wasHidden && !this.root.hidden) this.unfold(this.chosen ?? !this.isLow);
+    else if (wasHidden !== this.root.hidden) this.tell();
   }
 
   /** What has lengths in it is made anew. */
@@ -122,8 +133,15 @@ export class Repair extends EventTarget {
   }
 
   /** @param {boolean} isOpen */
+  choose(isOpen) {
+    this.chosen = isOpen;
+    this.unfold(isOpen);
+  }
+
+  /** @param {boolean} isOpen */
   unfold(isOpen) {
     this.body.hidden = !isOpen;
+    this.root.classList.toggle("is-line", this.isLow && !isOpen);
     this.fold.setAttribute("aria-expanded", String(isOpen));
     this.fold.setAttribute("aria-label", isOpen ? "Hide what would help" : "Show what would help");
     this.fold.title = this.fold.getAttribute("aria-label") ?? "";
