@@ -44,6 +44,7 @@ def test_documents_templates_and_examples_are_found_by_name(page: Page, gallery:
 def test_a_document_is_copied_renamed_deleted_had_back_and_put_back_to_a_version(page: Page, gallery: Locator) -> None:
     gallery.get_by_role("searchbox").fill("tea towel for the gallery")
     tiles = gallery.locator(".tile-own:visible")
+    expect(tiles.first).to_be_visible()
     count = tiles.count()
     menu(page, "Tea towel for the gallery", "Duplicate")
     expect(tiles).to_have_count(count + 1)
