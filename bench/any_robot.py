@@ -26,7 +26,7 @@ SEED = 5
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """What was measured of a robot's first arm."""
+    """The measurements of a robot's first arm."""
 
     robot: str
     joints: int

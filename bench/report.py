@@ -15,7 +15,7 @@ ABSENT = "-"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One subject of a report.
+    """The entry of one subject in a report.
 
     Attributes:
         lines: the printed lines, each with as many cells as the report has columns.

@@ -1,4 +1,4 @@
-"""What a drawing looks like in small: its outline and its fold lines, for lists of documents and versions."""
+"""Thumbnails of drawings, outline and fold lines, for lists of documents and versions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class PictureFold:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A drawing in small.
+    """The thumbnail of a drawing.
 
     Attributes:
         outline: the corners, article frame (m).

@@ -51,7 +51,7 @@ def _places(count: int, edges: tuple[tuple[int, int], ...]) -> dict[int, Point2]
 
 
 def _before(index: int, edges: tuple[tuple[int, int], ...]) -> int:
-    """All that a fold waits for, as a bit mask."""
+    """Return the folds that must precede a fold, as a bit mask."""
     found = 0
     for a, b in edges:
         if b == index:

@@ -42,7 +42,7 @@ class Unrest:
 
     @property
     def message(self) -> str:
-        """What would move, as a sentence."""
+        """The sentence that names the cloth that would move."""
         return self.says.text
 
 

@@ -90,3 +90,14 @@ def test_a_robot_that_is_not_there_is_told_with_those_that_are() -> None:
     result = pleat("robot", "check", "nobody")
     assert result.exit_code == 2
     assert "nobody" in result.stderr and "so101-pair" in result.stderr
+
+
+@pytest.mark.anyio
+@pytest.mark.parametrize(("name", "told"), [("ur5e-pair", "has a card"), ("nobody", "there is no robot")])
+async def test_a_robot_that_is_not_planned_for_is_refused_by_name(
+    client: httpx.AsyncClient, name: str, told: str
+) -> None:
+    answer = await client.post("/api/plans", json={"garment": "hand-towel", "robot": name})
+    assert answer.status_code == 422
+    [error] = answer.json()["errors"]
+    assert error["field"] == "robot" and told in error["message"] and "pr2" in error["message"]

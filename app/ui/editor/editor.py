@@ -1,4 +1,4 @@
-"""One visitor's editing: the mode, the tool in hand, the last refusal. It knows the document and no viser.
+"""The editing state of one visitor: mode, active tool, last refusal. It depends on the document, not on viser.
 
 A single thread calls everything here (see `app.ui.editor.desk`).
 """

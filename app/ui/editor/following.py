@@ -1,6 +1,6 @@
-"""The camera that follows the work: from across the table, so that the robot is behind its hands and never before them.
+"""The camera that follows the work: from across the table, so that the robot never hides its own hands.
 
-What is looked at moves in jumps, from step to step. The camera goes after it a share of the way at each picture.
+The work jumps from place to place with each step. The camera approaches it gradually, by a share in each frame.
 """
 
 import math
@@ -17,17 +17,17 @@ ASIDE_RAD = math.radians(50.0)
 
 _RISE_RAD = math.radians(36.0)
 _HALF_M = (0.85, 0.6)
-"""What is in the picture on each side of the work, across and upwards (m)."""
+"""Half the width and half the height of the region round the work that the camera keeps in view (m)."""
 
 _SHARE = 0.12
-"""Share of the way to where it wants to be that the camera goes at each picture."""
+"""Share of the distance to its target that the camera covers in each frame."""
 
 
 class Following:
-    """A camera on its way after the work."""
+    """A camera that approaches the work frame by frame."""
 
     def __init__(self) -> None:
-        """Begin where the work is first."""
+        """Begin without a view: the first one is on the work at once."""
         self._work: Point2 | None = None
         self._heading_rad = 0.0
 

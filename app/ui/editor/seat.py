@@ -1,4 +1,4 @@
-"""One visitor of a stage: editor, panels, aids and the glass that catches the pointer."""
+"""The stage as one visitor uses it: editor, panels, aids, and the surface that catches the pointer."""
 
 import math
 from collections.abc import Callable
