@@ -81,7 +81,7 @@ COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps
 lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(PIP) install pip-tools
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
-	$(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements.txt pyproject.toml
+	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra physics --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
 	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -rf package-lock.json node_modules && npm install --package-lock-only \
 	    --omit-lockfile-registry-resolved --ignore-scripts --no-audit --no-fund --loglevel=error
