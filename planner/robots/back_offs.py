@@ -7,7 +7,7 @@ again. Besides the memory (see `planner.robots.comfort`) two things make it chea
   standoff reaches. A path's end and middle are tested first: they are the likeliest to fail.
 - *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
 
-Arguments dominate the cost of a call, so an arm comes as one array of numbers (see `planner.robots.kernel.shape_of`).
+Arguments dominate the cost of a call, so an arm comes in few arrays (see `planner.robots.arm_question`).
 """
 
 import numpy as np
@@ -15,30 +15,25 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.aim import is_within_height
+from planner.robots.arm_question import ArmNumbers, Question, Space, is_in_height, question, space_for
 from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
     KNOWN,
     ROW_STEP,
     Memory,
-    Place,
-    Question,
-    aim_from,
     cells_of,
     is_comfortable_at,
-    place_of,
-    question,
     row_slot,
 )
-from planner.robots.pan_arcs import MOST_ARCS
+from planner.robots.place import Place, place_of
 from planner.robots.posture_room import Room
 
 
 @njit(cache=True, nogil=True)
-def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, count: int) -> bool:
+def _is_out_of_reach(ask: Question, memory: Memory, room: Room, space: Space, place: Place, count: int) -> bool:
     """Return whether no standoff reaches a place."""
-    if not is_within_height(ask.shape, aim_from(ask, place, 0)):
+    if not is_in_height(ask, place):
         return True
     slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
     if slot != FORGETFUL and ask.step == ROW_STEP:
@@ -47,15 +42,13 @@ def _is_out_of_reach(ask: Question, memory: Memory, room: Room, arcs: FloatArray
             return False
         if memory.bits[slot, KNOWN] & wanted == wanted:
             return True
-    while back_off < count and not is_comfortable_at(ask, memory, room, arcs, slot, place, back_off):
+    while back_off < count and not is_comfortable_at(ask, memory, room, space, slot, place, back_off):
         back_off += 1
     return back_off == count
 
 
 @njit(cache=True, nogil=True)
-def _arrivals(
-    ask: Question, memory: Memory, room: Room, arcs: FloatArray, place: Place, before: int, count: int
-) -> int:
+def _arrivals(ask: Question, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int) -> int:
     """Return the standoffs at which the base may be at a place, having come from some at the place before.
 
     These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
@@ -64,17 +57,17 @@ def _arrivals(
     for back_off in range(count):
         is_next = back_off > 0 and (mask >> (back_off - 1)) & 1 == 1
         if (before >> back_off) & 1 == 1 or is_next:
-            mask |= (1 if is_comfortable_at(ask, memory, room, arcs, slot, place, back_off) else 0) << back_off
+            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, back_off) else 0) << back_off
     for back_off in range(count - 2, -1, -1):
         is_new = (before >> back_off) & 1 == 0 and (mask >> back_off) & 1 == 0
         if is_new and (mask >> (back_off + 1)) & 1 == 1:
-            mask |= (1 if is_comfortable_at(ask, memory, room, arcs, slot, place, back_off) else 0) << back_off
+            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, back_off) else 0) << back_off
     return mask
 
 
 @njit(cache=True, nogil=True)
 def back_off_masks(
-    numbers: FloatArray,
+    numbers: ArmNumbers,
     shoulder: FloatArray,
     memory: Memory,
     points: FloatArray,
@@ -103,7 +96,7 @@ def back_off_masks(
         before: bit mask of the standoffs from which the base may come to the first point.
         room: the obstacles to the arm's postures.
     """
-    arcs = np.empty((MOST_ARCS, 2))
+    space = space_for(numbers)
     masks = np.zeros((len(labels), len(points)), dtype=np.uint32)
     places = [place_of(point, shoulder) for point in points]
     alive = 0
@@ -113,12 +106,12 @@ def back_off_masks(
         ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
         is_dead = False
         for i in (len(points) - 1, len(points) // 2):
-            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, arcs, places[i], count))
+            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, space, places[i], count))
         if is_dead:
             continue
         mask = before
         for i in range(len(points)):
-            mask = _arrivals(ask, memory, room, arcs, places[i], mask, count)
+            mask = _arrivals(ask, memory, room, space, places[i], mask, count)
             masks[approach, i] = mask
             if mask == 0:
                 masks[approach, :] = 0
@@ -129,7 +122,7 @@ def back_off_masks(
 
 @njit(cache=True, nogil=True)
 def anywhere(
-    numbers: FloatArray,
+    numbers: ArmNumbers,
     shoulder: FloatArray,
     memory: Memory,
     points: FloatArray,
@@ -146,7 +139,7 @@ def anywhere(
     The arguments are those of `back_off_masks`, but there may be any number of standoffs. After `enough` approaches
     that reach every point the others are left false.
     """
-    arcs = np.empty((MOST_ARCS, 2))
+    space = space_for(numbers)
     answers = np.zeros((len(labels), len(points)), dtype=np.bool_)
     places = [place_of(point, shoulder) for point in points]
     alive = 0
@@ -156,7 +149,7 @@ def anywhere(
         ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
         is_dead = False
         for i in range(len(points)):
-            answers[approach, i] = not _is_out_of_reach(ask, memory, room, arcs, places[i], count)
+            answers[approach, i] = not _is_out_of_reach(ask, memory, room, space, places[i], count)
             is_dead = is_dead or not answers[approach, i]
         alive += 0 if is_dead else 1
     return answers

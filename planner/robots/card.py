@@ -4,12 +4,70 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 from planner.geometry.pose import FloatArray
 
 
+class GripperCard(Protocol):
+    """A gripper of two fingers that one joint drives."""
+
+    @property
+    def joint_name(self) -> str:
+        """The joint that drives both fingers; the others mimic it."""
+        ...
+
+    @property
+    def opening_max_m(self) -> float:
+        """The widest opening (m)."""
+        ...
+
+    @property
+    def finger_width_m(self) -> float:
+        """A finger's width across the closing direction (m)."""
+        ...
+
+    def angle(self, opening_m: float) -> float:
+        """Return the driven joint (rad, m) at which the fingers are an opening apart (m), within 0..opening_max_m."""
+        ...
+
+    def least_s(self, wide_m: float, narrow_m: float) -> float:
+        """Return the least time to go at constant speed from one opening (m) to a narrower one, or back (s)."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
-class GripperCard:
+class LinearGripper:
+    """Fingers whose opening is proportional to the way of one joint.
+
+    Attributes:
+        joint_name: the joint that drives both fingers.
+        closed: its value where they touch (rad, m).
+        opened: its value where they are as wide open as they go (rad, m).
+        opening_max_m: the widest opening (m).
+        finger_width_m: a finger's width across the closing direction (m).
+        speed: the top speed of the driven joint (rad/s, m/s).
+    """
+
+    joint_name: str
+    closed: float
+    opened: float
+    opening_max_m: float
+    finger_width_m: float
+    speed: float
+
+    def angle(self, opening_m: float) -> float:
+        """Return the driven joint at which the fingers are an opening apart (m), clipped to 0..opening_max_m."""
+        share = min(max(opening_m / self.opening_max_m, 0.0), 1.0)
+        return self.closed + share * (self.opened - self.closed)
+
+    def least_s(self, wide_m: float, narrow_m: float) -> float:
+        """Return the least time to go from one opening (m) to a narrower one, or back (s)."""
+        return abs(self.angle(wide_m) - self.angle(narrow_m)) / self.speed
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelogramGripper:
     """Two fingers on parallelograms: they swing out and stay parallel.
 
     Attributes:

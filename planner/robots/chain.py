@@ -72,6 +72,12 @@ class Scratch(NamedTuple):
     is_held: BoolArray
 
 
+def length_of(chain: Chain) -> float:
+    """Return how far from its root an arm can reach at most (m)."""
+    sliding = float(np.abs(np.where(chain.is_prismatic, np.maximum(-chain.low, chain.high), 0.0)).sum())
+    return float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset)) + sliding
+
+
 @njit(cache=True, nogil=True)
 def scratch_for(joints: int) -> Scratch:
     """Return working memory for an arm of some joints."""

@@ -6,10 +6,11 @@ along its x axis. The memory therefore holds rows: the places of one approach, o
 x, one bit each. A row is looked up once and then answers for all standoffs.
 
 Every place is put onto the grid of `LENGTH_M` before it is tested, so that remembered answers are exact, whichever
-query came first. Mirroring lets both arms share the memory. The memory is a hash table with linear probing. When it is
+query came first. All arms share the memory: mirror images of each other under the same labels, others under labels of
+their own. The memory is a hash table with linear probing. When it is
 three quarters full it stores no more rows, and the answers stay the same.
 
-A place also counts only if the body leaves the arm room there (see `planner.robots.posture_room`).
+Whether a place is within the radius is told by the arm (see `planner.robots.arm_question`).
 """
 
 from typing import NamedTuple
@@ -19,15 +20,15 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.tolerance import LENGTH_M
-from planner.robots.aim import ToolPose, aim_at, beside, is_within_height, is_within_length
-from planner.robots.arm import ArmShape
-from planner.robots.joint_slack import ring_slack
-from planner.robots.kernel import is_reachable_near, shape_of
-from planner.robots.posture_room import Room, has_room_about, may_be_hindered
+from planner.robots.arm_question import Question, Space, is_had, is_in_length
+from planner.robots.place import Place
+from planner.robots.posture_room import Room
 
 COORDINATE_BITS = 18
 """Bits of a coordinate in `LENGTH_M` steps: 1.3 m either way from the shoulder."""
+
+LABEL_BITS = 9
+"""Bits of a label: up to 64 for each of up to eight arms."""
 
 ROW_CELLS = 60
 """Number of places in a row, the middle one beside the shoulder; beyond them no arm is long enough."""
@@ -81,64 +82,6 @@ def no_hints() -> FloatArray:
     return np.tile((0.5, 1.0), (64, 1))
 
 
-class Place(NamedTuple):
-    """A tool point, seen from the shoulder with the base at standoff 0, in steps of `LENGTH_M`."""
-
-    x: int
-    y: int
-    z: int
-
-
-class Question(NamedTuple):
-    """The constants of the queries in one approach; numbers alone, because those are passed on without cost.
-
-    Attributes:
-        shape: the arm.
-        rest: the shoulder's offset from the grid of `LENGTH_M` (m).
-        axis: the approach axis.
-        label: the approach's label in the memory, 1..63.
-        comfort: the comfort radius (m).
-        step: the distance between standoffs, in steps of `LENGTH_M`.
-    """
-
-    shape: ArmShape
-    rest: tuple[float, float, float]
-    axis: tuple[float, float, float]
-    label: int
-    comfort: float
-    step: int
-
-
-@njit(cache=True, nogil=True)
-def in_steps(value: float) -> int:
-    """Return a coordinate in steps of `LENGTH_M`."""
-    return round(value / LENGTH_M)
-
-
-@njit(cache=True, nogil=True)
-def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
-    """Return the place of a tool point, with point and shoulder in the base frame (m)."""
-    return Place(
-        in_steps(point[0]) - in_steps(shoulder[0]),
-        in_steps(point[1]) - in_steps(shoulder[1]),
-        in_steps(point[2]) - in_steps(shoulder[2]),
-    )
-
-
-@njit(cache=True, nogil=True)
-def question(
-    numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
-) -> Question:
-    """Return the query in the approach of a label."""
-    rest = (
-        shoulder[0] - in_steps(shoulder[0]) * LENGTH_M,
-        shoulder[1] - in_steps(shoulder[1]) * LENGTH_M,
-        shoulder[2] - in_steps(shoulder[2]) * LENGTH_M,
-    )
-    axis = (axes[label - 1, 0], axes[label - 1, 1], axes[label - 1, 2])
-    return Question(shape_of(numbers), rest, axis, label, comfort, step)
-
-
 @njit(cache=True, nogil=True)
 def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
     """Return the slot in the memory of the row of a place; begin the row if there is none yet."""
@@ -146,7 +89,7 @@ def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], 
     if abs(place.y) >= half or abs(place.z) >= half or ask.step % ROW_STEP != 0:
         return FORGETFUL
     key = ((((place.x % ROW_STEP) << COORDINATE_BITS) + place.y + half) << COORDINATE_BITS) + place.z + half
-    key = (key << 6) + ask.label
+    key = (key << LABEL_BITS) + ask.label
     scattered = key * _SCATTER
     slot = (scattered ^ (scattered >> 29) ^ (scattered >> 45)) & (len(keys) - 1)
     while keys[slot] != key:
@@ -180,36 +123,26 @@ def from_cell(bits: int, cell: int) -> int:
     return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
 
 
-@njit(cache=True, nogil=True)
-def aim_from(ask: Question, place: Place, back_off: int) -> ToolPose:
-    """Return the tool pose at a place with the base at a standoff."""
-    x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
-    ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
-    return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
-
-
 @njit(cache=True, nogil=True, inline="always")
 def is_comfortable_at(
-    ask: Question, memory: Memory, room: Room, arcs: FloatArray, slot: int, place: Place, back_off: int
+    ask: Question, memory: Memory, room: Room, space: Space, slot: int, place: Place, back_off: int
 ) -> bool:
     """Return whether a tool is within the comfort radius at a place from a standoff, from memory if it is known there.
 
     Inlined into its callers: passing so many arrays costs as much as many an answer.
 
-    `arcs`, shape (MOST_ARCS, 2), is scratch space.
+    `space` is working memory.
     """
     cell = cell_of(place.x + back_off * ask.step)
     bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
     if memory.bits[slot, KNOWN] & bit != 0:
         return bool(memory.bits[slot, GOOD] & bit != 0)
-    aim, answer = aim_from(ask, place, back_off), False
-    if is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim):
+    answer = False
+    if is_in_length(ask, place, back_off):
         if memory.bits[slot, TESTED] & bit != 0:
             answer = memory.bits[slot, PASSED] & bit != 0
         else:
-            answer = is_comfortable(ask.shape, aim, ask.comfort, arcs, memory.hints[ask.label])[0]
-            if answer and may_be_hindered(aim):
-                answer = has_room_about(ask.shape, room, ask.label, aim, arcs)
+            answer = is_had(ask, memory.hints, room, space, place, back_off)
             memory.bits[slot, TESTED] |= bit
             memory.bits[slot, PASSED] |= bit if answer else 0
         memory.counts[QUERIES] += YES if answer and ask.comfort > 0.0 else NO
@@ -218,28 +151,3 @@ def is_comfortable_at(
         if answer:
             memory.bits[slot, GOOD] |= bit
     return answer
-
-
-@njit(cache=True, nogil=True)
-def is_comfortable(
-    shape: ArmShape, aim: ToolPose, comfort: float, arcs: FloatArray, hint: FloatArray
-) -> tuple[bool, int]:
-    """Return whether a tool pose and four on the circle of radius `comfort` round it are reachable; queries made.
-
-    Mostly the pan that served last, `hint`, serves all five. If not, the pose that it serves least is tested first.
-    """
-    if comfort <= 0.0:
-        return is_reachable_near(shape, aim, arcs, hint), 1
-    least, worst = ring_slack(shape, aim, comfort, hint[0], hint[1])
-    if least >= 0.0:
-        return True, 5
-    pan, branch = hint
-    if not is_reachable_near(shape, beside(aim, comfort, worst), arcs, hint):
-        return False, 1
-    if ring_slack(shape, aim, comfort, hint[0], hint[1])[0] >= 0.0:
-        return True, 5
-    for number in range(5):
-        if number != worst and not is_reachable_near(shape, beside(aim, comfort, number), arcs, hint):
-            hint[0], hint[1] = pan, branch
-            return False, 2 + number - (1 if number > worst else 0)
-    return True, 5

@@ -1,25 +1,25 @@
-"""The places within the comfort radius, for either arm of a PR2: the compiled queries and the state they share.
+"""The places within the comfort radius, for each arm of a robot: the compiled queries and the state they share.
 
-The arms are mirror images: places and approaches are mirrored on the way in, and the memory of answers (see
-`planner.robots.comfort`) is the left arm's. Queries are counted and timed here.
+Where arms are mirror images, places and approaches are mirrored on the way in, and the memory of answers (see
+`planner.robots.comfort`) is one arm's. Queries are counted and timed here.
 """
 
+from dataclasses import dataclass
 from time import thread_time
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
-from planner.robots.approaches import APPROACHES, mirror_images
-from planner.robots.arm import numbers_of
+from planner.robots.arm_question import ArmNumbers
 from planner.robots.back_offs import anywhere, back_off_masks
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
 from planner.robots.comfort_memories import Memories
 from planner.robots.driving_task import UNSEEN, Task
 from planner.robots.following import Following
 from planner.robots.posture_room import Room, no_walls
-from planner.robots.sided_arm import SidedArm
 
 _MOST_BACK_OFFS = 32
 """Largest number of standoffs: one bit of a mask each."""
@@ -28,8 +28,39 @@ _SMALL_BITS = 4
 """Size of a memory that will hardly be used any more, as a power of two."""
 
 
+class ReachingArm(Protocol):
+    """An arm as the compiled queries see it."""
+
+    def shoulder(self, torso_m: float) -> FloatArray:
+        """Return its shoulder in its own frame with the lift raised (m), shape (3,)."""
+        ...
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        """Return points of the base frame, shape (..., 3), in the arm's own frame; a new array."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AskedArms:
+    """The arms of a robot, and how the compiled queries are asked about them.
+
+    Attributes:
+        names: the arms from left to right.
+        arms: the same arms.
+        numbers: what the queries compute with; one arm's where the others are its mirror images.
+        approaches: the directions from which the grippers may pinch cloth, base frame.
+        labels: for each arm the memory's label of each approach.
+    """
+
+    names: tuple[str, ...]
+    arms: tuple[ReachingArm, ...]
+    numbers: ArmNumbers
+    approaches: tuple[Approach, ...]
+    labels: tuple[NDArray[np.int64], ...]
+
+
 class ComfortReach:
-    """The reach of a PR2 with its torso at one height, for one comfort radius.
+    """The reach of a robot with its lift at one height, for one comfort radius.
 
     It remembers its answers and counts its queries, so each plan should have its own; it must not be shared between
     threads. Places are tested on the grid of `LENGTH_M`, base frame.
@@ -37,8 +68,7 @@ class ComfortReach:
 
     def __init__(
         self,
-        arm_names: tuple[str, ...],
-        arms: tuple[SidedArm, ...],
+        asked: AskedArms,
         torso_m: float,
         comfort_m: float,
         room: Room | None = None,
@@ -47,25 +77,20 @@ class ComfortReach:
         """Start with nothing asked.
 
         Args:
-            arm_names: the arms from left to right.
-            arms: the same arms.
+            asked: the arms.
             torso_m: how far the torso is raised (m).
             comfort_m: the comfort radius (m).
-            room: the obstacles to the left arm's postures; None: the body is no obstacle.
+            room: the obstacles to the first arm's postures; None: the body is no obstacle.
             memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
         """
-        self._arm_names = arm_names
-        self._arms = arms
+        self._asked = asked
         self._torso_m = torso_m
         self._comfort_m = comfort_m
         self._memories = memories
         self._memory = empty_memory() if memories is None else memories.take()
         self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
-        self._axes = np.array([approach.rotation[:, 0] for approach in APPROACHES])
-        self._numbers = numbers_of(arms[0].shape)
-        self._shoulder = arms[0].shoulder(torso_m)
-        images = mirror_images()
-        self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
+        self._axes = np.array([approach.rotation[:, 0] for approach in asked.approaches])
+        self._shoulders = tuple(arm.shoulder(torso_m) for arm in asked.arms)
         self._shortfall_queries = 0
         self._query_time_s = 0.0
 
@@ -81,17 +106,18 @@ class ComfortReach:
     @property
     def arm_names(self) -> tuple[str, ...]:
         """The arms from left to right."""
-        return self._arm_names
+        return self._asked.names
 
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which the grippers may pinch cloth, base frame."""
-        return APPROACHES
+        return self._asked.approaches
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
         """The shoulder of each arm, base frame (m)."""
-        found = [arm.mirrored_places(arm.shoulder(self._torso_m)[None])[0] for arm in self._arms]
+        seen = zip(self._asked.arms, self._shoulders, strict=True)
+        found = [arm.mirrored_places(shoulder[None])[0] for arm, shoulder in seen]
         return tuple((float(x), float(y), float(z)) for x, y, z in found)
 
     @property
@@ -146,12 +172,12 @@ class ComfortReach:
             raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
         started = thread_time()
         masks = back_off_masks(
-            self._numbers,
-            self._shoulder,
+            self._asked.numbers,
+            self._shoulders[arm],
             self._memory,
-            self._arms[arm].mirrored_places(points),
+            self._asked.arms[arm].mirrored_places(points),
             self._axes,
-            self._labels[arm][approaches],
+            self._asked.labels[arm][approaches],
             count,
             round(step_m / LENGTH_M),
             self._comfort_m,
@@ -176,15 +202,15 @@ class ComfortReach:
         labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
         places = np.empty(paths.shape, dtype=np.int64)
         for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
-            labels[hand, : len(allowed)] = self._labels[arm][allowed]
-            places[hand] = np.round(self._arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
-        places -= np.round(self._shoulder / LENGTH_M).astype(np.int64)
+            labels[hand, : len(allowed)] = self._asked.labels[arm][allowed]
+            steps = np.round(self._asked.arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
+            places[hand] = steps - np.round(self._shoulders[arm] / LENGTH_M)
         slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
         step = round(step_m / LENGTH_M)
         cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
         task = Task(
-            self._numbers,
-            self._shoulder,
+            self._asked.numbers,
+            self._shoulders[0],
             self._memory,
             self._axes,
             labels,
@@ -221,12 +247,12 @@ class ComfortReach:
         """
         started = thread_time()
         answers = anywhere(
-            self._numbers,
-            self._shoulder,
+            self._asked.numbers,
+            self._shoulders[arm],
             self._memory,
-            self._arms[arm].mirrored_places(points),
+            self._asked.arms[arm].mirrored_places(points),
             self._axes,
-            self._labels[arm][approaches],
+            self._asked.labels[arm][approaches],
             count,
             round(step_m / LENGTH_M),
             self._comfort_m,

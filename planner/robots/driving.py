@@ -21,16 +21,13 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
-from planner.geometry.pose import FloatArray
+from planner.robots.arm_question import Space, space_for
 from planner.robots.driving_incumbents import EVERY, UNBEATEN, Incumbents, least_steps, no_incumbents, tell_useful
 from planner.robots.driving_task import Task, ask_each, at_extremes, remembered
-from planner.robots.pan_arcs import MOST_ARCS
 
 
 @njit(cache=True, nogil=True)
-def _follow(
-    task: Task, arcs: FloatArray, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]
-) -> bool:
+def _follow(task: Task, space: Space, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]) -> bool:
     """Follow the paths in one choice of approaches and record improved ends; return whether more steps may help."""
     bits, slots, cells, useful = task.memory.bits, task.slots, task.cells, best.useful
     reached, last_begun = np.zeros(cells.shape[1], dtype=np.int64), 0
@@ -45,7 +42,7 @@ def _follow(
             for hand in range(len(chosen) if new else 0):
                 approach = chosen[hand]
                 found = remembered(bits, slots[hand, approach, waypoint], cells[hand, waypoint], new)
-                new = found if found >= 0 else ask_each(task, arcs, hand, approach, waypoint, new)
+                new = found if found >= 0 else ask_each(task, space, hand, approach, waypoint, new)
             reached[waypoint] = before = here | new
             has_grown = has_grown or new != 0
             if before == 0:
@@ -79,7 +76,7 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
         For each standoff a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
         hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
     """
-    hands, count, arcs = len(task.labels), len(begun), np.empty((MOST_ARCS, 2))
+    hands, count, space = len(task.labels), len(begun), space_for(task.numbers)
     answer = np.full((2 + hands, count), IMPOSSIBLE, dtype=np.int64)
     best = no_incumbents(begun, most, wanted)
     near = 0
@@ -88,19 +85,19 @@ def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) 
     more = most + 1 if best.near.max() > most else IMPOSSIBLE
     masks = np.empty((hands, task.labels.shape[1], 3), dtype=np.int64)
     for hand in range(hands):
-        masks[hand] = at_extremes(task, arcs, hand, near)
+        masks[hand] = at_extremes(task, space, hand, near)
         if not masks[hand].any():
             return answer, more
     choices, shared, bounds = _choices(masks, best)
     for number in np.argsort(bounds, kind="mergesort"):
         begin, apex, end = shared[number]
         if bounds[number] < IMPOSSIBLE and least_steps(best.begun, best.useful, begin, apex, end) < IMPOSSIBLE:
-            if _follow(task, arcs, choices[number], best, answer):
+            if _follow(task, space, choices[number], best, answer):
                 more = min(more, most + 1)
         elif bounds[number] == IMPOSSIBLE and best.useful[-1] != 0:
             more = min(more, most + 1)
     answer[0] = best.ends
-    _settle(task, arcs, begun, wanted, answer)
+    _settle(task, space, begun, wanted, answer)
     return answer, more
 
 
@@ -148,7 +145,7 @@ def _of_first_hand(masks: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray
 
 
 @njit(cache=True, nogil=True)
-def _settle(task: Task, arcs: FloatArray, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
+def _settle(task: Task, space: Space, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
     """Remove ends that were beaten later on, and find where the base begins on the way to the others."""
     count = len(begun)
     alone, found = np.empty(count, dtype=np.int64), np.empty_like(answer)
@@ -163,7 +160,7 @@ def _settle(task: Task, arcs: FloatArray, begun: NDArray[np.int64], wanted: int,
                 best = no_incumbents(alone, answer[0, end], EVERY)
                 best.possible[0] = 1 << end
                 tell_useful(best)
-                _follow(task, arcs, answer[2:, end], best, found)
+                _follow(task, space, answer[2:, end], best, found)
                 if best.ends[end] == answer[0, end]:
                     answer[1, end] = first
                     break

@@ -11,6 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.robots.arm_question import ArmNumbers, Space, question
 from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
@@ -18,12 +19,11 @@ from planner.robots.comfort import (
     ROW_CELLS,
     ROW_STEP,
     Memory,
-    Place,
     from_cell,
     is_comfortable_at,
-    question,
     row_slot,
 )
+from planner.robots.place import Place
 from planner.robots.posture_room import Room
 
 UNSEEN = -2
@@ -36,8 +36,8 @@ class Task(NamedTuple):
     """The paths that hands follow.
 
     Attributes:
-        numbers: the arm, see `planner.robots.kernel.shape_of`.
-        shoulder: its shoulder, in the base frame (m), shape (3,).
+        numbers: the arms, see `planner.robots.arm_question`.
+        shoulder: the shoulder of an arm with a closed form, in the base frame (m), shape (3,).
         memory: earlier answers for this comfort radius; added to.
         axes: all approach axes, shape (m, 3).
         labels: for each hand the memory's labels of the approaches it may use, best first, 0 after the last; shape
@@ -51,7 +51,7 @@ class Task(NamedTuple):
         room: the obstacles to the arms' postures.
     """
 
-    numbers: FloatArray
+    numbers: ArmNumbers
     shoulder: FloatArray
     memory: Memory
     axes: FloatArray
@@ -65,7 +65,7 @@ class Task(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: int, wanted: int) -> int:
+def ask_each(task: Task, space: Space, hand: int, approach: int, waypoint: int, wanted: int) -> int:
     """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
     place = Place(x, y, z)
@@ -79,7 +79,7 @@ def ask_each(task: Task, arcs: FloatArray, hand: int, approach: int, waypoint: i
             wanted &= ~from_cell(bits[KNOWN], cell)
     while wanted >> back_off:
         is_wanted = (wanted >> back_off) & 1 == 1
-        if is_wanted and is_comfortable_at(ask, task.memory, task.room, arcs, slot, place, back_off):
+        if is_wanted and is_comfortable_at(ask, task.memory, task.room, space, slot, place, back_off):
             found |= 1 << back_off
         back_off += 1
     return found
@@ -94,7 +94,7 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
 
 
 @njit(cache=True, nogil=True)
-def at_extremes(task: Task, arcs: FloatArray, hand: int, near: int) -> NDArray[np.int64]:
+def at_extremes(task: Task, space: Space, hand: int, near: int) -> NDArray[np.int64]:
     """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
 
     Shape (k, 3), for each approach; all 0 where one of them is.
@@ -107,7 +107,7 @@ def at_extremes(task: Task, arcs: FloatArray, hand: int, near: int) -> NDArray[n
             break
         for number, waypoint in ((1, (last + 1) // 2), (2, last), (0, 0)):
             found = remembered(bits, slots[approach, waypoint], cells[waypoint], near)
-            found = found if found >= 0 else ask_each(task, arcs, hand, approach, waypoint, near)
+            found = found if found >= 0 else ask_each(task, space, hand, approach, waypoint, near)
             masks[approach, number] = found
             if found == 0:
                 masks[approach] = 0

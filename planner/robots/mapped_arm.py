@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
-from planner.robots.chain import PITCH, WHOLE, tool_poses
+from planner.robots.chain import PITCH, WHOLE, Chain, length_of, tool_poses
 from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.newton import solve_from
 from planner.robots.posture_map import PostureMap, reachable_poses
@@ -39,6 +39,21 @@ class MappedArm:
         self._known = known
 
     @property
+    def chain(self) -> Chain:
+        """Its joints and its tool, seen from its root."""
+        return self._chain
+
+    @property
+    def known(self) -> PostureMap:
+        """The map of its postures."""
+        return self._known
+
+    @property
+    def length_m(self) -> float:
+        """How far from its root it can reach at most (m)."""
+        return length_of(self._chain)
+
+    @property
     def asks_pitch_only(self) -> bool:
         """Whether the arm has too few joints to choose the heading of an approach, so that only its pitch counts."""
         return self._chain.rows == PITCH
@@ -47,6 +62,10 @@ class MappedArm:
     def size_mb(self) -> float:
         """The memory that the map takes (MB)."""
         return (self._known.starts.nbytes + self._known.postures.nbytes) / 1e6
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        """Return points of the base frame as the arm sees them: as they are; a new array."""
+        return np.array(places, dtype=float, order="C")
 
     def can_reach(self, positions: FloatArray, rotations: FloatArray, torso_m: float = 0.0) -> BoolArray:
         """Return which tool poses, shapes (n, 3) and (n, 3, 3), the arm can take within its limits; shape (n,).
@@ -59,7 +78,7 @@ class MappedArm:
         self, positions: FloatArray, rotations: FloatArray, torso_m: float = 0.0
     ) -> tuple[BoolArray, FloatArray]:
         """Return which tool poses the arm can take, see `can_reach`, and joints for each, shape (n, joints)."""
-        points = np.ascontiguousarray(positions - self._shoulder(torso_m))
+        points = np.ascontiguousarray(positions - self.shoulder(torso_m))
         return reachable_poses(self._chain, self._known, points, np.ascontiguousarray(rotations))
 
     def joints_near(
@@ -67,16 +86,17 @@ class MappedArm:
     ) -> FloatArray | None:
         """Return joints that bring the tool to a pose, roll included, led there from joints nearby; or None."""
         rows = self._chain.rows if self.asks_pitch_only else WHOLE
-        point = np.ascontiguousarray(position - self._shoulder(torso_m))
+        point = np.ascontiguousarray(position - self.shoulder(torso_m))
         found, joints = solve_from(self._chain, point[None], np.ascontiguousarray(rotation)[None], rows, near[None])
         return joints[0] if found[0] else None
 
     def tool_poses(self, joints: FloatArray, torso_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Return the tool's positions, shape (n, 3), and rotations, shape (n, 3, 3), at rows of joints."""
         points, rotations = tool_poses(self._chain, np.ascontiguousarray(joints))
-        return points + self._shoulder(torso_m), rotations
+        return points + self.shoulder(torso_m), rotations
 
-    def _shoulder(self, torso_m: float) -> FloatArray:
+    def shoulder(self, torso_m: float) -> FloatArray:
+        """Return where its root is in the base frame with the lift raised (m), shape (3,)."""
         shoulder: FloatArray = self._root + np.array([0.0, 0.0, torso_m])
         return shoulder
 

@@ -21,7 +21,7 @@ from planner.geometry.pose import FloatArray
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
-from planner.robots.comfort import is_comfortable
+from planner.robots.closed_comfort import is_comfortable
 from planner.robots.pan_arcs import MOST_ARCS
 from planner.robots.posture_room import Room, has_room_about
 

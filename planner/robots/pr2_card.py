@@ -5,7 +5,7 @@ import math
 import pinocchio as pin
 
 from planner.robots.arm import JOINTS, MIRROR
-from planner.robots.card import ArmCard, GripperCard, RobotCard
+from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard
 from planner.robots.description import package_directory, urdf_path
 
 _LIFT = "torso_lift_joint"
@@ -27,7 +27,7 @@ def pr2_card(model: pin.Model) -> RobotCard:
         name="pr2",
         title="PR2",
         arms=(_arm_card(model, "left", 1.0), _arm_card(model, "right", -1.0)),
-        base_kind="omnidirectional",
+        base_kind="omni",
         base_size_m=(0.669, 0.667),
         base_radius_m=0.47,
         lift_joint=_LIFT,
@@ -56,10 +56,10 @@ def _arm_card(model: pin.Model, name: str, side: float) -> ArmCard:
     )
 
 
-def _gripper_card(model: pin.Model, prefix: str) -> GripperCard:
+def _gripper_card(model: pin.Model, prefix: str) -> ParallelogramGripper:
     finger = model.joints[model.getJointId(f"{prefix}_gripper_l_finger_joint")]
     hinge = model.jointPlacements[model.getJointId(f"{prefix}_gripper_l_finger_tip_joint")].translation
-    return GripperCard(
+    return ParallelogramGripper(
         joint_name=f"{prefix}_gripper_l_finger_joint",
         link_x_m=float(hinge[0]),
         link_y_m=float(hinge[1]),

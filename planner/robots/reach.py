@@ -14,15 +14,44 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Shortfall
 from planner.geometry.tolerance import LENGTH_M
+from planner.robots.approaches import APPROACHES, mirror_images
+from planner.robots.arm import numbers_of
 from planner.robots.arm_gap import least_gaps
-from planner.robots.comfort_reach import ComfortReach
+from planner.robots.comfort_memories import Memories
+from planner.robots.comfort_reach import AskedArms, ComfortReach
 from planner.robots.nearest_comfort import Wanted, least_worst
+from planner.robots.posture_room import Room
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
 from planner.robots.sided_arm import SidedArm
 
 
 class Pr2Reach(ComfortReach):
     """The reach of a PR2 with its torso at one height, for one comfort radius: see `ComfortReach`."""
+
+    def __init__(
+        self,
+        arm_names: tuple[str, ...],
+        arms: tuple[SidedArm, ...],
+        torso_m: float,
+        comfort_m: float,
+        room: Room | None = None,
+        memories: Memories | None = None,
+    ) -> None:
+        """Start with nothing asked.
+
+        Args:
+            arm_names: the arms from left to right.
+            arms: the same arms.
+            torso_m: how far the torso is raised (m).
+            comfort_m: the comfort radius (m).
+            room: the obstacles to the left arm's postures; None: the body is no obstacle.
+            memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
+        """
+        self._arms = arms
+        images, numbers = mirror_images(), numbers_of(arms[0].shape)
+        self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
+        asked = AskedArms(arm_names, arms, numbers, APPROACHES, self._labels)
+        super().__init__(asked, torso_m, comfort_m, room, memories)
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float

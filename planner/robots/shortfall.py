@@ -47,7 +47,7 @@ def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_
     if is_at_least:
         seen_from, approach, short_by_m = _nearest_by_length(shape, wanted, points, furthest)
     point, axis = points[seen_from], wanted.axes[approach]
-    towards = _homewards(point) if is_at_least else DIRECTIONS[direction]
+    towards = homewards(point) if is_at_least else DIRECTIONS[direction]
     joint, comfort_m = limiting_joint(shape, point, axis), None
     cause: Cause = "too_far" if is_at_least else _cause(point, point - shape.tool * axis, towards, short_by_m)
     if widest_from >= 0:
@@ -56,7 +56,7 @@ def left_shortfall(shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_
         queries += len(_RING)
     elif is_hindered(shape, wanted, points):
         cause, joint = "own_body", None
-    return Shortfall(cause, joint, short_by_m, is_at_least, _as_point(towards), approach, seen_from, comfort_m), queries
+    return Shortfall(cause, joint, short_by_m, is_at_least, as_point(towards), approach, seen_from, comfort_m), queries
 
 
 def _missed_on_ring(shape: ArmShape, point: FloatArray, axis: FloatArray, comfort_m: float) -> str | None:
@@ -90,12 +90,13 @@ def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, furt
     return int(seen_from), int(approach), max(float(gaps.min()), furthest)
 
 
-def _homewards(point: FloatArray) -> FloatArray:
+def homewards(point: FloatArray) -> FloatArray:
     """Return the unit direction to the shoulder; straight ahead from the shoulder itself."""
     distance = float(np.linalg.norm(point))
     return -point / distance if distance > 0.0 else DIRECTIONS[0]
 
 
-def _as_point(direction: FloatArray) -> Point3:
+def as_point(direction: FloatArray) -> Point3:
+    """Return a direction as plain numbers."""
     x, y, z = (float(component) for component in direction)
     return x, y, z

@@ -1,0 +1,129 @@
+"""The questions that the search for reach puts to an arm, whatever kind of arm it is. Compiled.
+
+An arm comes to the compiled queries as its numbers: of a closed form (`closed_comfort`), or of a map of postures
+(`mapped_comfort`). Which of the two answers is chosen when a query is compiled, by the type of the numbers.
+"""
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numba import njit, types
+from numba.extending import overload
+
+from planner.geometry.pose import FloatArray
+from planner.robots.closed_comfort import (
+    ClosedQuestion,
+    closed_had,
+    closed_in_height,
+    closed_in_length,
+    closed_question,
+)
+from planner.robots.mapped_comfort import (
+    MappedArms,
+    MappedQuestion,
+    MappedSpace,
+    mapped_had,
+    mapped_in_height,
+    mapped_in_length,
+    mapped_question,
+    mapped_space,
+)
+from planner.robots.pan_arcs import MOST_ARCS
+from planner.robots.place import Place
+from planner.robots.posture_room import Room
+
+ArmNumbers: TypeAlias = FloatArray | MappedArms
+"""An arm for the compiled queries, or, with maps, all arms of a robot."""
+
+Question: TypeAlias = ClosedQuestion | MappedQuestion
+"""The constants of the queries in one approach."""
+
+Space: TypeAlias = FloatArray | MappedSpace
+"""Working memory of the queries."""
+
+
+def space_for(_arm: ArmNumbers) -> Space:
+    """Return working memory for the queries of an arm."""
+    raise NotImplementedError("compiled alone")
+
+
+def question(
+    _arm: ArmNumbers, _shoulder: FloatArray, _axes: FloatArray, _label: int, _comfort: float, _step: int
+) -> Question:
+    """Return the query in the approach of a label."""
+    raise NotImplementedError("compiled alone")
+
+
+def is_in_height(_ask: Question, _place: Place) -> bool:
+    """Return whether a place's height is one that the arm can have; an approximate test."""
+    raise NotImplementedError("compiled alone")
+
+
+def is_in_length(_ask: Question, _place: Place, _back_off: int) -> bool:
+    """Return whether the arm is long enough for a place, ignoring most limits."""
+    raise NotImplementedError("compiled alone")
+
+
+def is_had(_ask: Question, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _back_off: int) -> bool:
+    """Return whether a place is within the comfort radius from a standoff."""
+    raise NotImplementedError("compiled alone")
+
+
+def _is_mapped(kind: types.Type) -> bool:
+    return getattr(kind, "instance_class", None) in (MappedArms, MappedQuestion)
+
+
+@njit(cache=True, nogil=True)
+def _arcs() -> FloatArray:
+    return np.empty((MOST_ARCS, 2))
+
+
+@overload(space_for, strict=False)
+def _space_for(_arm: types.Type) -> Any:  # noqa: ANN401
+    return (lambda _arm: mapped_space(_arm)) if _is_mapped(_arm) else (lambda _arm: _arcs())
+
+
+@overload(question, strict=False)
+def _question(
+    _arm: types.Type,
+    _shoulder: types.Type,
+    _axes: types.Type,
+    _label: types.Type,
+    _comfort: types.Type,
+    _step: types.Type,
+) -> Any:  # noqa: ANN401
+    if _is_mapped(_arm):
+        return lambda _arm, _shoulder, _axes, _label, _comfort, _step: mapped_question(_arm, _label, _comfort, _step)
+    return lambda _arm, _shoulder, _axes, _label, _comfort, _step: closed_question(
+        _arm, _shoulder, _axes, _label, _comfort, _step
+    )
+
+
+@overload(is_in_height, strict=False)
+def _is_in_height(_ask: types.Type, _place: types.Type) -> Any:  # noqa: ANN401
+    if _is_mapped(_ask):
+        return lambda _ask, _place: mapped_in_height(_ask, _place)
+    return lambda _ask, _place: closed_in_height(_ask, _place)
+
+
+@overload(is_in_length, strict=False)
+def _is_in_length(_ask: types.Type, _place: types.Type, _back_off: types.Type) -> Any:  # noqa: ANN401
+    if _is_mapped(_ask):
+        return lambda _ask, _place, _back_off: mapped_in_length(_ask, _place, _back_off)
+    return lambda _ask, _place, _back_off: closed_in_length(_ask, _place, _back_off)
+
+
+@overload(is_had, strict=False)
+def _is_had(
+    _ask: types.Type,
+    _hints: types.Type,
+    _room: types.Type,
+    _space: types.Type,
+    _place: types.Type,
+    _back_off: types.Type,
+) -> Any:  # noqa: ANN401
+    if _is_mapped(_ask):
+        return lambda _ask, _hints, _room, _space, _place, _back_off: mapped_had(_ask, _space, _place, _back_off)
+    return lambda _ask, _hints, _room, _space, _place, _back_off: closed_had(
+        _ask, _hints, _room, _space, _place, _back_off
+    )

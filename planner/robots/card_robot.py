@@ -1,0 +1,78 @@
+"""A robot as its card and its URDF describe it, ready for planning."""
+
+import math
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import FloatArray
+from planner.robots.card import RobotCard
+from planner.robots.comfort_memories import Memories
+from planner.robots.comfort_reach import AskedArms
+from planner.robots.described_card import robot_card
+from planner.robots.described_robot import DescribedRobot
+from planner.robots.mapped_arm import ALL_ROUND, MappedArm, mapped_arm
+from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
+from planner.robots.mapped_reach import MappedReach
+
+_MEMORIES_KEPT = 4
+"""Lift heights and comfort radii for which it is kept where the arms reach."""
+
+
+class CardRobot:
+    """A robot of a card. It does not change, so all users may share one instance.
+
+    Arms are numbered from left to right as the robot sees them. Poses are of the tool frame, in the base frame (x
+    ahead, z up from the floor), in m.
+    """
+
+    def __init__(self, described: DescribedRobot) -> None:
+        """Take the description; maps of postures are read, or built in seconds, when they are first needed."""
+        self._described = described
+        self._card = robot_card(described)
+        self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
+
+    @property
+    def card(self) -> RobotCard:
+        """The robot's card."""
+        return self._card
+
+    def reach(self, torso_m: float, comfort_m: float) -> MappedReach:
+        """Return the reach with the lift raised by `torso_m`, for a comfort radius (m).
+
+        Raises:
+            SceneError: the lift does not go there.
+            RequestError: the radius is negative or no number.
+        """
+        low, high = self._card.lift_limits_m
+        if not low <= torso_m <= high:
+            raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
+        if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
+            raise RequestError("comfort_m", f"{comfort_m} m is no radius")
+        names = tuple(arm.name for arm in self._card.arms)
+        ask = np.arange(1, len(ALL_ROUND) + 1)
+        labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
+        numbers = rooted(self._numbers, [arm.shoulder(float(torso_m)) for arm in self._arms])
+        asked = AskedArms(names, self._arms, numbers, ALL_ROUND, labels)
+        joints = tuple(arm.joint_names for arm in self._card.arms)
+        lengths = tuple(arm.length_m for arm in self._arms)
+        memories = self._memories(float(torso_m), float(comfort_m))
+        return MappedReach(asked, numbers, joints, lengths, float(torso_m), float(comfort_m), memories)
+
+    def forget_reach(self) -> None:
+        """Drop what plans have left about where the arms reach, so that benchmarks measure its computation."""
+        self._memories.cache_clear()
+
+    @cached_property
+    def _arms(self) -> tuple[MappedArm, ...]:
+        return tuple(mapped_arm(self._described, number) for number in range(len(self._described.arms)))
+
+    @cached_property
+    def _numbers(self) -> MappedArms:
+        arms = self._arms
+        return mapped_arms([arm.chain for arm in arms], [arm.known for arm in arms])
+
+    def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
+        """Return the tool's positions in the base frame for rows of joints, shape (n, joints) -> (n, 3), m."""
+        return self._arms[arm].tool_poses(joints, float(torso_m))[0]

@@ -1,0 +1,109 @@
+"""A place within the comfort radius of an arm with a closed form: the PR2's. Compiled.
+
+A place also counts only if the body leaves the arm room there (see `planner.robots.posture_room`).
+"""
+
+from typing import NamedTuple
+
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import LENGTH_M
+from planner.robots.aim import ToolPose, aim_at, beside, is_within_height, is_within_length
+from planner.robots.arm import ArmShape
+from planner.robots.joint_slack import ring_slack
+from planner.robots.kernel import is_reachable_near, shape_of
+from planner.robots.place import Place, in_steps
+from planner.robots.posture_room import Room, has_room_about, may_be_hindered
+
+
+class ClosedQuestion(NamedTuple):
+    """The constants of the queries in one approach; numbers alone, because those are passed on without cost.
+
+    Attributes:
+        shape: the arm.
+        rest: the shoulder's offset from the grid of `LENGTH_M` (m).
+        axis: the approach axis.
+        label: the approach's label in the memory, 1..63.
+        comfort: the comfort radius (m).
+        step: the distance between standoffs, in steps of `LENGTH_M`.
+    """
+
+    shape: ArmShape
+    rest: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    label: int
+    comfort: float
+    step: int
+
+
+@njit(cache=True, nogil=True)
+def closed_question(
+    numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
+) -> ClosedQuestion:
+    """Return the query in the approach of a label."""
+    rest = (
+        shoulder[0] - in_steps(shoulder[0]) * LENGTH_M,
+        shoulder[1] - in_steps(shoulder[1]) * LENGTH_M,
+        shoulder[2] - in_steps(shoulder[2]) * LENGTH_M,
+    )
+    axis = (axes[label - 1, 0], axes[label - 1, 1], axes[label - 1, 2])
+    return ClosedQuestion(shape_of(numbers), rest, axis, label, comfort, step)
+
+
+@njit(cache=True, nogil=True)
+def aim_from(ask: ClosedQuestion, place: Place, back_off: int) -> ToolPose:
+    """Return the tool pose at a place with the base at a standoff."""
+    x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
+    ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
+    return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
+
+
+@njit(cache=True, nogil=True)
+def closed_in_height(ask: ClosedQuestion, place: Place) -> bool:
+    """Return whether a place's height is one that the arm can have; an approximate test."""
+    return is_within_height(ask.shape, aim_from(ask, place, 0))
+
+
+@njit(cache=True, nogil=True)
+def closed_in_length(ask: ClosedQuestion, place: Place, back_off: int) -> bool:
+    """Return whether the arm is long enough for a place, ignoring most limits."""
+    aim = aim_from(ask, place, back_off)
+    return is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim)
+
+
+@njit(cache=True, nogil=True)
+def closed_had(
+    ask: ClosedQuestion, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, back_off: int
+) -> bool:
+    """Return whether a place is within the comfort radius from a standoff; `arcs` is scratch space."""
+    aim = aim_from(ask, place, back_off)
+    answer: bool = is_comfortable(ask.shape, aim, ask.comfort, arcs, hints[ask.label])[0]
+    if answer and may_be_hindered(aim):
+        answer = has_room_about(ask.shape, room, ask.label, aim, arcs)
+    return answer
+
+
+@njit(cache=True, nogil=True)
+def is_comfortable(
+    shape: ArmShape, aim: ToolPose, comfort: float, arcs: FloatArray, hint: FloatArray
+) -> tuple[bool, int]:
+    """Return whether a tool pose and four on the circle of radius `comfort` round it are reachable; queries made.
+
+    Mostly the pan that served last, `hint`, serves all five. If not, the pose that it serves least is tested first.
+    """
+    if comfort <= 0.0:
+        return is_reachable_near(shape, aim, arcs, hint), 1
+    least, worst = ring_slack(shape, aim, comfort, hint[0], hint[1])
+    if least >= 0.0:
+        return True, 5
+    pan, branch = hint
+    if not is_reachable_near(shape, beside(aim, comfort, worst), arcs, hint):
+        return False, 1
+    if ring_slack(shape, aim, comfort, hint[0], hint[1])[0] >= 0.0:
+        return True, 5
+    for number in range(5):
+        if number != worst and not is_reachable_near(shape, beside(aim, comfort, number), arcs, hint):
+            hint[0], hint[1] = pan, branch
+            return False, 2 + number - (1 if number > worst else 0)
+    return True, 5

@@ -1,0 +1,154 @@
+"""The reach of a robot whose arms have maps of postures, with the shortfall of places out of reach."""
+
+import math
+from time import thread_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.shortfall import Cause, Shortfall
+from planner.robots.comfort_memories import Memories
+from planner.robots.comfort_reach import AskedArms, ComfortReach
+from planner.robots.mapped_comfort import MappedArms
+from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
+from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
+
+_QUERIES_MAX = 50_000
+"""Queries after which a shortfall is told as far as it is known: some tenths of a second."""
+
+
+class MappedReach(ComfortReach):
+    """The reach of a robot with its lift at one height, for one comfort radius: see `ComfortReach`."""
+
+    def __init__(
+        self,
+        asked: AskedArms,
+        arms: MappedArms,
+        joint_names: tuple[tuple[str, ...], ...],
+        lengths_m: tuple[float, ...],
+        torso_m: float,
+        comfort_m: float,
+        memories: Memories | None = None,
+    ) -> None:
+        """Start with nothing asked.
+
+        Args:
+            asked: the arms.
+            arms: the same arms with their maps.
+            joint_names: the joints of each arm.
+            lengths_m: how far from its root each arm may reach (m).
+            torso_m: how far the lift is raised (m).
+            comfort_m: the comfort radius (m).
+            memories: what earlier plans have learned; None: nothing.
+        """
+        super().__init__(asked, torso_m, comfort_m, memories=memories)
+        self._arms = arms
+        self._joint_names = joint_names
+        self._lengths_m = lengths_m
+
+    def at_least_short(
+        self, arm: int, ways: FloatArray, _approaches: NDArray[np.int64], count: int, step_m: float
+    ) -> FloatArray:
+        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
+
+        It is what the points are beyond the arm's length from the best standoff.
+
+        Args:
+            arm: index into `arm_names`.
+            ways: tool points in the base frame at standoff 0 (m), shape (n, p, 3).
+            count: the number of standoffs.
+            step_m: the distance between standoffs (m).
+        """
+        ahead = np.arange(count)[:, None] * np.array([step_m, 0.0, 0.0])
+        seen = (ways - self._shoulders[arm])[:, :, None] + ahead
+        away = (
+            np.linalg.norm(seen, axis=-1) - self._lengths_m[arm] + (self._comfort_m if self._comfort_m > 0.0 else 0.0)
+        )
+        return np.asarray(np.maximum(away.min(axis=2).max(axis=1), 0.0))
+
+    def shortfall(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> Shortfall | None:
+        """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
+
+        Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up.
+
+        Args:
+            arm: index into `arm_names`.
+            points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
+            approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
+            at_most_m: the longest displacement tried (m), if less than that.
+
+        Returns:
+            The smallest shortfall; None where the place is within the comfort radius from somewhere.
+        """
+        if len(approaches) == 0:
+            raise ValueError("without an approach no point is within reach")
+        points = np.reshape(points, (-1, 3))
+        if self.from_anywhere(arm, points, approaches, 1, 0.0).any():
+            return None
+        started = thread_time()
+        seen, labels = points - self._shoulders[arm], self._asked.labels[arm][approaches]
+        furthest = min(at_most_m, FURTHEST_M)
+        short_by_m, seen_from, approach, direction, queries = nearest_place(
+            self._arms, labels, seen, DIRECTIONS, self._comfort_m, furthest, _QUERIES_MAX
+        )
+        self._shortfall_queries += queries
+        is_at_least = seen_from < 0
+        if is_at_least:
+            distances = np.linalg.norm(seen, axis=1)
+            seen_from, approach = int(distances.argmin()), 0
+            short_by_m = max(float(distances.min()) - self._lengths_m[arm], furthest)
+        point = seen[seen_from]
+        towards = homewards(point) if is_at_least else DIRECTIONS[direction]
+        cause, comfort_m = "too_far" if is_at_least else _cause(point, towards, short_by_m), None
+        widest_m, widest_from, _ = widest_circle(self._arms, labels, seen, self._comfort_m)
+        if widest_from >= 0:
+            cause, comfort_m = "comfort_only", widest_m
+        joint = joint_at_limit(self._arms, int(labels[approach]), point)
+        name = None if joint < 0 else self._joint_names[arm][joint]
+        self._query_time_s += thread_time() - started
+        chosen = int(approaches[approach])
+        return Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)
+
+    def shortfall_together(
+        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+    ) -> tuple[int, Shortfall] | None:
+        """Return the worst of places that are all to be reached in one approach, in the best approach for it.
+
+        Args:
+            arm: index into `arm_names`.
+            places: places of the tool, each as seen from each of the places where the base may stand (m), shape (p, n,
+                3).
+            approaches: indices into `approaches`, shape (k,), at least one.
+            at_most_m: the longest displacement tried (m).
+
+        Returns:
+            The place's index, and its shortfall in that approach; None where some approach brings all within the
+            comfort radius. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
+        """
+        had = np.stack([self.from_anywhere(arm, place, approaches, 1, 0.0).any(axis=1) for place in places], axis=1)
+        if had.all(axis=1).any():
+            return None
+        best: tuple[int, Shortfall] | None = None
+        for row in np.argsort(-had.sum(axis=1), kind="stable"):
+            limit_m = at_most_m if best is None else min(at_most_m, best[1].short_by_m)
+            worst: tuple[int, Shortfall] | None = None
+            for number in np.flatnonzero(~had[row]).tolist():
+                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m)
+                if found is not None and (worst is None or found.short_by_m > worst[1].short_by_m):
+                    worst = (number, found)
+                if worst is not None and worst[1].short_by_m >= limit_m:
+                    break
+            if worst is not None and (best is None or worst[1].short_by_m < best[1].short_by_m):
+                best = worst
+        return best
+
+
+def _cause(point: FloatArray, towards: FloatArray, short_by_m: float) -> Cause:
+    """Return why a point, seen from the arm's root, is out of reach that a displacement brings into it."""
+    further_m = np.linalg.norm(point + short_by_m * towards) - np.linalg.norm(point)
+    if further_m < -SIDEWAYS * short_by_m:
+        return "too_far"
+    return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"

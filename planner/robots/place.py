@@ -1,0 +1,32 @@
+"""A tool point on the grid, as an arm's shoulder sees it. Compiled."""
+
+from typing import NamedTuple
+
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import LENGTH_M
+
+
+class Place(NamedTuple):
+    """A tool point, seen from the shoulder with the base at standoff 0, in steps of `LENGTH_M`."""
+
+    x: int
+    y: int
+    z: int
+
+
+@njit(cache=True, nogil=True)
+def in_steps(value: float) -> int:
+    """Return a coordinate in steps of `LENGTH_M`."""
+    return round(value / LENGTH_M)
+
+
+@njit(cache=True, nogil=True)
+def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
+    """Return the place of a tool point, with point and shoulder in the base frame (m)."""
+    return Place(
+        in_steps(point[0]) - in_steps(shoulder[0]),
+        in_steps(point[1]) - in_steps(shoulder[1]),
+        in_steps(point[2]) - in_steps(shoulder[2]),
+    )
