@@ -1,0 +1,74 @@
+"""The outline of a figure as edges, and how far points are from it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+from planner.geometry.region import Region
+from planner.geometry.ring import after
+
+_HAIR_M = 1e-9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OutlineEdges:
+    """The outer edges of a region, counter-clockwise.
+
+    Attributes:
+        starts: where each edge starts, shape (m, 2), m.
+        ends: where each ends, shape (m, 2), m.
+    """
+
+    starts: FloatArray
+    ends: FloatArray
+
+    @staticmethod
+    def of(region: Region) -> "OutlineEdges":
+        """Return the edges of a region's outer rings; holes have none."""
+        rings = region.rings
+        return OutlineEdges(np.concatenate(rings), np.concatenate([after(ring) for ring in rings]))
+
+    @property
+    def length(self) -> float:
+        """The length of all edges (m)."""
+        return float(np.hypot(*(self.ends - self.starts).T).sum())
+
+    def spaced(self, count: int) -> FloatArray:
+        """Return points evenly along the edges, shape (count, 2), m."""
+        lengths = np.hypot(*(self.ends - self.starts).T)
+        reached = np.concatenate([[0.0], lengths.cumsum()])
+        places = (np.arange(count) + 0.5) / count * reached[-1]
+        edge = np.clip(np.searchsorted(reached, places, side="right") - 1, 0, len(lengths) - 1)
+        share = (places - reached[edge]) / lengths[edge]
+        return np.asarray(self.starts[edge] + share[:, None] * (self.ends[edge] - self.starts[edge]))
+
+    def distances(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return how far points, shape (n, 2), are outside the outline, and the unit vectors that lead outwards.
+
+        Distances have shape (n,), m, and are negative inside; the vectors have shape (n, 2).
+        """
+        along = self.ends - self.starts
+        squares = (along**2).sum(axis=1)
+        from_start = points[:, None] - self.starts
+        share = np.clip((from_start * along).sum(axis=2) / squares, 0.0, 1.0)
+        apart = from_start - share[:, :, None] * along
+        far2 = (apart**2).sum(axis=2)
+        nearest = far2.argmin(axis=1)
+        rows = np.arange(len(points))
+        away, distance = apart[rows, nearest], np.sqrt(far2[rows, nearest])
+        sign = np.where(self._contain(points), -1.0, 1.0)
+        edge = along[nearest] / np.sqrt(squares[nearest])[:, None]
+        normal = np.column_stack([edge[:, 1], -edge[:, 0]])
+        is_on = distance < _HAIR_M
+        outwards = np.where(is_on[:, None], normal, sign[:, None] * away / np.maximum(distance, _HAIR_M)[:, None])
+        return sign * distance, outwards
+
+    def _contain(self, points: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Return which points lie inside: a ray to the right crosses an odd number of edges."""
+        x, y = points.T[:, :, None]
+        (ax, ay), (bx, by) = self.starts.T, self.ends.T
+        crosses = (ay > y) != (by > y)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at_x = ax + (y - ay) / (by - ay) * (bx - ax)
+        return np.asarray((crosses & (x < at_x)).sum(axis=1) % 2 == 1)

@@ -1,0 +1,96 @@
+"""What is known of where a stack lies, once its outline has been fitted to what a camera saw."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from planner.geometry.pose import Pose2
+from planner.message import Message
+
+LOOKS_ALIKE = "looks_alike"
+"""The code of what is said where several placements fit equally well."""
+
+
+@dataclass(frozen=True, slots=True)
+class StackFit:
+    """A stack's placement, and how sure it is.
+
+    Attributes:
+        placement: the article frame in the table frame; the best there is, also where `unknown` says it may be wrong.
+        error_m: how far off the corners of the stack may be: about 95 of 100 are nearer than that to where they are
+            said to be (m).
+        residual_m: the median distance of the points seen from the fitted outline (m).
+        share_on_outline: the share of the points seen that lie within 1 cm of it.
+        share_seen: the share of the outline that has a point seen within 1 cm.
+        others: further placements that fit as well, for a figure that is nearly symmetric.
+        unknown: why the placement is not known; None where it is.
+    """
+
+    placement: Pose2
+    error_m: float
+    residual_m: float
+    share_on_outline: float
+    share_seen: float
+    others: tuple[Pose2, ...] = ()
+    unknown: Message | None = None
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the placement can be relied on."""
+        return self.unknown is None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fit as JSON."""
+        return {
+            "placement": pose_json(self.placement),
+            "error_m": self.error_m,
+            "residual_m": self.residual_m,
+            "share_on_outline": self.share_on_outline,
+            "share_seen": self.share_seen,
+            "others": [pose_json(pose) for pose in self.others],
+            **unknown_json(self.unknown),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class FoldFit:
+    """A stack after a fold, with how far the fold is from where it should be.
+
+    Attributes:
+        stack: where the stack lies.
+        offset_m: how far the crease is to the left of its line, at the middle of it (m): the part that moved is smaller
+            then.
+        turn_rad: how far it is turned, counter-clockwise (rad).
+        off_m: how far the corners of the part that moved are from where they should be, at most (m).
+        offset_error_m: how far off `offset_m` may be, at about 95 of 100 (m).
+        turn_error_rad: the same of `turn_rad` (rad).
+    """
+
+    stack: StackFit
+    offset_m: float
+    turn_rad: float
+    off_m: float
+    offset_error_m: float
+    turn_error_rad: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fit as JSON."""
+        return {
+            **self.stack.to_dict(),
+            "crease_offset_m": self.offset_m,
+            "crease_offset_error_m": self.offset_error_m,
+            "crease_turn_rad": self.turn_rad,
+            "crease_turn_error_rad": self.turn_error_rad,
+            "off_m": self.off_m,
+        }
+
+
+def pose_json(pose: Pose2) -> dict[str, float]:
+    """Return a pose as JSON."""
+    return {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad}
+
+
+def unknown_json(unknown: Message | None) -> dict[str, Any]:
+    """Return whether something is known, and why not, as JSON."""
+    if unknown is None:
+        return {"known": True, "reason": None, "says": None}
+    return {"known": False, "reason": unknown.text, "says": unknown.to_dict()}
