@@ -1,12 +1,14 @@
 """The functions that run in processes of their own; their arguments and results are picklable."""
 
 import os
+import time
 from dataclasses import dataclass
 from typing import Any
 
 from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.jobs.apart import Tell
+from app.jobs.job_kind import Progress
 from planner import make_plan
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
@@ -34,6 +36,10 @@ _NICENESS = 10
 """Niceness of a search for suggestions: people who draw and the plans of their drawings come first."""
 
 
+_LAST_SHARE = 0.99
+"""The share of a search for suggestions that is told at most before its end."""
+
+
 def plan(_: Tell, task: Task) -> Plan:
     """Plan a task, as `make_plan` does."""
     return make_plan(task)
@@ -59,6 +65,34 @@ def suggest(tell: Tell, task: Task, known: Plan | None) -> bool:
         except StopIteration as end:
             return bool(end.value)
         tell(Suggested(suggestion.to_dict(), suggestion.plan))
+
+
+def all_suggestions(asked: tuple[Task, Plan | None], progress: Progress) -> tuple[list[Suggested], bool]:
+    """Return all suggestions, and whether everything was tried; the work of a job.
+
+    The progress is the share of the time limit that has passed: how many changes there are is not known before.
+    """
+    task, known = asked
+    found: list[Suggested] = []
+    began_s = time.monotonic()
+
+    def hear(news: Suggested | Tried | None) -> None:
+        if isinstance(news, Suggested):
+            found.append(news)
+        share = (time.monotonic() - began_s) / task.limits.time_limit_s
+        progress(min(share, _LAST_SHARE), f"{len(found)} found")
+
+    return found, suggest(hear, task, known)
+
+
+def whole_map(asked: tuple[Task, float], progress: Progress) -> dict[str, Any]:
+    """Return a map of placements as JSON; the work of a job."""
+    task, step_m = asked
+
+    def on_place(known: int, of: int) -> None:
+        progress(known / of, f"{known} of {of} places")
+
+    return placement_map(task, step_m=step_m, on_place=on_place).to_dict()
 
 
 def map_places(_: Tell, task: Task, step_m: float) -> PlacementMap:

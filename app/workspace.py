@@ -2,19 +2,24 @@
 
 import logging
 import threading
+from collections.abc import Mapping
 
 from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.jobs.apart import start_template
+from app.jobs.job_desk import JobDesk
+from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
 from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
+from app.store.database import Database
 from app.store.document_reader import KeptDocument
 from app.store.document_repository import DocumentRepository
 from app.store.garment_repository import GarmentRepository
+from app.store.job_repository import JobRepository
 from app.store.plan_store import PlanStore
 from planner.errors import FoldingError
 
@@ -44,15 +49,20 @@ class Workspace:
         documents: the document repository.
         plans: the plans made so far.
         lanes: the workers for everything that takes time.
+        database: the database.
+        jobs: the jobs, running and ended.
     """
 
-    def __init__(self, settings: Settings) -> None:
-        """Start with no open document."""
+    def __init__(self, settings: Settings, kinds: Mapping[str, AnyKind]) -> None:
+        """Start with no open document; `kinds` are the jobs that can be asked for."""
         self.folder = DataFolder(settings.data)
         self.garments = GarmentRepository(self.folder.garments)
         self.documents = DocumentRepository(self.folder.documents)
         self.plans = PlanStore()
         self.lanes = Lanes()
+        self.database = Database(self.folder.database)
+        stores = Stores(self.garments, self.plans)
+        self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
         self._closing = threading.Event()
@@ -64,6 +74,10 @@ class Workspace:
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
         start_template()
+        try:
+            self.jobs.resume()
+        except FoldingError as error:
+            _log.error("the jobs of the last time could not be read: %s", error)
         threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
 
     def first(self) -> str:
@@ -140,6 +154,7 @@ class Workspace:
             self._open.clear()
         for opened in open_documents:
             opened.close()
+        self.database.close()
 
     def _open_as(self, document_id: str, kept: KeptDocument) -> OpenDocument:
         document = Document(

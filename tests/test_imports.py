@@ -49,6 +49,8 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "svgpathtools": ("app.files",),
     "ezdxf": ("app.files",),
     "filelock": ("app.store",),
+    "sqlalchemy": ("app.store",),
+    "alembic": ("app.store",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

@@ -4,10 +4,12 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from typing import Protocol
 
 from fastapi import Request
 
-from app.api.messages import BaseField, PlanRequest, StartField
+from app.api.messages import BaseField, PlacementsRequest, PlanRequest, StartField
+from app.store.garment_repository import GarmentRepository
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import FoldError, GarmentError, RequestError, SceneError
@@ -27,9 +29,22 @@ def workspace_of(request: Request) -> Workspace:
     return workspace
 
 
-def asked_garment(workspace: Workspace, garment: str | Garment) -> Garment:
+class HasGarments(Protocol):
+    """Something in which garments can be looked up by name."""
+
+    @property
+    def garments(self) -> GarmentRepository:
+        """The garments."""
+
+
+def client_of(request: Request) -> str:
+    """Return who asks: the address of the client."""
+    return "" if request.client is None else request.client.host
+
+
+def asked_garment(within: HasGarments, garment: str | Garment) -> Garment:
     """Return the garment of a request's field `garment`, by name or in full; raises `UnknownGarmentError`."""
-    return workspace.garments.garment(garment) if isinstance(garment, str) else garment
+    return within.garments.garment(garment) if isinstance(garment, str) else garment
 
 
 class TimeLimit:
@@ -46,10 +61,10 @@ class TimeLimit:
         return max(SHORTEST_S, self.limit_s - (time.monotonic() - self._arrived_s))
 
 
-def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> Task:
+def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Task:
     """Return the task of a plan request, for a search that begins now; raises an error for the first wrong field."""
     task = Task.of(
-        asked_garment(workspace, wanted.garment),
+        asked_garment(within, wanted.garment),
         wanted.scene,
         placement=wanted.placement,
         start_station=wanted.start_station,
@@ -61,6 +76,12 @@ def asked_task(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit) -> T
         max_expanded=wanted.max_expanded,
     )
     return task if wanted.start is None else replace(task, start=_asked_start(task, wanted.start))
+
+
+def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimit) -> Task:
+    """Return the task whose garment a request wants to have planned wherever it can lie."""
+    garment = asked_garment(within, wanted.garment)
+    return Task.of(garment, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
 
 
 def _asked_start(task: Task, wanted: StartField) -> WorldState:

@@ -11,6 +11,7 @@ from app.api import (
     document_routes,
     file_routes,
     garment_routes,
+    job_routes,
     live,
     overlay_routes,
     page_routes,
@@ -28,13 +29,14 @@ from app.api.live_answers import LiveCommand, LiveMessage
 from app.api.methods import HeadAsGet
 from app.api.prefix import BelowPrefix
 from app.api.problems import Problem, install_problems
+from app.job_kinds.kinds import KINDS
 from app.settings import Settings
 from app.workspace import Workspace
 
 
 def create_app(settings: Settings) -> FastAPI:
     """Return the server for these settings; documents are opened when it starts to serve."""
-    workspace = Workspace(settings)
+    workspace = Workspace(settings, KINDS)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -59,6 +61,7 @@ def create_app(settings: Settings) -> FastAPI:
         robot_routes,
         plan_routes,
         suggestion_routes,
+        job_routes,
         template_routes,
         document_routes,
         file_routes,

@@ -27,7 +27,7 @@ class DescribedRoute(APIRoute):
         """Add the body's schema and its example to the description."""
         super().__init__(*args, **options)
         for body in _bodies(self.dependant):
-            self.openapi_extra = _taking(body)
+            self.openapi_extra = taking(body)
 
 
 def _bodies(dependant: Dependant) -> Iterator[JsonBody[Any]]:
@@ -38,7 +38,8 @@ def _bodies(dependant: Dependant) -> Iterator[JsonBody[Any]]:
         yield from _bodies(dependency)
 
 
-def _taking(body: JsonBody[Any]) -> dict[str, Any]:
+def taking(body: JsonBody[Any]) -> dict[str, Any]:
+    """Return the description of a request with this body."""
     content = {"application/json": {"schema": whole_schema(body.schema()), "example": body.example}}
     return {"requestBody": {"required": not body.may_be_empty, "content": content}}
 

@@ -8,7 +8,6 @@ its plan changes, a ``playback`` message whenever the clock is set, and ten time
 import asyncio
 import contextlib
 import json
-from collections.abc import Callable
 
 from fastapi import APIRouter, WebSocket
 from fastapi.concurrency import run_in_threadpool
@@ -17,6 +16,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.api.body import parsed
 from app.api.commands import command_of, obey
 from app.api.live_messages import document_message, plan_message, playback_message, problem_message
+from app.api.waiting import waking
 from app.document_state import DocumentState
 from app.open_document import OpenDocument
 from app.workspace import Workspace
@@ -40,7 +40,7 @@ async def live(websocket: WebSocket, document_id: str) -> None:
         return
     await websocket.accept()
     is_removed = asyncio.Event()
-    with opened.in_use(_waking(is_removed)):
+    with opened.in_use(waking(is_removed)):
         ways = [
             asyncio.create_task(_tell(websocket, opened)),
             asyncio.create_task(_listen(websocket, workspace, opened)),
@@ -56,7 +56,7 @@ async def live(websocket: WebSocket, document_id: str) -> None:
 
 async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
     changed = asyncio.Event()
-    unsubscribe = opened.document.subscribe(_waking(changed))
+    unsubscribe = opened.document.subscribe(waking(changed))
     telling = _Telling(opened)
     try:
         while True:
@@ -116,14 +116,3 @@ async def _close(websocket: WebSocket, is_removed: asyncio.Event) -> None:
     await is_removed.wait()
     with contextlib.suppress(RuntimeError, WebSocketDisconnect):
         await websocket.close(NOT_FOUND)
-
-
-def _waking(event: asyncio.Event) -> Callable[[], None]:
-    """Return a function that sets an event of this loop from any thread."""
-    loop = asyncio.get_running_loop()
-
-    def wake() -> None:
-        with contextlib.suppress(RuntimeError):  # the loop has ended: nobody waits for the event
-            loop.call_soon_threadsafe(event.set)
-
-    return wake

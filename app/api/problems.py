@@ -18,8 +18,11 @@ from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.jobs.apart import PlannerNotLoadedError, StoppedError
 from app.jobs.job_pool import BusyError
+from app.jobs.limits import TooManyError
+from app.store.database import NewerDatabaseError
 from app.store.document_files import NewerDocumentError, UnknownDocumentError
 from app.store.document_reader import BrokenDocumentError
+from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
 from planner.errors import (
@@ -46,8 +49,10 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownPlanError: 404,
     UnknownDocumentError: 404,
     EndedDocumentError: 404,
+    UnknownJobError: 404,
     BrokenDocumentError: 422,
     NewerDocumentError: 409,
+    NewerDatabaseError: 409,
     ForbiddenStorageError: 403,
     FullStorageError: 507,
     StorageError: 500,
@@ -116,6 +121,7 @@ def install_problems(app: FastAPI) -> None:
         ClientDisconnect: _unread_problem,
         ClientGoneError: _unread_problem,
         BusyError: _busy_problem,
+        TooManyError: _too_many_problem,
         FoldingError: _folding_problem,
         OSError: _system_problem,
     }
@@ -153,6 +159,10 @@ async def _folding_problem(_: Request, error: FoldingError) -> Response:
 
 async def _busy_problem(_: Request, error: BusyError) -> Response:
     return ProblemResponse(503, str(error), headers={"retry-after": str(error.retry_after_s)})
+
+
+async def _too_many_problem(_: Request, error: TooManyError) -> Response:
+    return ProblemResponse(429, str(error), headers={"retry-after": str(error.retry_after_s)})
 
 
 async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) -> Response:

@@ -16,7 +16,7 @@ from starlette.responses import JSONResponse
 
 from app import searches
 from app.api.answers import Change, Says
-from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
+from app.api.asked import TimeLimit, asked_places, asked_task, within_request, workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
 from app.api.messages import PlacementsRequest, PlanRequest
@@ -27,7 +27,6 @@ from app.store.plan_store import UnknownPlanError
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
-from planner.task.task import Task
 
 router = APIRouter(prefix="/api", tags=["suggestions"], route_class=DescribedRoute)
 
@@ -212,9 +211,7 @@ async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JS
 def _placements(
     workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
 ) -> dict[str, Any]:
-    task = Task.of(
-        asked_garment(workspace, wanted.garment), time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s
-    )
+    task = asked_places(workspace, wanted, limit)
     with within_request():
         found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
     return found.to_dict()

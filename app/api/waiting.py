@@ -1,6 +1,7 @@
 """Waiting for work in other processes, as long as a client waits for the answer."""
 
 import asyncio
+import contextlib
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, ParamSpec, TypeVar
@@ -82,3 +83,14 @@ async def _disconnect(request: Request) -> None:
         message = await request.receive()
         if message["type"] == "http.disconnect":
             return
+
+
+def waking(event: asyncio.Event) -> Callable[[], None]:
+    """Return a function that sets an event of this loop from any thread."""
+    loop = asyncio.get_running_loop()
+
+    def wake() -> None:
+        with contextlib.suppress(RuntimeError):  # the loop has ended: nobody waits for the event
+            loop.call_soon_threadsafe(event.set)
+
+    return wake

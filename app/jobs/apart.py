@@ -137,6 +137,8 @@ def run_apart(
             while not ours.poll(_LOOK_EVERY_S):
                 if should_stop():
                     raise StoppedError
+                if not process.is_alive() and not ours.poll():  # its children may still hold the pipe open
+                    raise EOFError
             kind, value = ours.recv()
             if kind == _ANSWER:
                 answer: Answer = value
@@ -148,7 +150,7 @@ def run_apart(
         process.join()
         raise LostProcessError(f"exit code {process.exitcode}") from None
     finally:
-        process.kill()
+        _kill(process)
         process.join()
         process.close()
         ours.close()
@@ -180,7 +182,12 @@ def _start(process: ForkServerProcess) -> None:
 def _work(
     connection: Connection, work: Callable[..., Any], arguments: tuple[Any, ...], options: dict[str, Any]
 ) -> None:
-    """Do the work and send its result; runs in the child process."""
+    """Do the work and send its result; runs in the child process, which leads a group of its own.
+
+    Processes that the work starts belong to the group, and so end with it.
+    """
+    os.setpgid(0, 0)
+    multiprocessing.current_process().daemon = False  # only processes that are no daemons may start others
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(BrokenPipeError):
         try:
@@ -192,9 +199,17 @@ def _work(
             connection.send((_ERROR, error))
 
 
+def _kill(process: ForkServerProcess) -> None:
+    """Kill a process, and those that its work has started."""
+    process.kill()
+    if process.pid is not None:
+        with contextlib.suppress(ProcessLookupError, PermissionError):  # it has ended, or never led a group
+            os.killpg(process.pid, signal.SIGKILL)
+
+
 def _end_with_parent() -> None:
-    """End this process as soon as the server has ended."""
+    """End this process and its group as soon as the server has ended."""
     parent = multiprocessing.parent_process()
     assert parent is not None
     multiprocessing.connection.wait([parent.sentinel])
-    os._exit(1)
+    os.killpg(0, signal.SIGKILL)

@@ -109,8 +109,7 @@ class JobPool:
             if self._is_closed:
                 job.stop()
                 return job
-            if self._waiting_max is not None and self._waiting() >= self._waiting_max:
-                raise self._busy()
+            self._require_room()
             self._open.add(job)
             if len(self._threads) < self._workers:
                 thread = threading.Thread(target=self._run, name="job", daemon=True)
@@ -119,6 +118,11 @@ class JobPool:
         job.future.add_done_callback(lambda _: self._forget(job))
         self._jobs.put(job)
         return job
+
+    def require_room(self) -> None:
+        """Raise `BusyError` if the queue is full."""
+        with self._lock:
+            self._require_room()
 
     def busy(self) -> BusyError:
         """Return the error for a job that must not wait any longer."""
@@ -146,6 +150,10 @@ class JobPool:
         deadline = time.monotonic() + patience_s
         for thread in threads:
             thread.join(max(0.0, deadline - time.monotonic()))
+
+    def _require_room(self) -> None:
+        if self._waiting_max is not None and self._waiting() >= self._waiting_max:
+            raise self._busy()
 
     def _waiting(self) -> int:
         """Return the number of jobs that no thread has started, without the stopped ones."""

@@ -3,11 +3,13 @@
 - ``quick`` is for work of some hundredths of a second. All other lanes give way to it.
 - ``files`` is for work of up to some seconds: reading files, making them, sampling timelines.
 - ``searches`` is for plans, suggestions and maps, in processes of their own.
+- ``jobs`` is for work of any length that nobody waits for, in processes of their own; a core is left to the others.
 - ``live`` plans the open documents, in threads: it keeps its results from plan to plan.
 
 Each lane has its own workers and its own queue, which is limited where clients can add work.
 """
 
+import os
 import time
 
 from app.jobs.courtesy import Courtesy
@@ -16,6 +18,7 @@ from app.jobs.job_pool import PATIENCE_S, JobPool
 QUICK_WAITING_MAX = 64
 FILES_WAITING_MAX = 16
 SEARCHES_WAITING_MAX = 32
+JOBS_WAITING_MAX = 64
 
 
 class Lanes:
@@ -31,9 +34,10 @@ class Lanes:
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
         self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
         self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
+        self.jobs = JobPool(workers=max(1, (os.cpu_count() or 1) - 1), waiting_max=JOBS_WAITING_MAX)
         self.live = JobPool(courtesy=self.courtesy)
 
-        self._pools = (self.quick, self.files, self.searches, self.live)
+        self._pools = (self.quick, self.files, self.searches, self.jobs, self.live)
 
     def stop(self) -> None:
         """Stop all work."""

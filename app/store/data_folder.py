@@ -80,6 +80,7 @@ class DataFolder:
         path: the folder.
         garments: the folder of garments.
         documents: the folder of documents.
+        database: the file of the database.
     """
 
     def __init__(self, path: Path) -> None:
@@ -87,6 +88,7 @@ class DataFolder:
         self.path = path
         self.garments = path / "garments"
         self.documents = path / "documents"
+        self.database = path / "pleat.db"
         self._holder = path / "server.json"
 
     @contextmanager

@@ -68,7 +68,13 @@ class PlacementMap:
         }
 
 
-def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], bool] | None = None) -> PlacementMap:
+def placement_map(
+    task: Task,
+    *,
+    step_m: float = 0.1,
+    should_stop: Callable[[], bool] | None = None,
+    on_place: Callable[[int, int], None] | None = None,
+) -> PlacementMap:
     """Plan a garment at every place of a grid; work left over is given to places that need more.
 
     Args:
@@ -76,6 +82,7 @@ def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], 
             work are the budget of the whole map, its limit in states that of each plan.
         step_m: the distance of neighbours (m, 0.02..1).
         should_stop: polled while planning; the map ends with what is known when it returns true.
+        on_place: called after each try with the number of places known, and the number of all.
 
     Raises:
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
@@ -88,7 +95,7 @@ def placement_map(task: Task, *, step_m: float = 0.1, should_stop: Callable[[], 
     here = task.start.placement
     moves = Room.of(task.garment, here, task.scene.table).moves(step_m)
     poses = [here.moved(i * step_m, j * step_m) for i, j in sorted(moves, key=_coarse_first)]
-    cells = _planned(task, poses, budget)
+    cells = _planned(task, poses, budget, on_place or _ignore)
     cells.sort(key=lambda cell: (cell.placement.x_m, cell.placement.y_m))
     return PlacementMap(step_m, tuple(cells), len(cells) == len(poses))
 
@@ -99,7 +106,11 @@ def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
     return (i % 2 + j % 2, i, j)
 
 
-def _planned(task: Task, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
+def _ignore(_: int, __: int) -> None:
+    """Ignore how far the map is."""
+
+
+def _planned(task: Task, poses: list[Pose2], budget: TrialBudget, on_place: Callable[[int, int], None]) -> list[Cell]:
     """Return the cells known when the work is done; places that need more than a first try wait for the others."""
     waiting = deque((pose, _FIRST_TRY_S) for pose in poses)
     cells = []
@@ -110,4 +121,5 @@ def _planned(task: Task, poses: list[Pose2], budget: TrialBudget) -> list[Cell]:
             cells.append(Cell(pose, plan.cost_s))
         else:
             waiting.append((pose, _MORE * try_s))
+        on_place(len(cells), len(poses))
     return cells

@@ -1,0 +1,118 @@
+"""Routes of jobs: asking for one of each kind, looking how far it is, following it, cancelling it."""
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Header, Query, Request
+from fastapi.concurrency import run_in_threadpool
+from fastapi.sse import EventSourceResponse, ServerSentEvent
+from starlette.responses import JSONResponse
+
+from app.api.asked import client_of, within_request, workspace_of
+from app.api.body import JsonBody, read_object
+from app.api.described import problems, taking
+from app.api.job_answers import JobAnswer, JobsAnswer, job_entry
+from app.api.waiting import waking
+from app.job_kinds.kinds import KINDS
+from app.jobs.job_desk import JobDesk
+from app.jobs.job_kind import AnyKind
+from app.store.job_repository import StoredJob
+
+router = APIRouter(tags=["jobs"])
+
+LISTED_MAX = 100
+_QUIET_S = 0.1
+"""Least time between two events of a job (s)."""
+
+LastEventId = Annotated[str | None, Header(alias="last-event-id")]
+
+
+def _starting(kind: AnyKind) -> Callable[[Request], Awaitable[JSONResponse]]:
+    async def start(request: Request) -> JSONResponse:
+        data = await read_object(request, most=kind.largest_body)
+        job = await run_in_threadpool(_submitted, workspace_of(request).jobs, kind, data, client_of(request))
+        location = f"{request.scope.get('root_path', '')}/api/jobs/{job.id}"
+        return JSONResponse({**job_entry(job), "result": None}, 202, headers={"location": location})
+
+    return start
+
+
+for _kind in KINDS.values():
+    router.add_api_route(
+        _kind.route,
+        _starting(_kind),
+        methods=["POST"],
+        name=f"start_{_kind.name}",
+        description=f"{_kind.does} Answers at once; `Location` is the job's path.",
+        status_code=202,
+        responses={202: {"model": JobAnswer}, **problems(404, 413, 422, 429, 503)},
+        openapi_extra=taking(JsonBody(_kind.body, _kind.example)),
+    )
+
+
+def _submitted(jobs: JobDesk, kind: AnyKind, data: dict[str, Any], client: str) -> StoredJob:
+    with within_request():
+        return jobs.submit(kind, data, client)
+
+
+@router.get("/api/jobs", responses={200: {"model": JobsAnswer}, **problems(404, 422)})
+async def list_jobs(
+    request: Request, limit: Annotated[int, Query(ge=1, le=LISTED_MAX)] = 20, before: str | None = None
+) -> JSONResponse:
+    """Return the newest jobs, or the newest of those older than the job `before`."""
+    found = await run_in_threadpool(workspace_of(request).jobs.newest, limit, before)
+    return JSONResponse(
+        {"jobs": [job_entry(job) for job in found], "before": found[-1].id if len(found) == limit else None}
+    )
+
+
+@router.get("/api/jobs/{job_id}", responses={200: {"model": JobAnswer}, **problems(404)})
+async def read_job(request: Request, job_id: str) -> JSONResponse:
+    """Return how far a job is, and its result once it is done."""
+    return JSONResponse(await run_in_threadpool(_answer, workspace_of(request).jobs, job_id))
+
+
+@router.post("/api/jobs/{job_id}/cancel", responses={200: {"model": JobAnswer}, **problems(404)})
+async def cancel_job(request: Request, job_id: str) -> JSONResponse:
+    """Cancel a job unless it has ended, and return it; its process is killed."""
+    jobs = workspace_of(request).jobs
+    await run_in_threadpool(jobs.cancel, job_id)
+    return JSONResponse(await run_in_threadpool(_answer, jobs, job_id))
+
+
+async def _known(request: Request, job_id: str) -> StoredJob:
+    """Return the job; an unknown one is a problem before the stream begins."""
+    return await run_in_threadpool(workspace_of(request).jobs.job, job_id)
+
+
+@router.get("/api/jobs/{job_id}/events", response_class=EventSourceResponse, responses=problems(404))
+async def follow_job(
+    request: Request, job: Annotated[StoredJob, Depends(_known)], last_event_id: LastEventId = None
+) -> AsyncIterator[ServerSentEvent]:
+    """Send a job as an event `progress` whenever it changes, and as an event `end`, with its result, when it ends.
+
+    A client that comes back with `Last-Event-ID` is sent what has changed since. Comments keep the connection open.
+    """
+    jobs, changed, sent = workspace_of(request).jobs, asyncio.Event(), last_event_id
+    unsubscribe = jobs.subscribe(job.id, waking(changed))
+    try:
+        while True:
+            changed.clear()
+            now = await run_in_threadpool(jobs.job, job.id)
+            if not now.is_open:
+                answer = await run_in_threadpool(_answer, jobs, job.id)
+                yield ServerSentEvent(event="end", id=str(now.revision), data=answer)
+                return
+            if sent != str(now.revision):
+                sent = str(now.revision)
+                yield ServerSentEvent(event="progress", id=sent, data=job_entry(now))
+                await asyncio.sleep(_QUIET_S)
+            await changed.wait()
+    finally:
+        unsubscribe()
+
+
+def _answer(jobs: JobDesk, job_id: str) -> dict[str, Any]:
+    job = jobs.job(job_id)
+    return {**job_entry(job), "result": None if job.is_open else jobs.result(job_id)}

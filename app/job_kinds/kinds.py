@@ -1,0 +1,14 @@
+"""The kinds of jobs; a new one is a file beside this one and a line here."""
+
+from collections.abc import Mapping
+
+from app.job_kinds.placements import PLACEMENTS
+from app.job_kinds.suggestions import SUGGESTIONS
+from app.jobs.job_kind import AnyKind
+
+_ALL: tuple[AnyKind, ...] = (
+    PLACEMENTS,
+    SUGGESTIONS,
+)
+
+KINDS: Mapping[str, AnyKind] = {kind.name: kind for kind in _ALL}

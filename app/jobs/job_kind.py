@@ -1,0 +1,86 @@
+"""A kind of job: what is asked, how it is checked, done and answered.
+
+A request passes through three functions. `prepare` runs in the server: it turns the body into the argument of the work,
+looking up garments and plans by name, and raises for a bad request before there is a job. `work` runs in a process of
+its own, which a cancel kills at any point together with the processes it has started. `finish` runs in the server again
+and returns the result as JSON.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from app.store.garment_repository import GarmentRepository
+from app.store.plan_store import PlanStore
+from planner.json_form import JsonForm
+
+Body = TypeVar("Body")
+Asked = TypeVar("Asked")
+Answer = TypeVar("Answer")
+
+Progress: TypeAlias = Callable[[float, str], None]
+"""Tells the share of a job that is done (0..1), and what is being done."""
+
+LARGEST_BODY = 1 << 20
+"""Largest body of a request by default (bytes)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stores:
+    """What the functions of a kind may look up, and where they may put plans.
+
+    Attributes:
+        garments: the garments.
+        plans: the plans made so far.
+    """
+
+    garments: GarmentRepository
+    plans: PlanStore
+
+
+@dataclass(frozen=True)
+class JobKind(Generic[Body, Asked, Answer]):
+    """A kind of job.
+
+    Attributes:
+        name: its name in REST.
+        does: what it does, as a sentence for the description of its route.
+        body: the type of the request's body: a `StrictModel`, or a dataclass with `STRICT` as its config.
+        example: a body that is answered.
+        prepare: returns the argument of `work`; it must be picklable. Raises a `FoldingError` for a bad request.
+        work: a module-level function, in a module that is cheap to import. Its result must be picklable.
+        finish: returns the result as JSON.
+        path: the path of the route that starts such jobs; by default `/api/jobs/{name}`.
+        largest_body: the largest body (bytes).
+        may_begin_anew: whether a job that the server's end interrupted is done again at the next start.
+    """
+
+    name: str
+    does: str
+    body: type[Body]
+    example: dict[str, Any]
+    prepare: Callable[[Stores, Body], Asked]
+    work: Callable[[Asked, Progress], Answer]
+    finish: Callable[[Stores, Answer], Any]
+    path: str | None = None
+    largest_body: int = LARGEST_BODY
+    may_begin_anew: bool = False
+
+    @cached_property
+    def form(self) -> JsonForm[Body]:
+        """Reads the body from JSON."""
+        return JsonForm(self.body)
+
+    @property
+    def route(self) -> str:
+        """The path of the route that starts such jobs."""
+        return self.path or f"/api/jobs/{self.name}"
+
+
+AnyKind: TypeAlias = JobKind[Any, Any, Any]
+
+
+def as_it_is(_: Stores, answer: Answer) -> Answer:
+    """Return what the work has returned, which is JSON already: a `finish`."""
+    return answer

@@ -1,0 +1,146 @@
+"""Jobs in the database: what was asked, how far each is, its result."""
+
+import json
+import time
+import uuid
+from dataclasses import dataclass, fields
+from typing import Any, Literal, TypeAlias
+
+from sqlalchemy import delete, func, select, update
+
+from app.store.database import Database
+from app.store.schema import JobRow
+from planner.errors import FoldingError
+
+JobStatus: TypeAlias = Literal["queued", "running", "done", "failed", "cancelled"]
+
+OPEN: tuple[JobStatus, ...] = ("queued", "running")
+
+KEPT_MAX = 1000
+"""Number of jobs kept; beyond it the oldest ended ones are dropped."""
+
+
+@dataclass
+class UnknownJobError(FoldingError):
+    """No job has this id, or it has been dropped."""
+
+    job_id: str
+
+    def __str__(self) -> str:
+        return f"there is no job with the id {self.job_id[:80]!r}"
+
+
+@dataclass(frozen=True, slots=True)
+class StoredJob:
+    """A job without its body and its result.
+
+    Attributes:
+        id: its id.
+        kind: the name of its kind.
+        client: who asked for it.
+        status: whether it waits, runs, or how it ended.
+        progress: the share that is done, 0..1.
+        message: what is being done, or why it failed.
+        created_s: when it was asked for (s since the epoch).
+        started_s: when it began; None if it has not.
+        ended_s: when it ended; None if it has not.
+        begun: how often it was begun.
+        revision: grows with each change.
+    """
+
+    id: str
+    kind: str
+    client: str
+    status: JobStatus
+    progress: float
+    message: str
+    created_s: float
+    started_s: float | None
+    ended_s: float | None
+    begun: int
+    revision: int
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it has not ended."""
+        return self.status in OPEN
+
+
+_COLUMNS = [getattr(JobRow, field.name) for field in fields(StoredJob)]
+
+
+class JobRepository:
+    """The jobs of a database; safe to use from any thread."""
+
+    def __init__(self, database: Database) -> None:
+        """Use a database; read nothing yet."""
+        self._database = database
+
+    def add(self, kind: str, client: str, body: object) -> StoredJob:
+        """Return a new job, queued; drop the oldest ended ones beyond `KEPT_MAX`."""
+        job = StoredJob(uuid.uuid4().hex, kind, client, "queued", 0.0, "", time.time(), None, None, 0, 0)
+        with self._database.session("the job could not be saved") as session:
+            session.add(JobRow(**_values(job), body=json.dumps(body), result=None))
+            oldest_kept = select(JobRow.number).order_by(JobRow.number.desc()).offset(KEPT_MAX).limit(1)
+            number = session.scalar(oldest_kept)
+            if number is not None:
+                session.execute(delete(JobRow).where(JobRow.number <= number, JobRow.status.not_in(OPEN)))
+        return job
+
+    def keep(self, job: StoredJob) -> None:
+        """Save how far a job is."""
+        self._update(job, {})
+
+    def keep_result(self, job: StoredJob, result: object) -> None:
+        """Save the end of a job together with its result."""
+        self._update(job, {"result": json.dumps(result, allow_nan=False)})
+
+    def job(self, job_id: str) -> StoredJob:
+        """Return a job; raise `UnknownJobError` if there is none."""
+        with self._database.session("the job could not be read") as session:
+            row = session.execute(select(*_COLUMNS).where(JobRow.id == job_id)).one_or_none()
+        if row is None:
+            raise UnknownJobError(job_id)
+        return StoredJob(*row)
+
+    def body(self, job_id: str) -> Any:  # noqa: ANN401
+        """Return the body that a job was asked with."""
+        with self._database.session("the job could not be read") as session:
+            return json.loads(session.scalars(select(JobRow.body).where(JobRow.id == job_id)).one())
+
+    def result(self, job_id: str) -> Any:  # noqa: ANN401
+        """Return a job's result; None if it has none."""
+        with self._database.session("the job could not be read") as session:
+            text = session.scalar(select(JobRow.result).where(JobRow.id == job_id))
+        return None if text is None else json.loads(text)
+
+    def newest(self, most: int, before: str | None = None) -> list[StoredJob]:
+        """Return the newest jobs, or the newest of those older than the job `before`."""
+        wanted = select(*_COLUMNS).order_by(JobRow.number.desc()).limit(most)
+        with self._database.session("the jobs could not be read") as session:
+            if before is not None:
+                number = session.scalar(select(JobRow.number).where(JobRow.id == before))
+                if number is None:
+                    raise UnknownJobError(before)
+                wanted = wanted.where(JobRow.number < number)
+            return [StoredJob(*row) for row in session.execute(wanted)]
+
+    def open(self) -> list[StoredJob]:
+        """Return the jobs that have not ended, oldest first."""
+        wanted = select(*_COLUMNS).where(JobRow.status.in_(OPEN)).order_by(JobRow.number)
+        with self._database.session("the jobs could not be read") as session:
+            return [StoredJob(*row) for row in session.execute(wanted)]
+
+    def open_count(self, client: str) -> int:
+        """Return how many of a client's jobs have not ended."""
+        wanted = select(func.count()).where(JobRow.client == client, JobRow.status.in_(OPEN))
+        with self._database.session("the jobs could not be read") as session:
+            return session.scalar(wanted) or 0
+
+    def _update(self, job: StoredJob, more: dict[str, Any]) -> None:
+        with self._database.session("the job could not be saved") as session:
+            session.execute(update(JobRow).where(JobRow.id == job.id).values(**_values(job), **more))
+
+
+def _values(job: StoredJob) -> dict[str, Any]:
+    return {field.name: getattr(job, field.name) for field in fields(job)}

@@ -1,0 +1,108 @@
+"""Kinds of jobs for tests, and a desk that does them."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from app.jobs.job_desk import JobDesk
+from app.jobs.job_kind import AnyKind, JobKind, Progress, Stores, as_it_is
+from app.jobs.job_pool import JobPool
+from app.store.database import Database
+from app.store.garment_repository import GarmentRepository
+from app.store.job_repository import JobRepository, StoredJob
+from app.store.plan_store import PlanStore
+from planner.errors import RequestError
+from planner.strict_model import StrictModel
+
+FOR_EVER_S = 600
+
+
+class Number(StrictModel):
+    """The body of the kinds here."""
+
+    number: int
+
+
+def _number(_: Stores, body: Number) -> int:
+    if body.number < 0:
+        raise RequestError("number", "is below zero")
+    return body.number
+
+
+def halve(number: int, progress: Progress) -> float:
+    progress(0.5, f"halving {number}")
+    return number / 2
+
+
+def fail(number: int, _: Progress) -> None:
+    raise RequestError("number", f"{number} does not please")
+
+
+def crash(_: int, __: Progress) -> None:
+    os._exit(7)
+
+
+def wait_with_a_child(_: int, progress: Progress) -> None:
+    """Start a process, tell its id, and wait for it for ever."""
+    child = subprocess.Popen([sys.executable, "-c", f"import time; time.sleep({FOR_EVER_S})"])
+    progress(0.25, str(child.pid))
+    child.wait()
+
+
+def not_json(_: int, __: Progress) -> float:
+    return float("nan")
+
+
+def kind(name: str, work: object, *, may_begin_anew: bool = False) -> AnyKind:
+    return JobKind(name, "", Number, {"number": 1}, _number, work, as_it_is, may_begin_anew=may_begin_anew)  # type: ignore[arg-type]
+
+
+KINDS: Mapping[str, AnyKind] = {
+    one.name: one
+    for one in (
+        kind("halve", halve, may_begin_anew=True),
+        kind("fail", fail),
+        kind("crash", crash),
+        kind("wait", wait_with_a_child),
+        kind("not-json", not_json),
+    )
+}
+
+
+@contextmanager
+def desk(folder: Path, *, workers: int = 2, waiting_max: int | None = None) -> Iterator[JobDesk]:
+    """Open a desk on the database of a folder, as a server does; at the end it stops as a server does."""
+    pool, database = JobPool(workers, waiting_max), Database(folder / "pleat.db")
+    stores = Stores(GarmentRepository(folder / "garments"), PlanStore())
+    try:
+        yield JobDesk(KINDS, stores, JobRepository(database), pool)
+    finally:
+        pool.close()
+        database.close()
+
+
+def submitted(jobs: JobDesk, name: str, number: int = 1, client: str = "me") -> StoredJob:
+    return jobs.submit(KINDS[name], {"number": number}, client)
+
+
+def ended(jobs: JobDesk, job: StoredJob) -> StoredJob:
+    """Wait for the end of a job and return it."""
+    return _until(jobs, job, lambda now: not now.is_open)
+
+
+def told(jobs: JobDesk, job: StoredJob) -> StoredJob:
+    """Wait until a job has told its progress and return it."""
+    return _until(jobs, job, lambda now: now.message != "")
+
+
+def _until(jobs: JobDesk, job: StoredJob, holds: object) -> StoredJob:
+    assert callable(holds)
+    until_s = time.monotonic() + 60.0
+    while not holds(now := jobs.job(job.id)):
+        assert time.monotonic() < until_s, now
+        time.sleep(0.01)
+    return now

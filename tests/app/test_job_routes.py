@@ -1,0 +1,122 @@
+import asyncio
+import time
+from typing import Any
+
+import httpx
+import pytest
+
+from app.api.job_answers import JobAnswer, JobsAnswer
+from tests.app.conftest import Served
+from tests.app.test_described_answers import assert_described
+from tests.app.test_suggestion_routes import STUCK, events_in
+
+pytestmark = pytest.mark.anyio
+
+MAP = {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 20.0}
+LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
+
+
+async def ended(client: httpx.AsyncClient, path: str) -> dict[str, Any]:
+    until_s = time.monotonic() + 60.0
+    while time.monotonic() < until_s:
+        job: dict[str, Any] = (await client.get(path)).json()
+        if job["status"] not in ("queued", "running"):
+            return job
+        await asyncio.sleep(0.05)
+    raise AssertionError(job)
+
+
+async def test_a_map_as_a_job_is_the_map_that_is_waited_for(client: httpx.AsyncClient) -> None:
+    answer = await client.post("/api/jobs/placements", json=MAP)
+    assert answer.status_code == 202
+    assert_described(answer.json(), JobAnswer)
+    assert answer.headers["location"] == f"/api/jobs/{answer.json()['id']}"
+    job = await ended(client, answer.headers["location"])
+    assert_described(job, JobAnswer)
+    assert (job["kind"], job["status"], job["progress"]) == ("placements", "done", 1.0)
+    assert job["result"] == (await client.post("/api/placements", json=MAP)).json()
+    listed = (await client.get("/api/jobs")).json()
+    assert_described(listed, JobsAnswer)
+    assert [one["id"] for one in listed["jobs"]] == [job["id"]]
+    assert "result" not in listed["jobs"][0]
+
+
+async def test_suggestions_as_a_job_have_their_plans(client: httpx.AsyncClient) -> None:
+    answer = await client.post("/api/jobs/suggestions", json=STUCK)
+    job = await ended(client, answer.headers["location"])
+    assert job["status"] == "done", job
+    assert job["result"]["suggestions"]
+    for one in job["result"]["suggestions"]:
+        plan = (await client.get(f"/api/plans/{one['plan_id']}")).json()
+        assert (plan["status"], plan["cost_s"]) == ("solved", one["cost_s"])
+
+
+async def test_a_job_can_be_followed_to_its_end_and_again_after_it(client: httpx.AsyncClient) -> None:
+    path = (await client.post("/api/jobs/placements", json=MAP)).headers["location"]
+    followed = await client.get(f"{path}/events")
+    assert followed.headers["content-type"].startswith("text/event-stream")
+    *progress, (last, job) = events_in(followed.text)
+    assert {name for name, _ in progress} <= {"progress"}
+    assert last == "end"
+    assert job == (await client.get(path)).json()
+    again = await client.get(f"{path}/events", headers={"last-event-id": "1"})
+    assert events_in(again.text) == [("end", job)]
+
+
+async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncClient) -> None:
+    path = (await client.post("/api/jobs/placements", json=LONG)).headers["location"]
+    following = asyncio.create_task(client.get(f"{path}/events"))
+    cancelled = (await client.post(f"{path}/cancel")).json()
+    assert (cancelled["status"], cancelled["result"]) == ("cancelled", None)
+    assert events_in((await following).text)[-1] == ("end", cancelled)
+
+
+@pytest.mark.parametrize(
+    ("kind", "body", "status", "field"),
+    [
+        ("placements", {"garment": "tie", "step_m": 0}, 422, "step_m"),
+        ("placements", {"garment": "nothing"}, 404, None),
+        ("suggestions", {}, 422, "garment"),
+        ("suggestions", {"garment": "tie", "scene": {"friction": -1.0}}, 422, "scene.friction"),
+        ("nothing", {}, 405, None),
+    ],
+)
+async def test_a_bad_request_starts_no_job(
+    client: httpx.AsyncClient, kind: str, body: dict[str, Any], status: int, field: str | None
+) -> None:
+    answer = await client.post(f"/api/jobs/{kind}", json=body)
+    assert answer.status_code == status, answer.text
+    assert answer.headers["content-type"] == "application/problem+json"
+    if field is not None:
+        assert answer.json()["errors"][0]["field"] == field
+    assert (await client.get("/api/jobs")).json() == {"jobs": [], "before": None}
+
+
+@pytest.mark.parametrize(
+    ("method", "path"),
+    [
+        ("GET", "/api/jobs/nothing"),
+        ("GET", "/api/jobs/nothing/events"),
+        ("POST", "/api/jobs/nothing/cancel"),
+        ("GET", "/api/jobs?before=nothing"),
+    ],
+)
+async def test_an_unknown_job_is_not_found(client: httpx.AsyncClient, method: str, path: str) -> None:
+    answer = await client.request(method, path)
+    assert answer.status_code == 404
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_jobs_and_their_results_outlive_a_server_that_is_killed(served: Served) -> None:
+    with httpx.Client(base_url=served.url, timeout=60.0) as client:
+        done = client.post("/api/jobs/placements", json=MAP).headers["location"]
+        assert "event: end" in client.get(f"{done}/events").text
+        before = client.get(done).json()
+        interrupted = client.post("/api/jobs/placements", json=LONG).headers["location"]
+    served.stop()
+    served.start_again()
+    with httpx.Client(base_url=served.url, timeout=60.0) as client:
+        assert client.get(done).json() == before
+        again = client.get(interrupted).json()
+        assert again["status"] in ("queued", "running")
+        assert client.post(f"{interrupted}/cancel").json()["status"] == "cancelled"
