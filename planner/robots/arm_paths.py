@@ -79,12 +79,13 @@ class _PairSearch:
         self._arms = arms
         self._together = together
         self._links = arms[0].links
-        widest = max(len(arm.speeds) for arm in arms)
-        self._samples = np.stack([_widened(arm.samples, widest, 0.0) for arm in arms])
-        self._speeds = np.stack([_widened(arm.speeds, widest, 1.0) for arm in arms])
+        joints, self._size = max(len(arm.speeds) for arm in arms), max(arm.samples.shape[1] for arm in arms)
+        self._samples = np.stack([_widened(arm.samples, (len(self._links), self._size, joints), 0.0) for arm in arms])
+        self._speeds = np.stack([_widened(arm.speeds, (joints,), 1.0) for arm in arms])
+        self._periods = np.stack([_widened(arm.periods, (joints,), 0.0) for arm in arms])
         self._spans = np.stack([arm.spans for arm in arms])
-        count, size = arms[0].costs.shape
-        self._is_allowed = np.ones((count, size, size), dtype=np.bool_)
+        count = len(self._links)
+        self._is_allowed = np.ones((count, self._size, self._size), dtype=np.bool_)
         self._is_asked = np.zeros(count, dtype=bool)
         self._has_dropped = any(arm.has_dropped for arm in arms)
 
@@ -105,14 +106,15 @@ class _PairSearch:
     def _chains(self, part: slice) -> NDArray[np.int64]:
         """Return the cheapest chains through a part of the links."""
         samples = np.ascontiguousarray(self._samples[:, part])
-        costs = np.stack([arm.costs[part] for arm in self._arms])
-        spans = np.ascontiguousarray(self._spans[:, part][:, : costs.shape[1] - 1])
-        return cheapest_chain_pair(samples, costs, self._is_allowed[part], self._speeds, spans)
+        count = samples.shape[1]
+        costs = np.stack([_widened(arm.costs[part], (count, self._size), np.inf) for arm in self._arms])
+        spans = np.ascontiguousarray(self._spans[:, part][:, : count - 1])
+        return cheapest_chain_pair(samples, costs, self._is_allowed[part], self._speeds, self._periods, spans)
 
     def _followed(self, guides: list[FloatArray]) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return both arms' joints along the whole path, shape (n, joints), and the poses at which they are invalid."""
         pairs = list(zip(self._arms, guides, strict=True))
-        at_links = np.hstack([arm.joints(guide) for arm, guide in pairs])
+        at_links = np.hstack(guides)
         are_free = np.all([arm.are_free(guide) for arm, guide in pairs], axis=0)
         if not (are_free := are_free & self._are_apart(at_links)).all():
             return at_links, self._links[~are_free]
@@ -150,7 +152,7 @@ class _PairSearch:
         return bool(self._is_allowed[link].any())
 
     def _smoothed(self, guides: list[FloatArray], joints: FloatArray) -> FloatArray:
-        """Return the paths with the pans' corners rounded, or unchanged where that makes the arms collide."""
+        """Return the paths with the chains' corners rounded, or unchanged where that makes the arms collide."""
         parts = np.split(joints, [len(self._arms[0].speeds)], axis=1)
         smooth = np.hstack(
             [arm.smoothed(guide, part) for arm, guide, part in zip(self._arms, guides, parts, strict=True)]
@@ -166,7 +168,7 @@ class _PairSearch:
         return NoPath(self._links[inside[is_blocked]] - min(first), bool(is_core))
 
 
-def _widened(rows: FloatArray, width: int, fill: float) -> FloatArray:
-    """Return rows with more columns: joints that an arm does not have cost no time."""
-    more = np.full((*rows.shape[:-1], width - rows.shape[-1]), fill)
-    return np.concatenate([rows, more], axis=-1)
+def _widened(values: FloatArray, shape: tuple[int, ...], fill: float) -> FloatArray:
+    """Return values in an array of at least their shape: for samples and joints that an arm does not have."""
+    more = [(0, size - own) for size, own in zip(shape, values.shape, strict=True)]
+    return np.pad(values, more, constant_values=fill)

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from planner.errors import FieldError, RobotError, UnknownRobotError
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import ToolFile
 from planner.robots.chain import Chain
@@ -31,11 +31,13 @@ class DescribedArm:
         card: its part of the card.
         chain: its joints and its tool, seen from its root.
         root: where its root is in the base frame with the lift down (m), shape (3,).
+        is_endless: which joints turn without end, shape (n,).
     """
 
     card: ArmFile
     chain: Chain
     root: FloatArray
+    is_endless: BoolArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -169,7 +171,8 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
         carrier = model.names[frame.parentJoint]
         raise RobotError("tool.link", f"{arm.tool.link!r} is carried by {carrier!r}, not by {arm.joints[-1]!r}")
     chain, root = read_chain(model, arm.joints, frame.placement * _tool(arm.tool), dict(card.resting))
-    return DescribedArm(arm, chain, root)
+    is_endless = np.array([model.joints[model.getJointId(name)].nq > 1 for name in arm.joints])
+    return DescribedArm(arm, chain, root, is_endless)
 
 
 def _tool(tool: ToolFile) -> pin.SE3:

@@ -16,15 +16,21 @@ from planner.robots.joint_chain import link_costs
 
 @njit(cache=True, nogil=True)
 def cheapest_chain_pair(
-    joints: FloatArray, costs: FloatArray, is_allowed: BoolArray, speeds: FloatArray, spans: FloatArray
+    joints: FloatArray,
+    costs: FloatArray,
+    is_allowed: BoolArray,
+    speeds: FloatArray,
+    periods: FloatArray,
+    spans: FloatArray,
 ) -> NDArray[np.int64]:
     """Return the cheapest way through pairs of samples, one pair at each pose.
 
     Args:
-        joints: each arm's samples (rad), shape (2, n, m, 7).
+        joints: each arm's samples (rad), shape (2, n, m, k).
         costs: the samples' costs, shape (2, n, m); infinite where a sample must not be taken.
         is_allowed: which samples may be taken together, shape (n, m, m).
-        speeds: the joints' top speeds (rad/s), shape (2, 7).
+        speeds: the joints' top speeds (rad/s), shape (2, k).
+        periods: what each joint may be off without any difference, shape (2, k); see `link_costs`.
         spans: the longest duration wanted for each link (s), shape (2, n - 1); infinite where time does not matter.
 
     Returns:
@@ -36,7 +42,8 @@ def cheapest_chain_pair(
     for i in range(count):
         if i > 0:
             for arm in range(2):
-                links = _links(joints[arm, i - 1 : i + 1], costs[arm, i - 1 : i + 1], speeds[arm], spans[arm, i - 1])
+                part = slice(i - 1, i + 1)
+                links = _links(joints[arm, part], costs[arm, part], speeds[arm], periods[arm], spans[arm, i - 1])
                 totals = _linked(totals, links, parents[arm, i]).T.copy()
         for a in range(size):
             for b in range(size):
@@ -55,13 +62,13 @@ def cheapest_chain_pair(
 
 
 @njit(cache=True, nogil=True)
-def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, span: float) -> FloatArray:
+def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, span: float) -> FloatArray:
     """Return the costs of the links from an arm's samples at a pose to those at the next, shape (m, m)."""
     size = costs.shape[1]
     links, columns, found = np.full((size, size), np.inf), joints[0].T.copy(), np.empty((2, size))
     for after in range(size):
         if costs[1, after] < np.inf:
-            link_costs(columns, size, joints[1, after], speeds, span, found)
+            link_costs(columns, size, joints[1, after], speeds, periods, span, found)
             for before in range(size):
                 links[before, after] = found[0, before] if costs[0, before] < np.inf else np.inf
     return links

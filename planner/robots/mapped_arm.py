@@ -9,8 +9,10 @@ from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robots.chain import PITCH, WHOLE, Chain, length_of, tool_poses
 from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.newton import solve_from
+from planner.robots.posture_following import followed
 from planner.robots.posture_map import PostureMap, reachable_poses
 from planner.robots.posture_maps import Progress, posture_map
+from planner.robots.posture_samples import posture_samples
 
 _PITCHES_DEG = (15, 30, 45, 60, 75)
 _HEADINGS_DEG = range(0, 360, 30)
@@ -24,6 +26,9 @@ ALL_ROUND = (
 _BELOW_M, _ABOVE_M = 0.1, 0.8
 """How far below and above the table's top a tool may be asked to be (m)."""
 
+_WIDE_RAD = 2 * math.tau - 0.01
+"""A joint with this range may wind up along a chain: wherever it began, some whole turns bring it within its limits."""
+
 
 class MappedArm:
     """An arm with the map of its postures. It does not change, so all users may share one instance.
@@ -36,7 +41,10 @@ class MappedArm:
         """Take the arm and its map."""
         self._chain = arm.chain
         self._root = arm.root
+        self._is_endless = arm.is_endless
         self._known = known
+        is_wide = arm.chain.turns & (arm.chain.high - arm.chain.low >= _WIDE_RAD)
+        self.periods: FloatArray = np.where(arm.is_endless | is_wide, math.tau, 0.0)
 
     @property
     def chain(self) -> Chain:
@@ -94,6 +102,39 @@ class MappedArm:
         """Return the tool's positions, shape (n, 3), and rotations, shape (n, 3, 3), at rows of joints."""
         points, rotations = tool_poses(self._chain, np.ascontiguousarray(joints))
         return points + self.shoulder(torso_m), rotations
+
+    def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
+        """Return the tool's positions at rows of joints, shape (n, 3)."""
+        return self.tool_poses(joints, torso_m)[0]
+
+    def samples(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, floor_m: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return samples of the joints at each tool pose, shape (n, m, joints), and their costs; see `PathArm`."""
+        shoulder = self.shoulder(torso_m)
+        points, axes = np.ascontiguousarray(positions - shoulder), np.ascontiguousarray(rotations)
+        return posture_samples(self._chain, self._known, self.periods, points, axes, floor_m - float(shoulder[2]))
+
+    def along(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
+    ) -> tuple[FloatArray, BoolArray]:
+        """Return joints near to guides at each tool pose, shape (n, joints), and if there are any; see `PathArm`."""
+        points, axes = np.ascontiguousarray(positions - self.shoulder(torso_m)), np.ascontiguousarray(rotations)
+        return followed(self._chain, self._is_endless, points, axes, np.ascontiguousarray(guides))
+
+    def unwound(self, chain: FloatArray) -> FloatArray:
+        """Return a chain of samples, shape (n, joints), with the joints that have periods wound up.
+
+        Those that have limits come as near to the middle of their range as whole turns bring them: a chain that winds
+        up farther than the range leaves it.
+        """
+        joints = chain.copy()
+        for k in np.flatnonzero(self.periods):
+            joints[:, k] = np.unwrap(joints[:, k])
+            if not self._is_endless[k]:
+                off = joints[:, k].min() + joints[:, k].max() - self._chain.low[k] - self._chain.high[k]
+                joints[:, k] -= math.tau * np.round(0.5 * off / math.tau)
+        return joints
 
     def shoulder(self, torso_m: float) -> FloatArray:
         """Return where its root is in the base frame with the lift raised (m), shape (3,)."""

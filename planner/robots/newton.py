@@ -48,7 +48,7 @@ def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tup
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, scratch: Scratch) -> float:
+def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, scratch: Scratch) -> float:
     """Set the errors and the Jacobian of a pose; return the error's length (m)."""
     errors, jacobian, frame, scale = scratch.errors, scratch.rows, scratch.frame, chain.scale
     joints = len(chain.low)
@@ -59,7 +59,7 @@ def _set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, 
         lacking, tx, ty = _pitch_row(point, rotation, scratch)
         errors[3] = scale * lacking
     else:
-        ex, ey, ez = 0.0, 0.0, 0.0
+        ex, ey, ez, along = 0.0, 0.0, 0.0, -0.5
         for axis in range(1 if rows == AXIS else 3):
             ax, ay, az = frame[0, axis], frame[1, axis], frame[2, axis]
             wx, wy, wz = rotation[0, axis], rotation[1, axis], rotation[2, axis]
@@ -72,11 +72,18 @@ def _set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, 
                     cx, cy, cz = math.pi * frame[0, 1], math.pi * frame[1, 1], math.pi * frame[2, 1]
             else:
                 share = 0.5
+                along += 0.5 * (ax * wx + ay * wy + az * wz)
             ex, ey, ez = ex + share * cx, ey + share * cy, ez + share * cz
         if rows == AXIS:
             errors[3] = scale * (ex * frame[0, 1] + ey * frame[1, 1] + ez * frame[2, 1])
             errors[4] = scale * (ex * frame[0, 2] + ey * frame[1, 2] + ez * frame[2, 2])
         else:
+            if along < 0.0:  # more than a quarter turn is left: the cross products are small again near half a turn
+                sine = math.sqrt(ex * ex + ey * ey + ez * ez)
+                share = math.atan2(sine, along) / sine if sine > 1e-9 else 0.0
+                ex, ey, ez = share * ex, share * ey, share * ez
+                if sine <= 1e-9:
+                    ex, ey, ez = math.pi * frame[0, 0], math.pi * frame[1, 0], math.pi * frame[2, 0]
             errors[3], errors[4], errors[5] = scale * ex, scale * ey, scale * ez
     for i in range(joints):
         wx, wy, wz = scratch.axes[i, 0], scratch.axes[i, 1], scratch.axes[i, 2]
@@ -103,7 +110,7 @@ def _set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, 
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _set_step(rows: int, damping: float, scratch: Scratch) -> None:
+def set_step(rows: int, damping: float, scratch: Scratch) -> None:
     """Set the damped least-squares step of the joints that are not held."""
     jacobian, normal, errors, step = scratch.rows, scratch.normal, scratch.errors, scratch.step
     solution = scratch.solution
@@ -153,7 +160,7 @@ def solve(
     count, before, wait = len(joints), math.inf, 0
     for _ in range(ITERATIONS_MAX):
         forward(chain, joints, scratch)
-        error = _set_rows(chain, point, rotation, rows, scratch)
+        error = set_rows(chain, point, rotation, rows, scratch)
         if error <= EXACT_M:
             return _settled(chain, joints)
         wait += 1
@@ -163,7 +170,7 @@ def solve(
             return False
         scratch.is_held[:] = False
         for _ in range(count):
-            _set_step(rows, min(1e-3, 0.02 * error * error) + 1e-12, scratch)
+            set_step(rows, min(1e-3, 0.02 * error * error) + 1e-12, scratch)
             is_new = False
             for i in range(count):
                 if chain.turns[i] or scratch.is_held[i]:

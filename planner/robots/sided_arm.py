@@ -1,16 +1,23 @@
 """An arm on its side of the robot: queries in the base frame, answered by the left arm's closed form."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm import MIRROR, ArmShape
+from planner.robots.closed_form_samples import filled, solutions
 from planner.robots.inverse_kinematics import nearest_joints, tool_places, tool_pose
 from planner.robots.kernel import reachable_batch
 
 _MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
 _MIRRORED_ROTATION = np.outer(_MIRRORED_PLACE, _MIRRORED_PLACE)
+
+_ENDLESS = (4, 6)
+"""The joints that turn without end: forearm and wrist roll."""
+
+_PERIODS = np.where(np.isin(np.arange(7), _ENDLESS), math.tau, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +61,35 @@ class SidedArm:
     def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
         """Return the tool's positions in the base frame for rows of joints, shape (n, 7) -> (n, 3), m."""
         return self.mirrored_places(tool_places(self.shape, self.mirrored_joints(joints)) + self.shoulder(torso_m))
+
+    @property
+    def periods(self) -> FloatArray:
+        """A whole turn for forearm and wrist roll (rad), 0 for the other joints, shape (7,)."""
+        return _PERIODS
+
+    def samples(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, floor_m: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return samples of the joints at each tool pose, shape (n, m, 7), and their costs; see `PathArm`."""
+        shoulder = self.shoulder(torso_m)
+        places = self.mirrored_places(positions) - shoulder
+        joints, costs = solutions(self.shape, places, self.mirrored_rotations(rotations), floor_m - float(shoulder[2]))
+        return self.mirrored_joints(joints), costs
+
+    def along(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
+    ) -> tuple[FloatArray, BoolArray]:
+        """Return joints near to guides at each tool pose, shape (n, 7), and whether there are any; see `PathArm`."""
+        places = self.mirrored_places(positions) - self.shoulder(torso_m)
+        joints, is_found = filled(self.shape, places, self.mirrored_rotations(rotations), self.mirrored_joints(guides))
+        return self.mirrored_joints(joints), is_found
+
+    def unwound(self, chain: FloatArray) -> FloatArray:
+        """Return a chain of samples with forearm and wrist roll unwound, shape (n, 7)."""
+        joints = self.mirrored_joints(chain)
+        for joint in _ENDLESS:
+            joints[:, joint] = np.unwrap(joints[:, joint])
+        return self.mirrored_joints(joints)
 
     def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
         """Return how high the elbow is above the floor (m)."""

@@ -1,7 +1,6 @@
 """The path of an arm's tool, pose after pose, and joints near to known ones that follow it.
 
-At every pose the arm keeps to the known pan and branch of the elbow, and the other joints follow in closed form, so the
-tool is exactly on its path.
+At every pose the arm keeps near to known joints and is solved for the tool's pose, so the tool is exactly on its path.
 """
 
 from collections.abc import Callable
@@ -11,17 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.joint_chain import filled, solutions
-from planner.robots.sided_arm import SidedArm
+from planner.robots.path_arm import PathArm
 
 IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
-"""A collision check: from the poses' indices (m,), their joints (m, 7) and a flag, tell which are free (m,).
+"""A collision check: from the poses' indices (m,), their joints (m, joints) and a flag, tell which are free (m,).
 
 With the flag set only joints that are certainly free count, which is faster.
 """
 
 _LEAP_RAD = 0.4
-"""Movement of a joint between neighbouring poses from which it counts as a jump (rad)."""
+"""Movement of a joint between neighbouring poses from which it counts as a jump (rad; m where it slides)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,28 +60,27 @@ class NoPath:
 
 
 def free_postures(
-    arm: SidedArm,
+    arm: PathArm,
     position: FloatArray,
     rotation: FloatArray,
     torso_m: float,
     is_free: Callable[[FloatArray], BoolArray],
 ) -> FloatArray:
-    """Return samples of an arm's joints that bring its tool to a pose and do not collide (rad), shape (k, 7).
+    """Return samples of an arm's joints that bring its tool to a pose and do not collide, shape (k, joints).
 
     Args:
         arm: the arm.
         position: the tool's position, base frame, shape (3,), m.
         rotation: its axes, base frame, shape (3, 3).
         torso_m: how far the torso is raised (m).
-        is_free: the check of which joints, shape (m, 7), do not collide.
+        is_free: the check of which joints, shape (m, joints), do not collide.
     """
-    place = arm.mirrored_places(position)[None] - arm.shoulder(torso_m)
-    joints, costs = solutions(arm.shape, place, arm.mirrored_rotations(rotation)[None], -np.inf)
-    able = arm.mirrored_joints(joints[0, np.isfinite(costs[0])])
+    joints, costs = arm.samples(position[None], rotation[None], torso_m, -np.inf)
+    able: FloatArray = joints[0, np.isfinite(costs[0])]
     return able[is_free(able)] if len(able) else able
 
 
-def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray) -> FloatArray | None:
+def near_path(arm: PathArm, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray) -> FloatArray | None:
     """Return joints that keep a tool on a path, near to known joints: much faster than `ArmSearch`.
 
     Args:
@@ -91,27 +88,23 @@ def near_path(arm: SidedArm, path: ToolPath, torso_m: float, is_free: IsFree, kn
         path: the tool's path.
         torso_m: how far the torso is raised (m).
         is_free: the check of which joints are collision-free.
-        known: joints to be near to (rad), shape (n, 7), forearm and wrist roll unwound.
+        known: joints to be near to, shape (n, joints), those that turn without end unwound.
 
     Returns:
-        Joints (rad), shape (n, 7), forearm and wrist roll unwound; None where no joints so near are valid, which says
-        nothing about others.
+        Joints, shape (n, joints), those that turn without end unwound; None where no joints so near are valid, which
+        says nothing about others.
     """
-    positions = arm.mirrored_places(path.positions) - arm.shoulder(torso_m)
-    joints, bad = joints_along(
-        arm, positions, arm.mirrored_rotations(path.rotations), arm.mirrored_joints(known), is_free
-    )
+    joints, bad = joints_along(arm, path, torso_m, known, is_free)
     return None if len(bad) else joints
 
 
 def joints_along(
-    arm: SidedArm, positions: FloatArray, rotations: FloatArray, guides: FloatArray, is_free: IsFree
+    arm: PathArm, path: ToolPath, torso_m: float, guides: FloatArray, is_free: IsFree
 ) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return the joints near guides at every pose, as the left arm sees both, and the poses where they are invalid."""
-    joints, is_found = filled(arm.shape, positions, rotations, guides)
+    """Return the joints near guides at every pose of a path, and the poses where they are invalid."""
+    joints, is_found = arm.along(path.positions, path.rotations, torso_m, guides)
     leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)
-    named = arm.mirrored_joints(joints)
     if not is_bad.any():
-        is_bad = ~is_free(np.arange(len(positions)), named, False)
-    return named, np.flatnonzero(is_bad)
+        is_bad = ~is_free(np.arange(len(joints)), joints, False)
+    return joints, np.flatnonzero(is_bad)

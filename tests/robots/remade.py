@@ -146,11 +146,11 @@ class RemadeRobot:
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        searches: dict[int, Any] = {}
+        raised_m, searches = self.raised(torso_m), {}
         for number, path in paths.items():
-            arm, is_free = self.arms[number], self._own(self.arms[number], are_free[number])
-            real = self.pr2._search(arm.of, self._seen(arm, path), self.raised(torso_m), floor_m, is_free)
-            searches[number] = IdleSearch(arm, real)
+            arm, speeds = self.arms[number], np.array(self.card.arms[number].speeds_rad_s)
+            idle, seen = IdleArm(arm, self.pr2._arms[arm.of]), self._seen(arm, path)
+            searches[number] = ArmSearch(idle, speeds, seen, raised_m, floor_m, are_free[number])
         return arm_paths(searches, together)
 
     def arm_path_near(
@@ -184,44 +184,34 @@ class RemadeRobot:
         return lambda steps, joints, is_certain: is_free(steps, arm.own(joints), is_certain)
 
 
-class IdleSearch:
-    """The search for a path of an arm that has joints that do nothing: as `ArmSearch`, with their columns."""
+class IdleArm:
+    """A PR2's arm with joints that do nothing, as searches for joint paths see it."""
 
-    def __init__(self, arm: Mounted, real: ArmSearch) -> None:
+    def __init__(self, arm: Mounted, real: SidedArm) -> None:
         self._arm = arm
         self._real = real
-        self.speeds = np.append(real.speeds, np.ones(arm.idle))
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._real, name)
 
     @property
-    def samples(self) -> FloatArray:
-        return self._arm.own(self._real.samples)
+    def periods(self) -> FloatArray:
+        return self._arm.own(self._real.periods)
 
-    def found(self) -> FloatArray | NoPath:
-        found = self._real.found()
-        return found if isinstance(found, NoPath) else self._arm.own(found)
+    def samples(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, floor_m: float
+    ) -> tuple[FloatArray, FloatArray]:
+        joints, costs = self._real.samples(positions, rotations, torso_m, floor_m)
+        return self._arm.own(joints), costs
 
-    def guides(self, chain: NDArray[np.int64]) -> FloatArray:
-        return self._arm.own(self._real.guides(chain))
+    def along(
+        self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
+    ) -> tuple[FloatArray, BoolArray]:
+        joints, is_found = self._real.along(positions, rotations, torso_m, self._arm.bent(guides))
+        return self._arm.own(joints), is_found
 
-    def are_free(self, guides: FloatArray) -> BoolArray:
-        return self._real.are_free(self._arm.bent(guides))
+    def unwound(self, chain: FloatArray) -> FloatArray:
+        return self._arm.own(self._real.unwound(self._arm.bent(chain)))
 
-    def joints(self, guides: FloatArray) -> FloatArray:
-        return self._arm.own(self._real.joints(self._arm.bent(guides)))
-
-    def followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
-        joints, bad = self._real.followed(self._arm.bent(guides))
-        return self._arm.own(joints), bad
-
-    def smoothed(self, guides: FloatArray, joints: FloatArray) -> FloatArray:
-        return self._arm.own(self._real.smoothed(self._arm.bent(guides), self._arm.bent(joints)))
-
-    def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
-        which, joints = self._real.able(link)
-        return which, self._arm.own(joints)
+    def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
+        return self._real.tool_places(self._arm.bent(joints), torso_m)
 
 
 class RemadeClearance:

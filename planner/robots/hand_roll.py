@@ -1,0 +1,65 @@
+"""The roll of a hand about its approach axis, given by the last joint where that turns about the axis. Compiled."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from planner.geometry.pose import FloatArray
+from planner.robots.chain import PITCH, Chain, Scratch, forward
+
+_ALONG = 0.999
+"""The last joint gives the roll where the cosine between its axis and the approach axis is at least this."""
+
+_BLENDED = 2.0
+"""The heading counts fully for the roll where the approach axis is less than acos(1/2), 60 degrees, steep."""
+
+
+@njit(cache=True, nogil=True)
+def gives_roll(chain: Chain) -> bool:
+    """Return whether the last joint turns the hand about its approach axis."""
+    return not chain.is_prismatic[-1] and abs(chain.tool_rotation[2, 0]) >= _ALONG
+
+
+@njit(cache=True, nogil=True)
+def turn_to_roll(chain: Chain, rotation: FloatArray, joints: FloatArray, scratch: Scratch) -> bool:
+    """Set the last joint to the roll of a tool pose; return whether its limits allow that, else it is at the nearer.
+
+    An arm that has another heading than the pose is rolled as if the pose had been turned about the vertical; pointing
+    straight down, where headings mean nothing, as if it had been tilted the shortest way.
+    """
+    forward(chain, joints, scratch)
+    roll = _roll_left(rotation, chain.rows == PITCH, scratch.frame)
+    last, low, high = len(joints) - 1, chain.low[-1], chain.high[-1]
+    middle = 0.5 * (low + high)
+    wanted = joints[last] + (roll if chain.tool_rotation[2, 0] > 0.0 else -roll)
+    wanted -= math.tau * math.floor((wanted - middle) / math.tau + 0.5)
+    joints[last] = min(max(wanted, low), high)
+    return bool(low <= wanted <= high)
+
+
+@njit(cache=True, nogil=True)
+def _roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> float:
+    """Return by how much a hand must roll about its own approach axis to have the roll of a rotation (rad)."""
+    ahead, wanted, closing = frame[:, 0], rotation[:, 0], rotation[:, 1]
+    across = np.cross(wanted, ahead)
+    cosine = wanted[0] * ahead[0] + wanted[1] * ahead[1] + wanted[2] * ahead[2]
+    tilted = closing + np.cross(across, closing) + np.cross(across, np.cross(across, closing)) / max(1.0 + cosine, 1e-9)
+    roll = _angle(frame, tilted)
+    level = math.hypot(wanted[0], wanted[1])
+    if with_heading and level > 1e-9:
+        turn = math.atan2(ahead[1], ahead[0]) - math.atan2(wanted[1], wanted[0])
+        c, s = math.cos(turn), math.sin(turn)
+        turned = np.array([c * closing[0] - s * closing[1], s * closing[0] + c * closing[1], closing[2]])
+        more = _angle(frame, turned) - roll
+        more -= math.tau * math.floor(more / math.tau + 0.5)
+        roll += min(1.0, _BLENDED * level) * more
+    return roll
+
+
+@njit(cache=True, nogil=True)
+def _angle(frame: FloatArray, closing: FloatArray) -> float:
+    """Return the angle from a frame's y axis to a direction, about its x axis (rad)."""
+    along = frame[0, 1] * closing[0] + frame[1, 1] * closing[1] + frame[2, 1] * closing[2]
+    aside = frame[0, 2] * closing[0] + frame[1, 2] * closing[1] + frame[2, 2] * closing[2]
+    return math.atan2(aside, along)
