@@ -51,6 +51,8 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "filelock": ("app.store",),
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),
+    "pyarrow": ("app.studies",),
+    "distributed": ("app.studies",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

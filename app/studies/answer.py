@@ -1,0 +1,120 @@
+"""The answer to a cell: a row of the table, how long it took, and its plan where that is kept.
+
+A row holds nothing that depends on the machine or the moment, so two runs of a study give the same table.
+"""
+
+import gzip
+import hashlib
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from app.studies.cell import Cell
+from planner.task.plan import Plan
+from planner.task.task import Task
+
+FAILED = "failed"
+"""The status of a cell that has no answer."""
+
+SOLVED, INFEASIBLE, OUT_OF_BUDGET = "solved", "infeasible", "budget_exceeded"
+
+RESULT_COLUMNS: Mapping[str, type] = {
+    "x_m": float,
+    "y_m": float,
+    "yaw_rad": float,
+    "status": str,
+    "cost_s": float,
+    "bound_s": float,
+    "is_proven": bool,
+    "folds": int,
+    "steps": int,
+    "reason_codes": str,
+    "reason_folds": str,
+    "short_by_m": float,
+    "reachable_comfort_m": float,
+    "plan_id": str,
+    "error": str,
+}
+"""The columns of a row after its axes: where the article lies, what came out, and why."""
+
+TIMING_COLUMNS = ("wall_s", "cpu_s", "search_s", "joint_s", "ik_queries")
+
+MakePlan = Callable[[Task], Plan]
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The answer to a cell.
+
+    Attributes:
+        index: the cell's number.
+        row: the values of `RESULT_COLUMNS`.
+        timing: the values of `TIMING_COLUMNS`, as far as they are known.
+        plan: the plan's file, compressed; None where it is not kept.
+    """
+
+    index: int
+    row: Mapping[str, Any]
+    timing: Mapping[str, float]
+    plan: bytes | None = None
+
+
+def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Answer:
+    """Return the answer to a cell; whatever goes wrong is its error."""
+    began_s, cpu_s = time.perf_counter(), time.process_time()
+    if cell.task is None:
+        return failed(cell, cell.error or "")
+    try:
+        plan = make_plan(cell.task)
+    except Exception as error:
+        return failed(cell, f"{type(error).__name__}: {error}")
+    timing = {
+        "wall_s": time.perf_counter() - began_s,
+        "cpu_s": time.process_time() - cpu_s,
+        "search_s": plan.statistics.search_time_s,
+        "joint_s": plan.statistics.joint_time_s,
+        "ik_queries": float(plan.statistics.ik_queries),
+    }
+    kept = gzip.compress(json.dumps(plan.to_dict()).encode(), mtime=0) if keep_plan else None
+    return Answer(cell.index, _row(plan, timing["wall_s"]), timing, kept)
+
+
+def failed(cell: Cell, error: str) -> Answer:
+    """Return the answer to a cell that has none, with the reason."""
+    row = dict.fromkeys(RESULT_COLUMNS) | _lying(cell.task) | {"status": FAILED, "error": error}
+    return Answer(cell.index, row, {})
+
+
+def plan_id(task: Task) -> str:
+    """Return the name of a task's plan: a digest of the task, since equal tasks have equal plans."""
+    return hashlib.sha256(json.dumps(task.to_dict(), sort_keys=True).encode()).hexdigest()[:16]
+
+
+def _lying(task: Task | None) -> dict[str, float]:
+    return {} if task is None else task.start.placement.to_dict()
+
+
+def _row(plan: Plan, wall_s: float) -> dict[str, Any]:
+    """Return the row of a plan; of all that is short, it tells the least, for that is what to mend first."""
+    short = [reason.short_by_m for reason in plan.reasons if reason.short_by_m is not None]
+    comfort = [reason.comfort_m for reason in plan.reasons if reason.comfort_m is not None]
+    folds = sorted({reason.fold for reason in plan.reasons if reason.fold is not None})
+    limit_s = plan.task.limits.time_limit_s
+    is_late = plan.statistics.is_cut_short and wall_s >= limit_s
+    return {
+        **_lying(plan.task),
+        "status": plan.status,
+        "cost_s": plan.cost_s,
+        "bound_s": plan.bound_s,
+        "is_proven": plan.is_proven,
+        "folds": len(plan.garment.folds),
+        "steps": len(plan.steps),
+        "reason_codes": " ".join(sorted({reason.code.value for reason in plan.reasons})),
+        "reason_folds": " ".join(map(str, folds)),
+        "short_by_m": min(short, default=None),
+        "reachable_comfort_m": min(comfort, default=None),
+        "plan_id": plan_id(plan.task),
+        "error": f"the time limit of {limit_s:g} s ended the search" if is_late else None,
+    }

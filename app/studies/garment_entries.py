@@ -1,0 +1,141 @@
+"""The garments that a study's file names, each entry one or many."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from app.studies.axis import number_axis
+from app.studies.fields import pair, require_known, required, table, text, whole
+from app.studies.garment_case import GarmentCase
+from app.studies.random_garment import RandomShape, random_garment
+from app.studies.study_error import StudyError
+from app.templates.catalogue import TEMPLATES, find_template
+from app.templates.measure import MeasureError
+from app.templates.template import Template
+from planner.cloth.garment_files import load_garment
+from planner.errors import FieldError, FoldingError, GarmentError
+from planner.strict_model import LARGEST_M
+
+RANDOM_MAX = 100_000
+"""The most random garments of one entry."""
+
+CORNERS_MAX, FOLDS_MAX = 40, 12
+"""The most corners and folds of a random garment."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A kind of entry: the fields it may have, and how it is read."""
+
+    fields: frozenset[str]
+    cases: Callable[[str, Mapping[str, Any], Path], Iterator[GarmentCase]]
+
+
+def read_garments(given: object, folder: Path) -> tuple[GarmentCase, ...]:
+    """Return all garments that the entries name, with labels that differ.
+
+    Args:
+        given: the field ``garments`` of a study's file.
+        folder: the file's folder, to which paths are relative.
+
+    Raises:
+        StudyError: an entry is not valid.
+    """
+    if not isinstance(given, list) or not given:
+        raise StudyError("garments", "is no list of one or more entries; write [[garments]] before each")
+    found = [case for number, entry in enumerate(given) for case in _cases(f"garments[{number}]", entry, folder)]
+    return tuple(_with_labels(found))
+
+
+def _cases(field: str, given: object, folder: Path) -> Iterator[GarmentCase]:
+    entry = table(field, given)
+    kinds = [kind for kind in _ENTRIES if kind in entry]
+    if len(kinds) != 1:
+        raise StudyError(field, f"names {' and '.join(kinds) or 'nothing'}; it has one of {', '.join(_ENTRIES)}")
+    kind = _ENTRIES[kinds[0]]
+    require_known(field, entry, kind.fields)
+    yield from kind.cases(field, entry, folder)
+
+
+def _named(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+    name = text(f"{field}.name", entry["name"])
+    yield GarmentCase(name, _loaded(f"{field}.name", name))
+
+
+def _from_files(field: str, entry: Mapping[str, Any], folder: Path) -> Iterator[GarmentCase]:
+    pattern = text(f"{field}.file", entry["file"])
+    paths = sorted(folder.glob(pattern)) if any(sign in pattern for sign in "*?[") else [folder / pattern]
+    if not paths:
+        raise StudyError(f"{field}.file", f"no file in {folder} matches {pattern!r}")
+    for path in paths:
+        garment = _loaded(f"{field}.file", path)
+        yield GarmentCase(garment.name, garment)
+
+
+def _from_template(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+    name = text(f"{field}.template", entry["template"])
+    template = find_template(name)
+    if template is None:
+        raise StudyError(f"{field}.template", f"{name!r} is none of {', '.join(one.name for one in TEMPLATES)}")
+    known = {measure.name: measure for measure in template.measures}
+    measures = table(f"{field}.measures", entry.get("measures", {}))
+    require_known(f"{field}.measures", measures, known.keys())
+    axes = [number_axis(f"{field}.measures.{measure}", given) for measure, given in measures.items()]
+    for axis, measure in zip(axes, measures, strict=True):
+        for value in axis.values:
+            _checked(axis.name, known[measure].require, float(value))
+    for values in product(*(axis.values for axis in axes)):
+        yield _cut(template, {measure: float(value) for measure, value in zip(measures, values, strict=True)})
+
+
+def _cut(template: Template, measures: Mapping[str, float]) -> GarmentCase:
+    """Return the garment of some measures, or why they do not fit each other."""
+    label = " ".join((template.name, *(f"{value:g}" for value in measures.values())))
+    try:
+        return GarmentCase(label, template.garment(measures), measures=measures)
+    except (MeasureError, GarmentError) as error:
+        return GarmentCase(label, None, measures=measures, error=str(error))
+
+
+def _random(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+    count = whole(f"{field}.random", entry["random"], 1, RANDOM_MAX)
+    seed = whole(f"{field}.seed", required(field, entry, "seed"), 0, 2**53)
+    default = RandomShape()
+    corners = pair(f"{field}.corners", entry.get("corners", list(default.corners)), 3, CORNERS_MAX)
+    folds = pair(f"{field}.folds", entry.get("folds", list(default.folds)), 1, FOLDS_MAX)
+    size_m = pair(f"{field}.size_m", entry.get("size_m", list(default.size_m)), 0.1, LARGEST_M)
+    shape = RandomShape((int(corners[0]), int(corners[1])), (int(folds[0]), int(folds[1])), size_m)
+    for own in range(seed, seed + count):
+        yield GarmentCase(f"random {own}", random_garment(own, shape), own)
+
+
+def _loaded(field: str, source: str | Path) -> Any:  # noqa: ANN401
+    return _checked(field, load_garment, source)
+
+
+def _checked(field: str, read: Callable[[Any], Any], given: object) -> Any:  # noqa: ANN401
+    """Return what a function reads; an error of its own is told of the field."""
+    try:
+        return read(given)
+    except FieldError as error:
+        raise StudyError(field, f"{given}: {error}" if isinstance(given, Path) else error.message) from None
+    except FoldingError as error:
+        raise StudyError(field, str(error)) from None
+
+
+def _with_labels(cases: Sequence[GarmentCase]) -> Iterator[GarmentCase]:
+    """Number the labels that are given twice, such as files of one name."""
+    seen: dict[str, int] = {}
+    for case in cases:
+        seen[case.label] = seen.get(case.label, 0) + 1
+        yield case if seen[case.label] == 1 else replace(case, label=f"{case.label} ({seen[case.label]})")
+
+
+_ENTRIES = {
+    "name": _Entry(frozenset({"name"}), _named),
+    "file": _Entry(frozenset({"file"}), _from_files),
+    "template": _Entry(frozenset({"template", "measures"}), _from_template),
+    "random": _Entry(frozenset({"random", "seed", "corners", "folds", "size_m"}), _random),
+}

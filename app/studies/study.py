@@ -1,0 +1,128 @@
+"""A study: the product of what varies between its cells, or a sample of it. Each cell is a task."""
+
+import hashlib
+import json
+import math
+import random
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from app.studies.axis import Axis, Value
+from app.studies.cell import Cell, cell_of
+from app.studies.garment_case import GarmentCase
+from planner.geometry.pose import Pose2
+from planner.task.scene import Scene
+
+VERSION = 1
+GARMENT = "garment"
+"""The name of the first axis."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A sample of a study's cells, drawn without repetition.
+
+    Attributes:
+        cells: their number.
+        seed: what they are drawn with.
+    """
+
+    cells: int
+    seed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A study.
+
+    Attributes:
+        title: its title.
+        garments: the garments: the first axis.
+        axes: the other axes, in the order of the table's columns. The last varies fastest.
+        scene: the scene, whose fields the axes replace.
+        has_stations: whether the scene's stations are the study's own; otherwise they keep their distance to the table.
+        placements: the poses that the axis ``placement`` counts.
+        sample: the sample; None for all cells.
+    """
+
+    title: str
+    garments: tuple[GarmentCase, ...]
+    axes: tuple[Axis, ...]
+    scene: Scene
+    has_stations: bool = False
+    placements: tuple[Pose2, ...] = ()
+    sample: Sample | None = None
+
+    @property
+    def all_axes(self) -> tuple[Axis, ...]:
+        """The axes, the garments' first."""
+        return (Axis(GARMENT, tuple(case.label for case in self.garments), is_ordered=False), *self.axes)
+
+    @property
+    def product(self) -> int:
+        """The number of all combinations."""
+        return len(self.garments) * math.prod(len(axis.values) for axis in self.axes)
+
+    @property
+    def count(self) -> int:
+        """The number of cells."""
+        return self.product if self.sample is None else min(self.sample.cells, self.product)
+
+    def indices(self) -> Sequence[int]:
+        """Return the numbers of the cells in the product, ascending."""
+        if self.count == self.product or self.sample is None:
+            return range(self.product)
+        return sorted(random.Random(self.sample.seed).sample(range(self.product), self.count))
+
+    def cells(self, indices: Iterable[int]) -> Iterator[Cell]:
+        """Yield cells, each made when it is asked for."""
+        return (self.cell(index) for index in indices)
+
+    def cell(self, index: int) -> Cell:
+        """Return the cell of a number in the product."""
+        digits = self.digits(index)
+        values: dict[str, Value] = {
+            axis.name: axis.values[digit] for axis, digit in zip(self.axes, digits[1:], strict=True)
+        }
+        return cell_of(index, self.garments[digits[0]], values, self.scene, self.placements, self.has_stations)
+
+    def digits(self, index: int) -> tuple[int, ...]:
+        """Return which value of each axis a cell has, the garments' first."""
+        digits = []
+        for axis in reversed(self.axes):
+            index, digit = divmod(index, len(axis.values))
+            digits.append(digit)
+        return (index, *reversed(digits))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the study as JSON, all files that it names read in."""
+        return {
+            "pleat_study": VERSION,
+            "title": self.title,
+            "garments": [case.to_dict() for case in self.garments],
+            "axes": [{"name": a.name, "values": list(a.values), "is_ordered": a.is_ordered} for a in self.axes],
+            "scene": self.scene.to_dict(),
+            "has_stations": self.has_stations,
+            "placements": [pose.to_dict() for pose in self.placements],
+            "sample": None if self.sample is None else {"cells": self.sample.cells, "seed": self.sample.seed},
+        }
+
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> "Study":
+        """Return the study that `to_dict` wrote."""
+        return Study(
+            data["title"],
+            tuple(GarmentCase.from_dict(case) for case in data["garments"]),
+            tuple(Axis(axis["name"], tuple(axis["values"]), axis["is_ordered"]) for axis in data["axes"]),
+            Scene.from_dict(data["scene"]),
+            data["has_stations"],
+            tuple(Pose2(**pose) for pose in data["placements"]),
+            None if data["sample"] is None else Sample(**data["sample"]),
+        )
+
+    @property
+    def digest(self) -> str:
+        """A digest of all on which its cells depend."""
+        told = {name: value for name, value in self.to_dict().items() if name != "title"}
+        return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()

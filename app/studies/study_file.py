@@ -1,0 +1,200 @@
+"""Reading a study's TOML file, strictly: every error names the field, and the file is named by who asked."""
+
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from app.studies.axis import Axis, number_axis
+from app.studies.cell import LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
+from app.studies.fields import require_known, table, text, whole
+from app.studies.garment_entries import read_garments
+from app.studies.study import Sample, Study
+from app.studies.study_error import StudyError
+from planner.errors import FieldError
+from planner.geometry.given import GivenPose
+from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
+from planner.json_form import JsonForm
+from planner.robots.load_robot import load_robot
+from planner.task.scene import Scene
+from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, Limits
+
+CELLS_MAX = 100_000
+"""The most cells of a study that does not say `cells_max` itself."""
+
+CELLS_LIMIT = 10_000_000
+"""The largest `cells_max`."""
+
+WORK_LIMIT_S = 10.0
+"""The work for a cell by default, in seconds of a present-day machine; time is left for slower ones."""
+
+_FIELDS = (
+    "title", "garments", "robots", "start_stations", "table", "scene", "placements", "limits", "cells_max", "sample",
+)  # fmt: skip
+_STATIONS = "stations"
+_POSE = tuple(field.name for field in fields(Pose2))
+_POSES: JsonForm[tuple[Pose2, ...]] = JsonForm(tuple[GivenPose, ...], StudyError)
+
+
+@dataclass(frozen=True, slots=True)
+class _Numbers:
+    """A table of the file whose fields are numbers to vary: the axes' prefix, the known fields, how one is checked."""
+
+    prefix: str
+    known: tuple[str, ...]
+    check: Callable[[str, Any], object]
+    whole: tuple[str, ...] = ()
+
+    def axes(self, field: str, given: Mapping[str, Any]) -> Iterator[Axis]:
+        """Yield an axis for each field, every value checked on its own."""
+        require_known(field, given, self.known)
+        for name, value in given.items():
+            axis = number_axis(f"{field}.{name}", value, whole=name in self.whole)
+            for number in axis.values:
+                _told(field, self.check, name, number)
+            yield Axis(f"{self.prefix}{name}", axis.values)
+
+
+def read_study(path: Path) -> Study:
+    """Return the study in a file.
+
+    Raises:
+        StudyError: the file cannot be read, or a field is not valid.
+    """
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise StudyError("", f"cannot be read: {error.strerror}") from None
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+        raise StudyError("", f"is no TOML: {error}") from None
+    return study_of(content, path.parent)
+
+
+def study_of(content: Mapping[str, Any], folder: Path) -> Study:
+    """Return the study that a file's content describes; its garments' files are relative to a folder.
+
+    Raises:
+        StudyError: a field is not valid, or there are more cells than `cells_max`.
+    """
+    require_known("", content, _FIELDS)
+    scene, axes = _scene(table("scene", content.get("scene", {})))
+    poses, placed = _placements(content.get("placements", "own"))
+    study = Study(
+        text("title", content.get("title", "Study")),
+        read_garments(content.get("garments"), folder),
+        (
+            _names(ROBOT, "robots", content.get("robots", [DEFAULT_ROBOT]), load_robot),
+            *_stations(content, scene),
+            *_TABLE.axes("table", table("table", content.get("table", {}))),
+            *axes,
+            *placed,
+            *_limits(table("limits", content.get("limits", {}))),
+        ),
+        scene,
+        _STATIONS in content.get("scene", {}),
+        poses,
+        _sample(content),
+    )
+    most = whole("cells_max", content.get("cells_max", CELLS_MAX), 1, CELLS_LIMIT)
+    if study.count > most:
+        text_of = " x ".join(f"{len(axis.values)} {axis.name}" for axis in study.all_axes if len(axis.values) > 1)
+        raise StudyError(
+            "cells_max",
+            f"there are {study.count:,} cells ({text_of}), more than {most:,}; "
+            "draw some of them with [sample] cells = N, or allow more",
+        )
+    return study
+
+
+def _names(axis: str, field: str, given: object, check: Callable[[str], object]) -> Axis:
+    """Return the axis of a list of names, each of which a function knows."""
+    if not isinstance(given, list):
+        raise StudyError(field, f"{given!r} is no list of names")
+    names = tuple(text(f"{field}[{number}]", name) for number, name in enumerate(given))
+    for number, name in enumerate(names):
+        try:
+            check(name)
+        except FieldError as error:
+            raise StudyError(f"{field}[{number}]", error.message) from None
+    return Axis(axis, names, is_ordered=False)
+
+
+def _stations(content: Mapping[str, Any], scene: Scene) -> Iterator[Axis]:
+    if "start_stations" in content:
+        known = dict(scene.stations)
+
+        def check(name: str) -> None:
+            if name not in known:
+                raise StudyError("", f"{name!r} is none of {', '.join(known)}")
+
+        yield _names(START, "start_stations", content["start_stations"], check)
+
+
+def _scene(given: Mapping[str, Any]) -> tuple[Scene, tuple[Axis, ...]]:
+    """Return the scene with the stations given, and an axis for each other field."""
+    numbers = {name: value for name, value in given.items() if name != _STATIONS}
+    stations = {_STATIONS: given[_STATIONS]} if _STATIONS in given else {}
+    scene: Scene = _told("scene", Scene.from_dict, stations)
+    return scene, tuple(_SCENE.axes("scene", numbers))
+
+
+def _placements(given: object) -> tuple[tuple[Pose2, ...], tuple[Axis, ...]]:
+    """Return the poses given, and the axes: of these, or of a grid of moves or of places."""
+    if given == "own":
+        return (), ()
+    if isinstance(given, list):
+        poses: tuple[Pose2, ...] = _told("placements", _POSES.read, given)
+        return poses, (Axis(PLACEMENT, tuple(range(len(poses))), is_ordered=False),)
+    kinds = {"moved": MOVED, "middle": MIDDLE}
+    found = table("placements", given)
+    require_known("placements", found, kinds)
+    if len(found) != 1:
+        raise StudyError("placements", 'is "own", a list of poses, or one of moved and middle')
+    name, grid = next(iter(found.items()))
+    numbers = _Numbers(kinds[name], _POSE, lambda *_: None)
+    return (), tuple(numbers.axes(f"placements.{name}", table(f"placements.{name}", grid)))
+
+
+def _limits(given: Mapping[str, Any]) -> Iterator[Axis]:
+    """Yield an axis for each limit; what is left out is limited by work, so that every machine has the same answer."""
+    filled = {"work_limit_s": WORK_LIMIT_S, "time_limit_s": TIME_LIMIT_S[1], **given}
+    heuristics = filled.pop("heuristic", None)
+    yield from _LIMITS.axes("limits", filled)
+    if heuristics is not None:
+        listed = heuristics if isinstance(heuristics, list) else [heuristics]
+        yield _names(f"{LIMITS}heuristic", "limits.heuristic", listed, lambda name: Limits(heuristic=name))  # type: ignore[arg-type]
+
+
+def _sample(content: Mapping[str, Any]) -> Sample | None:
+    if "sample" not in content:
+        return None
+    given = table("sample", content["sample"])
+    require_known("sample", given, ("cells", "seed"))
+    return Sample(
+        whole("sample.cells", given.get("cells"), 1, CELLS_LIMIT), whole("sample.seed", given.get("seed", 0), 0, 2**53)
+    )
+
+
+def _told(field: str, read: Callable[..., Any], *given: object) -> Any:  # noqa: ANN401
+    """Return what a function reads; its error is told as the study's, at a field."""
+    try:
+        return read(*given)
+    except FieldError as error:
+        within = error.within(field)
+        raise StudyError(within.field, within.message) from None
+
+
+def _numbers_of(kind: type, but: tuple[str, ...] = ()) -> tuple[str, ...]:
+    return tuple(field.name for field in fields(kind) if field.name not in but)
+
+
+_TABLE = _Numbers(TABLE, _numbers_of(Table), lambda name, number: Table(**{name: number}))
+_SCENE = _Numbers(SCENE, _numbers_of(Scene, ("table", _STATIONS)), lambda name, number: Scene.from_dict({name: number}))
+_LIMITS = _Numbers(
+    LIMITS,
+    _numbers_of(Limits, ("heuristic",)),
+    lambda name, number: Limits(**{name: number}),
+    whole=("max_expanded",),
+)

@@ -1,0 +1,72 @@
+"""The table of a study: one row for each cell, as Parquet and as CSV; the times beside it in a file of their own."""
+
+import csv
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import pyarrow as pa
+from pyarrow import parquet
+
+from app.studies.answer import RESULT_COLUMNS, TIMING_COLUMNS
+from app.studies.results import Results
+from app.studies.study import GARMENT, Study
+
+PARQUET, CSV, TIMING = "table.parquet", "table.csv", "timing.csv"
+
+_ROWS_A_GROUP = 10_000
+"""Rows of the Parquet file that are held at once."""
+
+_SEED, _MEASURE = "garment_seed", "measure."
+_TYPES = {float: pa.float64(), int: pa.int64(), bool: pa.bool_(), str: pa.string()}
+
+
+def columns_of(study: Study) -> dict[str, type]:
+    """Return the table's columns and their types, in order."""
+    measures = {f"{_MEASURE}{name}": float for case in study.garments for name in case.measures}
+    axes = {axis.name: type(axis.values[0]) for axis in study.axes}
+    return {"cell": int, GARMENT: str, _SEED: int, **measures, **axes, **RESULT_COLUMNS}
+
+
+def table_rows(study: Study, results: Results) -> Iterator[dict[str, Any]]:
+    """Yield the rows of the table, by cell."""
+    columns = columns_of(study)
+    for index, row, _ in results.rows():
+        yield dict.fromkeys(columns) | axis_values(study, index) | dict(row)
+
+
+def axis_values(study: Study, index: int) -> dict[str, Any]:
+    """Return a cell's number, garment and values by column."""
+    digits = study.digits(index)
+    case = study.garments[digits[0]]
+    measures = {f"{_MEASURE}{name}": value for name, value in case.measures.items()}
+    values = {axis.name: axis.values[digit] for axis, digit in zip(study.axes, digits[1:], strict=True)}
+    return {"cell": index, GARMENT: case.label, _SEED: case.seed, **measures, **values}
+
+
+def write_tables(study: Study, results: Results) -> None:
+    """Write the three files into the results' folder; the table is the same whatever way it came about.
+
+    Raises:
+        OSError: a file cannot be written.
+    """
+    columns, folder = columns_of(study), results.folder
+    schema = pa.schema([(name, _TYPES[kind]) for name, kind in columns.items()])
+    with (
+        parquet.ParquetWriter(folder / PARQUET, schema) as tables,
+        (folder / CSV).open("w", encoding="utf-8", newline="") as text,
+    ):
+        lines = csv.DictWriter(text, list(columns), lineterminator="\n")
+        lines.writeheader()
+        group: list[Mapping[str, Any]] = []
+        for row in table_rows(study, results):
+            lines.writerow(row)
+            group.append(row)
+            if len(group) == _ROWS_A_GROUP:
+                tables.write_table(pa.Table.from_pylist(group, schema))
+                group.clear()
+        tables.write_table(pa.Table.from_pylist(group, schema))
+    with (folder / TIMING).open("w", encoding="utf-8", newline="") as text:
+        lines = csv.DictWriter(text, ["cell", *TIMING_COLUMNS], lineterminator="\n")
+        lines.writeheader()
+        for index, _, timing in results.rows():
+            lines.writerow({"cell": index, **timing})

@@ -1,0 +1,192 @@
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.studies.study import Study
+from app.studies.study_error import StudyError
+from app.studies.study_file import read_study, study_of
+from planner import load_garment
+from planner.geometry.pose import Pose2
+from tests.app.samples import towel
+from tests.app.studies.study_samples import content, study
+
+
+def test_the_product_is_counted_without_making_a_cell():
+    found = study(
+        garments=[{"name": "vest"}, {"name": "tie"}],
+        table={"height_m": {"from": 0.6, "to": 0.9, "step": 0.1}},
+        limits={"comfort_radius_m": [0.0, 0.03]},
+    )
+    assert found.count == found.product == 2 * 4 * 2
+    assert found.axes[1].values == (0.6, 0.7, 0.8, 0.9)
+
+
+def test_every_cell_is_the_task_of_its_values():
+    found = study(
+        garments=[{"name": "vest"}, {"name": "tie"}],
+        table={"height_m": [0.7, 0.8]},
+        scene={"friction": [0.5, 1.0], "torso_m": 0.2},
+        limits={"comfort_radius_m": [0.0, 0.03], "heuristic": ["zero", "arm_time"]},
+    )
+    cells = list(found.cells(found.indices()))
+    assert [cell.index for cell in cells] == list(range(2 * 2 * 2 * 2 * 2))
+    assert len({json.dumps(cell.task.to_dict()) for cell in cells if cell.task}) == len(cells)
+    last = cells[-1].task
+    assert last is not None
+    assert last.garment == load_garment("tie")
+    assert (last.scene.table.height_m, last.scene.friction, last.scene.torso_m) == (0.8, 1.0, 0.2)
+    assert (last.limits.comfort_radius_m, last.limits.heuristic) == (0.03, "arm_time")
+
+
+def test_work_ends_a_cell_by_default_so_that_every_machine_gives_the_same_table():
+    cell = study(limits={}).cell(0)
+    assert cell.task is not None
+    assert cell.task.limits.work_limit_s == 10.0
+    assert cell.task.limits.time_limit_s == 60.0
+
+
+def test_a_sample_is_drawn_with_its_seed_and_without_repetition():
+    many = {"table": {"height_m": {"from": 0.5, "to": 1.0, "count": 51}}}
+    drawn = [study(**many, sample={"cells": 10, "seed": seed}).indices() for seed in (1, 1, 2)]
+    assert drawn[0] == drawn[1] != drawn[2]
+    assert len(set(drawn[0])) == 10
+    assert list(drawn[0]) == sorted(drawn[0])
+
+
+def test_a_sample_of_a_product_that_could_never_be_listed_is_drawn():
+    axis = {"from": 0.0, "to": 1.0, "count": 1000}
+    found = study(scene={"friction": axis, "torso_m": {"from": 0.0, "to": 0.3, "count": 1000}}, sample={"cells": 3})
+    assert (found.product, found.count, len(list(found.cells(found.indices())))) == (4_000_000, 3, 3)
+
+
+def test_a_template_gives_a_garment_for_each_combination_of_its_measures():
+    measures = {"width_m": [0.4, 0.5], "length_m": {"from": 0.2, "to": 0.4, "count": 3}}
+    cases = study(garments=[{"template": "towel", "measures": measures}]).garments
+    assert len({case.label for case in cases}) == 6
+    assert [case.measures["width_m"] for case in cases] == [0.4] * 3 + [0.5] * 3
+
+
+def test_measures_that_do_not_fit_each_other_are_cells_without_a_task():
+    measures = {"width_m": 0.4, "folded_width_m": [0.1, 0.3]}
+    cells = [*study(garments=[{"template": "towel", "measures": measures}], table={}).cells(range(2))]
+    assert cells[0].task is None
+    assert "folded_width_m" in str(cells[0].error)
+    assert cells[1].task is not None
+
+
+def test_random_garments_come_from_their_seed_alone():
+    entry = {"random": 5, "seed": 3, "folds": [2, 3]}
+    first, second = (study(garments=[entry]).garments for _ in range(2))
+    assert first == second
+    assert len({case.garment.outline for case in first if case.garment}) == 5
+    assert all(case.garment and 1 <= len(case.garment.folds) <= 3 for case in first)
+    assert study(garments=[{**entry, "random": 1, "seed": 4}]).garments[0].garment == first[1].garment
+
+
+def test_files_are_found_beside_the_study(tmp_path: Path):
+    for name in ("one", "two"):
+        (tmp_path / f"{name}.json").write_text(json.dumps(towel(name)))
+    labels = [case.label for case in study_of(content(garments=[{"file": "*.json"}]), tmp_path).garments]
+    assert labels == ["one", "two"]
+
+
+def test_stations_and_the_own_placement_keep_their_distance_to_the_edges():
+    here, there = (study(table={"width_m": w, "depth_m": d}).cell(0).task for w, d in ((0.98, 1.6), (1.18, 1.4)))
+    assert here is not None
+    assert there is not None
+    assert dict(there.scene.stations)["left"].y_m == pytest.approx(dict(here.scene.stations)["left"].y_m + 0.1)
+    assert dict(there.scene.stations)["front"].x_m == pytest.approx(dict(here.scene.stations)["front"].x_m + 0.1)
+    assert there.start.placement.x_m == pytest.approx(here.start.placement.x_m + 0.1)
+
+
+def test_given_stations_stay_where_they_are_given():
+    stations = {"front": {"x_m": -1.0, "y_m": 0.0, "yaw_rad": 0.0}}
+    task = study(scene={"stations": stations}, table={"depth_m": 1.0}).cell(0).task
+    assert task is not None
+    assert task.scene.stations == (("front", Pose2(-1.0, 0.0, 0.0)),)
+
+
+@pytest.mark.parametrize(
+    ("placements", "expected"),
+    [
+        ("own", Pose2(-0.75, 0.15, -1.5707963267948966)),
+        ({"moved": {"x_m": [0.1]}}, Pose2(-0.65, 0.15, -1.5707963267948966)),
+        ([{"x_m": 0.1, "y_m": 0.2, "yaw_rad": 0.3}], Pose2(0.1, 0.2, 0.3)),
+        ({"middle": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0}}, Pose2(-0.15, -0.1, 0.0)),
+    ],
+)
+def test_an_article_lies_where_the_placements_say(placements: Any, expected: Pose2):
+    task = study(placements=placements).cell(0).task
+    assert task is not None
+    found = task.start.placement
+    assert (found.x_m, found.y_m, found.yaw_rad) == pytest.approx((expected.x_m, expected.y_m, expected.yaw_rad))
+
+
+def test_a_study_reads_back_from_its_json():
+    found = study(
+        garments=[{"random": 2, "seed": 1}, {"template": "towel", "measures": {"width_m": 0.4}}],
+        placements=[{"x_m": 0.1, "y_m": 0.2, "yaw_rad": 0.3}],
+        start_stations=["front", "left"],
+        sample={"cells": 3},
+    )
+    again = Study.from_dict(json.loads(json.dumps(found.to_dict())))
+    assert again == found
+    assert again.digest == found.digest
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "told"),
+    [
+        ({"colour": 1}, "colour", "known"),
+        ({"garments": []}, "garments", "[[garments]]"),
+        ({"garments": [{}]}, "garments[0]", "nothing"),
+        ({"garments": [{"name": "sock"}]}, "garments[0].name", "sock"),
+        ({"garments": [{"file": "no/such.json"}]}, "garments[0].file", "no/such.json"),
+        ({"garments": [{"template": "towel", "measures": {"wide_m": 1}}]}, "garments[0].measures.wide_m", "known"),
+        (
+            {"garments": [{"template": "towel", "measures": {"width_m": [0.4, -1]}}]},
+            "garments[0].measures.width_m",
+            "-1",
+        ),
+        ({"garments": [{"random": 3}]}, "garments[0].seed", "missing"),
+        ({"garments": [{"random": 0, "seed": 1}]}, "garments[0].random", "0"),
+        ({"garments": [{"random": 3, "seed": 1, "folds": [3, 1]}]}, "garments[0].folds", "[3, 1]"),
+        ({"robots": ["r2d2"]}, "robots[0]", "r2d2"),
+        ({"robots": ["pr2", "pr2"]}, "robot", "'pr2'"),
+        ({"table": {"height_m": []}}, "table.height_m", "0 values"),
+        ({"table": {"height_m": [0.7, True]}}, "table.height_m[1]", "True"),
+        ({"table": {"height_m": [0.7, 50.0]}}, "table.height_m", "50"),
+        ({"table": {"height_m": [0.7, 0.7]}}, "table.height_m", "0.7"),
+        ({"table": {"height_m": {"from": 0.7, "to": 0.8}}}, "table.height_m", "step or count"),
+        ({"table": {"height_m": {"from": 0.7, "to": 0.8, "step": 0}}}, "table.height_m.step", "0"),
+        ({"table": {"height_m": {"from": 0.7, "to": 0.8, "by": 1}}}, "table.height_m.by", "known"),
+        ({"scene": {"friction": "low"}}, "scene.friction", "'low'"),
+        ({"scene": {"friction": [-1.0]}}, "scene.friction", "-1"),
+        ({"scene": {"stations": {"front": {"x_m": 0}}}}, "scene.stations.front.y_m", "missing"),
+        ({"placements": [{"x_m": 0, "y_m": 0}]}, "placements[0].yaw_rad", "missing"),
+        ({"placements": {"moved": {"z_m": 0}}}, "placements.moved.z_m", "known"),
+        ({"placements": {}}, "placements", "one of"),
+        ({"start_stations": ["moon"]}, "start_stations[0]", "moon"),
+        ({"limits": {"comfort_radius_m": [0.5]}}, "limits.comfort_radius_m", "0.5"),
+        ({"limits": {"heuristic": ["best"]}}, "limits.heuristic[0]", "best"),
+        ({"limits": {"max_expanded": [1.5]}}, "limits.max_expanded", "1.5"),
+        ({"sample": {"cells": 0}}, "sample.cells", "0"),
+        ({"cells_max": 3}, "cells_max", "4 cells (4 table.height_m)"),
+    ],
+)
+def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], field: str, told: str):
+    with pytest.raises(StudyError) as caught:
+        study(**changes)
+    assert caught.value.field == field
+    assert told in caught.value.message
+
+
+@pytest.mark.parametrize(("text", "told"), [("garments = [", "TOML"), (None, "cannot be read")])
+def test_a_file_that_is_no_toml_is_told(tmp_path: Path, text: str | None, told: str):
+    path = tmp_path / "study.toml"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(StudyError, match=told):
+        read_study(path)
