@@ -18,7 +18,8 @@ from app.api.problems import ProblemResponse
 from app.api.waiting import answer_of
 from app.document_state import DocumentState
 from app.files.crease_reading import Creases
-from app.files.exports import EXPORTS, Export, UnavailableFileError, find_export
+from app.files.export import Export, UnavailableFileError
+from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import UnitsNeededError
 from app.files.import_file import Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ

@@ -7,7 +7,9 @@ import typer
 from rich.table import Table
 
 from app.cli.program import blaming, cli, failure, load_source, output, refusing
-from app.files.exports import EXPORTS, Export, find_export
+from app.files.export import Export
+from app.files.exports import EXPORTS, find_export
+from app.files.folder_file import ZIP, unpack
 from app.files.recording import DEFAULT_RATE_HZ
 from app.files.state_of_plan import state_of_garment, state_of_plan
 from planner import Garment, make_plan
@@ -19,7 +21,12 @@ def export(
         str | None, typer.Argument(metavar="FILE", help="A plan file, a garment file or a garment.")
     ] = None,
     to: Annotated[str | None, typer.Option(metavar="KIND", help="The kind of file; see --list.")] = None,
-    out: Annotated[Path | None, typer.Option(metavar="PATH", help="Where to; by default a name here.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH", help="Where to; by default a name here. A folder is zipped where this ends in .zip."
+        ),
+    ] = None,
     rate_hz: Annotated[float, typer.Option(help="Frames a second of a recording (1..30).")] = DEFAULT_RATE_HZ,
     is_listing: Annotated[bool, typer.Option("--list", help="Print the kinds of files.")] = False,
 ) -> None:
@@ -35,7 +42,10 @@ def export(
     data, name = _made(kind, source, rate_hz)
     path = out or Path(name)
     with refusing(path):
-        path.write_bytes(data)
+        if kind.is_folder and path.suffix != ZIP:
+            unpack(data, path)
+        else:
+            path.write_bytes(data)
     output.print(f"{path}: {len(data)} bytes")
 
 
@@ -47,7 +57,7 @@ def _made(kind: Export, source: str, rate_hz: float) -> tuple[bytes, str]:
             state = state_of_plan(make_plan(found)) if kind.needs_plan else state_of_garment(found)
         else:
             state = state_of_plan(found)
-        return kind.file(state, rate_hz, lambda: False), kind.filename(state)
+        return kind.file(state, rate_hz, lambda: False), kind.filename(state).removesuffix(ZIP)
 
 
 def _kinds() -> Table:
@@ -55,5 +65,5 @@ def _kinds() -> Table:
     for name in ("kind", "what", "file"):
         table.add_column(name)
     for one in EXPORTS:
-        table.add_row(one.what, one.text, f"NAME{one.ending}")
+        table.add_row(one.what, one.text, f"NAME{one.ending.removesuffix(ZIP)}")
     return table

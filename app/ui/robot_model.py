@@ -15,7 +15,7 @@ import trimesh
 import yourdfpy
 from numpy.typing import NDArray
 
-from app.ui.rotation import IDENTITY, Quaternion, from_matrix
+from app.ui.rotation import IDENTITY, Quaternion, from_matrix, product, rotated, turn
 from planner.geometry.pose import FloatArray, Point3
 
 _SMALLEST_SHOWN_M = 0.03
@@ -55,6 +55,7 @@ class Link:
         origin: its pose in the parent's frame while the joint is at zero.
         joint: the actuated joint that moves it, or None when it is fixed.
         factor: the factor on joint positions (a finger that mimics another has one).
+        offset: what is added to them then (rad; m for a joint that slides).
         axis: the joint's axis in the link's own frame, shape (3,).
         is_prismatic: whether the joint slides rather than turns.
         visuals: its meshes.
@@ -65,9 +66,20 @@ class Link:
     origin: Pose3
     joint: str | None
     factor: float
+    offset: float
     axis: FloatArray
     is_prismatic: bool
     visuals: tuple[Visual, ...]
+
+    def pose_at(self, position: float) -> Pose3:
+        """Return its pose in the parent's frame at a position of its joint (rad; m for one that slides)."""
+        value = self.factor * position + self.offset
+        if self.is_prismatic:
+            along, aside, up = (float(part) * value for part in self.axis)
+            shift = rotated(self.origin.wxyz, (along, aside, up))
+            x, y, z = (start + part for start, part in zip(self.origin.position, shift, strict=True))
+            return Pose3((x, y, z), self.origin.wxyz)
+        return Pose3(self.origin.position, product(self.origin.wxyz, turn(self.axis, value)))
 
 
 @functools.lru_cache(maxsize=4)
@@ -106,7 +118,7 @@ def _parents_first(urdf: yourdfpy.URDF) -> list[str]:
 
 def _link(name: str, node: str, joint: yourdfpy.Joint | None, visuals: tuple[Visual, ...]) -> Link:
     if joint is None:
-        return Link(name, node, Pose3(), None, 1.0, np.zeros(3), False, visuals)
+        return Link(name, node, Pose3(), None, 1.0, 0.0, np.zeros(3), False, visuals)
     is_fixed = joint.type == "fixed"
     moved_by = joint.mimic.joint if joint.mimic else joint.name
     return Link(
@@ -114,11 +126,16 @@ def _link(name: str, node: str, joint: yourdfpy.Joint | None, visuals: tuple[Vis
         node=node,
         origin=_pose(joint.origin),
         joint=None if is_fixed else moved_by,
-        factor=joint.mimic.multiplier if joint.mimic else 1.0,
+        factor=_or(joint.mimic and joint.mimic.multiplier, 1.0),
+        offset=_or(joint.mimic and joint.mimic.offset, 0.0),
         axis=np.array(joint.axis if joint.axis is not None else (1.0, 0.0, 0.0), dtype=float),
         is_prismatic=joint.type == "prismatic",
         visuals=visuals,
     )
+
+
+def _or(number: float | None, default: float) -> float:
+    return default if number is None else float(number)
 
 
 def _pose(matrix: FloatArray | None) -> Pose3:

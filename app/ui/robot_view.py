@@ -5,7 +5,7 @@ import viser
 from app.ui.colours import Palette, Rgb
 from app.ui.lighting import paint
 from app.ui.robot_model import Link, load_robot_model
-from app.ui.rotation import product, turn, yaw
+from app.ui.rotation import yaw
 from planner.geometry.pose import Pose2
 from planner.robots.card import RobotCard
 
@@ -52,7 +52,7 @@ class RobotView:
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
         for link_name, mesh in self._painted:
-            mesh.color = paint(_colour(link_name, palette))
+            mesh.color = paint(link_colour(link_name, palette))
 
     def pose(self, base: Pose2, joints: dict[str, float]) -> None:
         """Set the base's pose (table frame) and the joints (rad, m); ignore unknown names."""
@@ -64,7 +64,10 @@ class RobotView:
             if name in self._moved and self._shown.get(name) != value:
                 self._shown[name] = value
                 for link, handle in self._moved[name]:
-                    _move(link, handle, link.factor * value)
+                    if link.is_prismatic:
+                        handle.position = link.pose_at(value).position
+                    else:
+                        handle.wxyz = link.pose_at(value).wxyz
 
 
 def _add_link(server: viser.ViserServer, link: Link) -> tuple[viser.FrameHandle, list[viser.MeshHandle]]:
@@ -84,15 +87,8 @@ def _add_link(server: viser.ViserServer, link: Link) -> tuple[viser.FrameHandle,
     return handle, meshes
 
 
-def _move(link: Link, handle: viser.FrameHandle, value: float) -> None:
-    if link.is_prismatic:
-        x, y, z = (o + value * float(a) for o, a in zip(link.origin.position, link.axis, strict=True))
-        handle.position = (x, y, z)  # every sliding joint of a URDF we show has an unturned origin
-    else:
-        handle.wxyz = product(link.origin.wxyz, turn(link.axis, value))
-
-
-def _colour(link_name: str, palette: Palette) -> Rgb:
+def link_colour(link_name: str, palette: Palette) -> Rgb:
+    """Return the colour of a link, by its name."""
     if any(part in link_name for part in _DARK_PARTS):
         return palette.robot_dark
     if any(part in link_name for part in _GREY_PARTS):

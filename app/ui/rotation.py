@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Point3
 
 Quaternion: TypeAlias = tuple[float, float, float, float]
 
@@ -33,6 +33,13 @@ def product(first: Quaternion, second: Quaternion) -> Quaternion:
         a * g - b * h + c * e + d * f,
         a * h + b * g - c * f + d * e,
     )
+
+
+def rotated(rotation: Quaternion, point: Point3) -> Point3:
+    """Return a point after a rotation."""
+    w, x, y, z = rotation
+    _, *turned = product(product(rotation, (0.0, *point)), (w, -x, -y, -z))
+    return (turned[0], turned[1], turned[2])
 
 
 def from_matrix(matrix: FloatArray) -> Quaternion:

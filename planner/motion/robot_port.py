@@ -112,6 +112,10 @@ class Kinematics(Protocol):
         """Return the tool's positions in the base frame at each row of joints, shape (n, 3), m."""
         ...
 
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame at some joints."""
+        ...
+
 
 class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
     """A robot: its card, its reach, what its arms touch, and the joints that bring a tool to a pose."""

@@ -1,14 +1,18 @@
 """Plan files on the command line: written, shown, sampled, continued, exported."""
 
 import json
+import zipfile
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
+from app.files.export import no_plan
+from app.files.exports import EXPORTS
 from planner import Plan
 from planner.task.plan_files import read_plan
 from tests.app.test_cli import pleat
+from tests.small_plan import unsolved
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +81,10 @@ def test_a_plan_file_is_taken_where_a_garment_is(file: Path) -> None:
     assert again["cost_s"] == read_plan(file).cost_s
 
 
-@pytest.mark.parametrize("kind", ["garment.json", "garment.svg", "garment.fold", "plan.json", "plan.csv"])
+@pytest.mark.parametrize(
+    "kind",
+    ["garment.json", "garment.svg", "garment.fold", "plan.json", "plan.csv", "mcap", "poses-yaml", "glb", "sheet-svg"],
+)
 def test_a_plan_file_is_exported(file: Path, tmp_path: Path, kind: str) -> None:
     target = tmp_path / "out"
     assert pleat("export", str(file), "--to", kind, "--out", str(target)).exit_code == 0
@@ -87,10 +94,29 @@ def test_a_plan_file_is_exported(file: Path, tmp_path: Path, kind: str) -> None:
         assert Plan.from_dict(json.loads(data)) == read_plan(file)
 
 
+def test_a_folder_is_exported_as_one_or_zipped(file: Path, tmp_path: Path) -> None:
+    folder, archive = tmp_path / "new" / "bag", tmp_path / "bag.zip"
+    for target in (folder, archive):
+        assert pleat("export", str(file), "--to", "rosbag2", "--out", str(target)).exit_code == 0
+    assert sorted(path.name for path in folder.iterdir()) == ["metadata.yaml", "motion.db3"]
+    assert sorted(zipfile.ZipFile(archive).namelist()) == ["metadata.yaml", "motion.db3"]
+    again = pleat("export", str(file), "--to", "rosbag2", "--out", str(folder))
+    assert again.exit_code == 2 and str(folder) in again.stderr
+
+
+@pytest.mark.parametrize("kind", [export.what for export in EXPORTS if export.why_not is no_plan])
+def test_what_needs_a_plan_is_refused_without_one(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "no.plan.json"
+    path.write_text(json.dumps(unsolved().to_dict()))
+    result = pleat("export", str(path), "--to", kind, "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2 and "no plan" in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_kinds_of_exports_are_listed() -> None:
     listed = pleat("export", "--list")
     assert listed.exit_code == 0
-    assert "recording.html" in listed.stdout and "plan.csv" in listed.stdout
+    assert all(export.what in listed.stdout for export in EXPORTS)
 
 
 @pytest.mark.parametrize(
@@ -103,6 +129,8 @@ def test_kinds_of_exports_are_listed() -> None:
         (("timeline", "FILE", "--rate-hz", "0"), "--rate-hz"),
         (("export", "FILE", "--to", "gcode"), "--to"),
         (("export", "FILE"), "--to"),
+        (("export", "FILE", "--to", "mcap", "--out", "/nowhere/towel.mcap"), "/nowhere/towel.mcap"),
+        (("export", "FILE", "--to", "rosbag2", "--out", "/proc/bag"), "/proc/bag"),
     ],
 )
 def test_bad_usage_is_told_with_status_2(file: Path, arguments: tuple[str, ...], told: str) -> None:

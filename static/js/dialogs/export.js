@@ -8,7 +8,7 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 /** @import { Store } from "../store.js" */
 
 /** Files that take a while to be made. */
-const SLOW = new Set(["recording.html"]);
+const SLOW = new Set(["recording.html", "mcap", "rosbag2", "glb", "lerobot"]);
 
 /** @param {import("../store.js").Store} store */
 export async function showExport(store) {
@@ -92,7 +92,7 @@ function verb(url, file, said, signal) {
  */
 async function record(pressed, url, file, said, signal) {
   pressed.disabled = true;
-  said.textContent = "Being recorded...";
+  said.textContent = "Being made...";
   try {
     const answer = await fetch(url, { signal });
     if (!answer.ok) throw new Error(sentenceOf(await answer.json()));

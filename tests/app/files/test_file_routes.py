@@ -20,6 +20,11 @@ FILES = [
     "sheet.pdf",
     "sheet.svg",
     "recording.html",
+    "mcap",
+    "rosbag2",
+    "poses.json",
+    "poses.yaml",
+    "glb",
 ]
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'

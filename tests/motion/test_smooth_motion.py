@@ -1,0 +1,92 @@
+"""A smooth motion goes through the plan's keyframes, keeps its limits, and rests between steps."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from planner.errors import UnsolvedPlanError
+from planner.motion.motion_limits import RISE_S, MotionLimits
+from planner.motion.smooth_motion import SmoothStep, smooth_steps
+from tests.small_plan import CARD, one_armed, small_plan, unsolved
+
+PLAN = small_plan()
+LIMITS = MotionLimits.of(CARD, PLAN.scene)
+STEPS = list(smooth_steps(PLAN, LIMITS))
+PATH = PLAN.trajectory
+JOINTS = slice(0, len(PATH.arms.names)) if PATH else slice(0)
+BETWEEN = 5e-3
+"""The share by which limits may be exceeded between the points where they are solved for."""
+
+each_step = pytest.mark.parametrize("step", STEPS, ids=lambda step: f"step {step.number}")
+
+
+@each_step
+def test_speeds_and_accelerations_stay_within_their_limits(step: SmoothStep):
+    times = step.times_s(1000.0)
+    values, gap = step.at(times), times[1]
+    speeds = np.abs(np.diff(values, axis=0) / gap)
+    accelerations = np.abs(np.diff(values, 2, axis=0) / gap**2)
+    assert np.all(speeds <= LIMITS.speeds * (1.0 + BETWEEN))
+    assert np.all(accelerations <= LIMITS.accelerations * (1.0 + BETWEEN))
+    assert accelerations.max() > 0.0
+
+
+@each_step
+def test_what_is_told_as_velocity_and_acceleration_are_the_derivatives(step: SmoothStep):
+    times = np.linspace(0.1, step.duration_s - 0.1, 50)
+    for order in (1, 2):
+        slope = (step.at(times + 1e-5, order - 1) - step.at(times - 1e-5, order - 1)) / 2e-5
+        assert np.median(np.abs(slope - step.at(times, order))) < 1e-6
+        assert np.abs(slope - step.at(times, order)).max() < 0.05
+
+
+@each_step
+def test_a_step_begins_and_ends_at_rest_where_the_plan_does(step: SmoothStep):
+    ends = np.array([0.0, step.duration_s])
+    assert np.abs(step.at(ends, 1)).max() < 1e-9
+    planned = PLAN.steps[step.number]
+    np.testing.assert_allclose(step.plan_s(ends), [planned.start_s, planned.end_s], atol=1e-9)
+
+
+@each_step
+def test_every_keyframe_of_the_arms_is_passed_exactly(step: SmoothStep):
+    assert PATH is not None
+    planned = PLAN.steps[step.number]
+    keyframes = [t for t in PATH.arms.times_s if planned.start_s < t < planned.end_s]
+    for keyframe in keyframes[:: max(len(keyframes) // 20, 1)]:
+        found = brentq(lambda t, k=keyframe: step.plan_s(np.array([t]))[0] - k, 0.0, step.duration_s, xtol=1e-12)
+        np.testing.assert_allclose(step.at(np.array([found]))[0, JOINTS], PATH.arms.at(keyframe), atol=1e-6)
+
+
+@each_step
+def test_between_keyframes_it_is_as_near_to_the_plan_as_it_says(step: SmoothStep):
+    assert PATH is not None
+    times = step.times_s(200.0)
+    planned = np.array([PATH.arms.at(t) for t in step.plan_s(times).tolist()])
+    off = np.abs(step.at(times)[:, JOINTS] - planned).max()
+    assert off <= 1.1 * step.deviation < 0.03
+
+
+def test_it_is_nowhere_quicker_than_the_plan_and_steps_follow_each_other():
+    for step, planned in zip(STEPS, PLAN.steps, strict=True):
+        assert step.duration_s >= planned.duration_s - 1e-9
+        assert np.all(np.diff(step.plan_s(step.times_s(100.0))) <= 1.0 / 100.0 + 1e-9)
+    assert STEPS[1].start_s == pytest.approx(STEPS[0].duration_s)
+
+
+def test_a_robot_with_one_arm_has_a_motion_too():
+    plan, card = one_armed()
+    limits = MotionLimits.of(card, plan.scene)
+    assert limits.names == (*card.arms[0].joint_names, card.arms[0].gripper.joint_name, *LIMITS.names[-3:])
+    first = next(smooth_steps(plan, limits))
+    assert first.at(np.zeros(1)).shape == (1, len(limits.names))
+
+
+def test_where_a_card_gives_no_acceleration_it_follows_from_the_speed():
+    arm = CARD.arms[0]
+    np.testing.assert_allclose(LIMITS.accelerations[: len(arm.joint_names)] * RISE_S, arm.speeds_rad_s)
+
+
+def test_without_a_plan_there_is_no_motion():
+    with pytest.raises(UnsolvedPlanError):
+        next(smooth_steps(unsolved(), LIMITS))

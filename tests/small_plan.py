@@ -1,0 +1,35 @@
+"""One small plan for all tests of what is made of plans: both arms, a blue fold with a drive, a red one."""
+
+from dataclasses import replace
+from functools import cache
+
+from planner import Plan, load_garment, make_plan
+from planner.robots.card import RobotCard
+from planner.robots.load_robot import load_robot
+
+CARD = load_robot("pr2").card
+
+
+@cache
+def small_plan() -> Plan:
+    """Return the plan, made once in a process."""
+    plan = make_plan(load_garment("letter-towel"), time_limit_s=60.0)
+    assert plan.is_solved
+    return plan
+
+
+def one_armed() -> tuple[Plan, RobotCard]:
+    """Return the motion of its first arm alone, as of a robot that has no other, no lift and a base that is fixed."""
+    plan, arm = small_plan(), CARD.arms[0]
+    assert plan.trajectory is not None
+    path = plan.trajectory
+    count = len(arm.joint_names)
+    rows = tuple(row[:count] for row in path.arms.positions)
+    arms = replace(path.arms, names=arm.joint_names, positions=rows)
+    card = replace(CARD, arms=(arm,), lift_joint=None, base_kind="fixed")
+    return replace(plan, trajectory=replace(path, arms=arms, grippers=path.grippers[:1])), card
+
+
+def unsolved() -> Plan:
+    """Return a plan of the same task that is none."""
+    return replace(small_plan(), status="infeasible", steps=(), trajectory=None)
