@@ -6,14 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.robots.card import RobotCard
+from planner.robots.card import ArmCard, RobotCard
 from planner.task.scene import Scene
 
 RISE_S = 0.25
 """The time in which a joint comes to its top speed, where a card gives no acceleration (s); the URDF never does."""
-
-BASE_ACCELERATION_M_S2 = 0.5
-"""The base's acceleration (m/s2)."""
 
 BASE_TURN_ACCELERATION_RAD_S2 = 1.0
 """The base's angular acceleration (rad/s2)."""
@@ -42,17 +39,15 @@ class MotionLimits:
 
         The base's acceleration bounds the length of its vector, so each axis has its share.
         """
-        joints = [*(name for arm in card.arms for name in arm.joint_names), *(a.gripper.joint_name for a in card.arms)]
-        speeds = [
-            *(speed for arm in card.arms for speed in arm.speeds_rad_s),
-            *(a.gripper.speed_rad_s for a in card.arms),
-        ]
-        base_speeds = [scene.base_speed_m_s, scene.base_speed_m_s, scene.base_turn_rad_s]
-        axis = BASE_ACCELERATION_M_S2 / math.sqrt(2.0)
+        grippers = [arm.gripper for arm in card.arms]
+        joints = [name for arm in card.arms for name in arm.joint_names] + [hand.joint_name for hand in grippers]
+        speeds = [speed for arm in card.arms for speed in arm.speeds_rad_s] + [hand.speed for hand in grippers]
+        hard = [own for arm in card.arms for own in _accelerations(arm)] + [hand.speed / RISE_S for hand in grippers]
+        axis = card.base_acceleration_m_s2 / math.sqrt(2.0)
         return MotionLimits(
             (*joints, *BASE_NAMES),
-            np.array([*speeds, *base_speeds]),
-            np.array([*(speed / RISE_S for speed in speeds), axis, axis, BASE_TURN_ACCELERATION_RAD_S2]),
+            np.array([*speeds, scene.base_speed_m_s, scene.base_speed_m_s, scene.base_turn_rad_s]),
+            np.array([*hard, axis, axis, BASE_TURN_ACCELERATION_RAD_S2]),
         )
 
     def excess(self, velocities: FloatArray, accelerations: FloatArray) -> float:
@@ -60,3 +55,7 @@ class MotionLimits:
         fast = float((np.abs(velocities) / self.speeds).max(initial=1.0))
         hard = float((np.abs(accelerations) / self.accelerations).max(initial=1.0))
         return max(fast, math.sqrt(hard))
+
+
+def _accelerations(arm: ArmCard) -> tuple[float, ...]:
+    return arm.accelerations or tuple(speed / RISE_S for speed in arm.speeds_rad_s)

@@ -27,6 +27,11 @@ class GripperCard(Protocol):
         """A finger's width across the closing direction (m)."""
         ...
 
+    @property
+    def speed(self) -> float:
+        """The top speed of the driven joint (rad/s, m/s)."""
+        ...
+
     def angle(self, opening_m: float) -> float:
         """Return the driven joint (rad, m) at which the fingers are an opening apart (m), within 0..opening_max_m."""
         ...
@@ -76,7 +81,7 @@ class ParallelogramGripper:
         link_y_m: how far it is to the side of the driven hinge (m).
         opening_max_m: the widest opening (m).
         finger_width_m: a finger's width across the closing direction (m).
-        speed_rad_s: the top speed of the driven joint (rad/s).
+        speed: the top speed of the driven joint (rad/s).
     """
 
     joint_name: str
@@ -84,7 +89,7 @@ class ParallelogramGripper:
     link_y_m: float
     opening_max_m: float
     finger_width_m: float
-    speed_rad_s: float
+    speed: float
 
     def angle(self, opening_m: float) -> float:
         """Return the driven joint (rad) at which the fingers are an opening apart (m), clipped to 0..opening_max_m.
@@ -102,7 +107,7 @@ class ParallelogramGripper:
         Per metre the driven joint turns most where the fingers are widest apart.
         """
         ahead = math.sqrt(self.link_x_m**2 + self.link_y_m**2 - (0.5 * wide_m + self.link_y_m) ** 2)
-        return 0.5 * (wide_m - narrow_m) / ahead / self.speed_rad_s
+        return 0.5 * (wide_m - narrow_m) / ahead / self.speed
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +124,7 @@ class ArmCard:
         gripper: its gripper.
         lifting: the joints that raise its elbow and hand: as at home they take an empty hand high above a table.
         is_mirrored: whether it is built as the mirror image of an arm on the left: its hand then rolls the other way.
+        accelerations: its joints' top accelerations (rad/s2, m/s2); None where nobody has said.
     """
 
     name: str
@@ -130,6 +136,7 @@ class ArmCard:
     gripper: GripperCard
     lifting: tuple[str, ...] = ()
     is_mirrored: bool = False
+    accelerations: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,6 +156,7 @@ class RobotCard:
         urdf_path: the robot's description.
         package_dir: the directory to which its ``package://`` addresses are relative.
         eye_frame: the URDF frame of its eyes; None without a head.
+        base_acceleration_m_s2: the base's top acceleration.
     """
 
     name: str
@@ -163,6 +171,7 @@ class RobotCard:
     urdf_path: Path
     package_dir: Path
     eye_frame: str | None = None
+    base_acceleration_m_s2: float = 0.5
 
     @property
     def is_fixed(self) -> bool:

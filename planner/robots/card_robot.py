@@ -76,3 +76,8 @@ class CardRobot:
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
         """Return the tool's positions in the base frame for rows of joints, shape (n, joints) -> (n, 3), m."""
         return self._arms[arm].tool_poses(joints, float(torso_m))[0]
+
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame at some joints."""
+        positions, rotations = self._arms[arm].tool_poses(joints[None], float(torso_m))
+        return positions[0], rotations[0]

@@ -36,6 +36,7 @@ def robot_card(robot: DescribedRobot) -> RobotCard:
         resting=tuple(_resting(fromstring(robot.urdf), moved, dict(card.resting))),
         urdf_path=path,
         package_dir=path.parent,
+        base_acceleration_m_s2=card.base.acceleration_m_s2,
     )
 
 
@@ -51,6 +52,7 @@ def _arm_card(model: pin.Model, arm: ArmFile) -> ArmCard:
         home=arm.home,
         gripper=_gripper_card(model, arm.gripper),
         lifting=arm.lifting,
+        accelerations=arm.accelerations,
     )
 
 

@@ -65,5 +65,5 @@ def _gripper_card(model: pin.Model, prefix: str) -> ParallelogramGripper:
         link_y_m=float(hinge[1]),
         opening_max_m=0.09,
         finger_width_m=0.022,
-        speed_rad_s=float(model.velocityLimit[finger.idx_v]),
+        speed=float(model.velocityLimit[finger.idx_v]),
     )
