@@ -112,7 +112,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
 @njit(cache=True, nogil=True)
 def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
     """Return whether the left arm's parts are certainly apart from what they are compared with."""
-    corners, spans, bounds = room.parts
+    corners, spans, bounds, _ = room.parts
     pose_arm(shape, room.lift, joints, 1.0, room.poses[:EACH])
     set_middles(bounds[:EACH], room.poses[:EACH])
     return first_close_pair(corners, spans, bounds, room.poses, room.pairs, 0, room.margin) < 0
@@ -128,10 +128,11 @@ def _level(aim: ToolPose, rotation: FloatArray) -> None:
     rotation[0, 2], rotation[1, 2], rotation[2, 2] = -cos * aim.az, -sin * aim.az, flat
 
 
-def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
+def room_beside(shape: ArmShape, robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
     """Return the room that the body, and the right arm at home, leave the left arm.
 
     Args:
+        shape: the left arm.
         robot: the robot's parts.
         torso_m: how far the torso is raised (m).
         home: the right arm's joints (rad), shape (7,).
@@ -140,7 +141,7 @@ def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
     poses = np.zeros((len(parts.bounds), 5, 3))
     poses[2 * EACH :, : PLACE + 1] = robot.body_poses
     poses[2 * EACH + 1 :, PLACE, 2] += torso_m
-    pose_arm(robot.arm, torso_m, home, -1.0, poses[EACH : 2 * EACH])
+    pose_arm(shape, torso_m, home, -1.0, poses[EACH : 2 * EACH])
     set_middles(parts.bounds, poses)
     others = (EACH + part for part in (SHOULDER, SHOULDER_LIFT, UPPER_ARM))
     body = (2 * EACH + part for part in (BASE, TORSO))
@@ -150,5 +151,6 @@ def room_beside(robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
 
 def no_walls() -> Room:
     """Return a room without obstacles."""
-    nothing = Parts(np.empty((0, 3)), np.empty((0, 2), dtype=np.int64), np.empty((0, 8)))
+    corners, bounds = np.empty((0, 3)), np.empty((0, 8))
+    nothing = Parts(corners, np.empty((0, 3), dtype=np.int64), bounds, np.empty((0, 4), dtype=np.int64))
     return Room(0.0, nothing, np.empty((0, 5, 3)), np.empty((0, 2), dtype=np.int64), 0.0, empty_memory(1))

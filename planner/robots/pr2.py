@@ -14,7 +14,8 @@ from planner.robots.arm_path import ArmSearch
 from planner.robots.arm_paths import Together, arm_paths
 from planner.robots.card import RobotCard
 from planner.robots.collision.collisions import OPENING_M, Collisions
-from planner.robots.collision.robot_parts import RobotParts, robot_parts
+from planner.robots.collision.pr2_parts import pr2_parts
+from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.comfort_memories import Memories
 from planner.robots.description import read_model
 from planner.robots.posture_room import Room, room_beside
@@ -76,7 +77,7 @@ class Pr2:
     def _room(self, torso_m: float) -> Room:
         """Return the room that the body leaves an arm; cached, because every plan needs it."""
         if torso_m not in self._rooms:
-            self._rooms = {torso_m: room_beside(self._parts, torso_m, self.home(1))}
+            self._rooms = {torso_m: room_beside(self._arms[0].shape, self._parts, torso_m, self.home(1))}
         return self._rooms[torso_m]
 
     def collisions(
@@ -95,7 +96,7 @@ class Pr2:
     @cached_property
     def _parts(self) -> RobotParts:
         """The parts that may collide; 15 ms the first time, a second where the cache of shapes is empty."""
-        return robot_parts(self._model, self._card)
+        return pr2_parts(self._model, self._card)
 
     def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
         """Return which tool poses an arm can take with every joint within its limits, shape (n,).

@@ -67,7 +67,7 @@ def read_urdf(source: Source, field: str) -> Element:
     if source.path.stat().st_size > URDF_BYTES_MAX:
         raise RobotError(field, f"the URDF is larger than {URDF_BYTES_MAX // 1_000_000} MB")
     try:
-        robot = _parsed(source.path.read_bytes())
+        robot = parsed(source.path.read_bytes())
     except expat.ExpatError as error:
         raise RobotError(field, f"{source.path.name} is no XML: {error}") from None
     except _RefusedError as error:
@@ -85,8 +85,8 @@ class _RefusedError(Exception):
     """A document that is not read."""
 
 
-def _parsed(data: bytes) -> Element:
-    """Return the root element of a document; names are taken as they stand, since URDFs use undeclared prefixes."""
+def parsed(data: bytes) -> Element:
+    """Return the root element of a URDF; names are taken as they stand, since URDFs use undeclared prefixes."""
     builder, parser = TreeBuilder(), expat.ParserCreate()
     count = depth = 0
 

@@ -11,7 +11,7 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.robots.collision.part_poses import EACH, PLACE, pose_arm
 from planner.robots.collision.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
 from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
-from planner.robots.collision.robot_parts import robot_parts
+from planner.robots.collision.pr2_parts import pr2_parts
 from planner.robots.collision.rounded_hull import RoundedHull, prism, rounded_hull
 from tests.replay import hulls
 from tests.robots.collision_samples import CARD, random_postures
@@ -29,7 +29,7 @@ def cache(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def parts(cache):
-    return robot_parts(MODEL, CARD, cache)
+    return pr2_parts(MODEL, CARD, cache)
 
 
 def part_of(link: str) -> int | None:
@@ -48,7 +48,7 @@ def part_of(link: str) -> int | None:
 def part_poses(parts, torso_m, posture):
     poses = np.zeros((2 * EACH + len(BODY_PARTS), 5, 3))
     for arm in (0, 1):
-        pose_arm(parts.arm, torso_m, posture[arm], 1.0 - 2.0 * arm, poses[EACH * arm : EACH * (arm + 1)])
+        pose_arm(parts.kinematics, torso_m, posture[arm], 1.0 - 2.0 * arm, poses[EACH * arm : EACH * (arm + 1)])
     poses[2 * EACH :, : PLACE + 1] = parts.body_poses
     poses[2 * EACH + 1 :, PLACE, 2] += torso_m
     return poses

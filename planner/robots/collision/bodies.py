@@ -12,8 +12,8 @@ import coal
 import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
-from planner.robots.arm import ArmShape
-from planner.robots.collision.part_poses import EACH, PLACE, Index
+from planner.robots.collision.arm_kinematics import ArmKinematics
+from planner.robots.collision.part_poses import PLACE, Index
 from planner.robots.collision.separation import ROUNDING, Parts, first_close
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
@@ -33,22 +33,24 @@ class Pairs(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bodies:
-    """The parts of both arms, left before right, then the rest of the robot, then the parts of the table.
+    """The parts of all arms, arm after arm, then the rest of the robot, then the parts of the table.
 
     Attributes:
-        arm: the left arm.
-        torso_m: how far the torso is raised (m).
+        kinematics: what poses the arms' parts.
+        torso_m: how far the lift is raised (m).
         parts: all bodies.
         shapes: the same bodies as coal shapes, without their roundings.
+        is_mirrored: which of the robot's parts have left-handed frames.
         poses: the poses of the robot's static parts, shape (p, 5, 3).
         places: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
             shape (t, 3).
     """
 
-    arm: ArmShape
+    kinematics: ArmKinematics
     torso_m: float
     parts: Parts
     shapes: Sequence[coal.CollisionGeometry]
+    is_mirrored: BoolArray
     poses: FloatArray
     places: FloatArray
 
@@ -60,8 +62,8 @@ class Bodies:
         Args:
             pairs: the pairs to compare.
             bases: the base poses, see `rows`.
-            joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
-            arms: those arms, 0 for the left and 1 for the right, shape (k,).
+            joints: for each posture the joints of the arms considered, one arm after the other (rad, m), shape (n, q).
+            arms: those arms, shape (k,).
             is_certain: accept only postures that the compiled pass proves free; faster, but misses some free ones.
         """
         if is_certain:
@@ -93,7 +95,7 @@ class Bodies:
     ) -> tuple[Index, FloatArray]:
         """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
         return first_close(
-            self.arm,
+            self.kinematics,
             self.torso_m,
             self.parts,
             self.poses.copy(),
@@ -127,7 +129,12 @@ class Bodies:
         self, pairs: Pairs, pair: int, poses: FloatArray
     ) -> tuple[coal.CollisionGeometry, coal.Transform3s, coal.CollisionGeometry, coal.Transform3s]:
         a, b = pairs.numbers[pair].tolist()
-        return self.shapes[a], _transform(a, poses[0]), self.shapes[b], _transform(b, poses[1])
+        return self.shapes[a], self._transform(a, poses[0]), self.shapes[b], self._transform(b, poses[1])
+
+    def _transform(self, part: int, pose: FloatArray) -> coal.Transform3s:
+        """Return a body's pose for coal, with left-handed frames made right-handed."""
+        is_mirrored = part < len(self.is_mirrored) and self.is_mirrored[part]
+        return coal.Transform3s(pose[:PLACE] * _MIRROR if is_mirrored else pose[:PLACE], pose[PLACE])
 
 
 def rows(bases: Pose2 | FloatArray) -> FloatArray:
@@ -135,9 +142,3 @@ def rows(bases: Pose2 | FloatArray) -> FloatArray:
     if isinstance(bases, Pose2):
         return np.array([[bases.x_m, bases.y_m, bases.yaw_rad]])
     return np.ascontiguousarray(bases, dtype=np.float64)
-
-
-def _transform(part: int, pose: FloatArray) -> coal.Transform3s:
-    """Return a body's pose for coal, with the left-handed frames of the right arm made right-handed."""
-    rotation = pose[:PLACE] * _MIRROR if EACH <= part < 2 * EACH else pose[:PLACE]
-    return coal.Transform3s(rotation, pose[PLACE])

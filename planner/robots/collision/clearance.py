@@ -1,7 +1,7 @@
 """Check that free arms keep clear of the cloth on the table.
 
 Cloth is soft, but a hand that passes low over it sweeps it along. The cloth is therefore modelled as slabs of a given
-height, and compared with the parts of an arm that may come low: those from the elbow outwards.
+height, and compared with the parts of an arm that may come low.
 """
 
 from collections.abc import Sequence
@@ -11,8 +11,6 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.robots.collision.bodies import Bodies, Pairs
-from planner.robots.collision.part_poses import EACH
-from planner.robots.collision.parts import ELBOW
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
 from planner.robots.collision.rounded_hull import prism
 
@@ -33,35 +31,36 @@ class Clearance:
 
         Args:
             robot: the robot's parts.
-            level: the index in `OPENINGS_M` of the fingers' opening.
+            level: the index in the robot's openings of the fingers' opening.
             pieces: convex pieces of cloth, table frame, counter-clockwise, each of shape (n, 2), m.
             over_m: the height over the cloth that arms must keep (m).
             height_m: the table top's height over the floor (m).
-            torso_m: how far the torso is raised (m).
+            torso_m: how far the lift is raised (m).
         """
         slabs = [prism(piece, over_m) for piece in pieces]
         shapes = (*robot.convexes[level], *(slab.convex() for slab in slabs))
         parts = compiled_parts(robot, level, [slab.corners for slab in slabs])
         poses, places = np.zeros((len(shapes), 5, 3)), np.tile([0.0, 0.0, height_m], (len(slabs), 1))
-        self._bodies = Bodies(robot.arm, torso_m, parts, shapes, poses, places)
-        self._of_arm = tuple(_pairs(arm, range(len(robot.names), len(shapes))) for arm in range(2))
+        self._bodies = Bodies(robot.kinematics, torso_m, parts, shapes, robot.is_mirrored, poses, places)
+        slab_numbers = range(len(robot.names), len(shapes))
+        low = [range(first, robot.of_arm(arm).stop) for arm, first in enumerate(robot.low_parts)]
+        self._of_arm = tuple(_pairs(parts_of_arm, slab_numbers) for parts_of_arm in low)
 
     def arm_clear(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """Return at which joints of one arm, shape (n, 7), it is clear of all cloth, shape (n,).
+        """Return at which joints of one arm, shape (n, joints), it is clear of all cloth, shape (n,).
 
         Args:
             arm: the arm's index.
             bases: the base pose in the table frame: one for all postures, or x (m), y (m), yaw (rad) of each.
-            joints: the arm's joints (rad).
+            joints: the arm's joints (rad, m).
             is_certain: accept only postures that are proved clear; faster, but misses some clear ones.
         """
-        return self._bodies.are_free(self._of_arm[arm], bases, joints[:, None], np.array([arm]), is_certain)
+        return self._bodies.are_free(self._of_arm[arm], bases, joints, np.array([arm]), is_certain)
 
 
-def _pairs(arm: int, slabs: range) -> Pairs:
-    """Return the pairs of an arm's outer parts with all slabs, the likeliest to be low first."""
-    parts = range(EACH * arm + ELBOW, EACH * (arm + 1))
+def _pairs(parts: range, slabs: range) -> Pairs:
+    """Return the pairs of some parts of an arm with all slabs, the likeliest to be low first."""
     numbers = np.array([*product(reversed(parts), slabs)], dtype=np.int64).reshape(-1, 2)
     return Pairs(numbers, np.zeros(len(numbers)))

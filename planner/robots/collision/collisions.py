@@ -7,9 +7,10 @@ Fingertips may come arbitrarily close to the table's top, where the cloth they g
 obstacle here; `over_cloth` checks how free arms keep clear of it.
 """
 
+import math
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import product
+from collections.abc import Iterable, Sequence
+from itertools import combinations, product
 
 import coal
 import numpy as np
@@ -17,33 +18,25 @@ import numpy as np
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_parts import table_parts
-from planner.robots.arm import MIRROR
 from planner.robots.collision.bodies import Bodies, Pairs, rows
 from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.contact import Contact
-from planner.robots.collision.part_poses import EACH, PLACE, set_middles
-from planner.robots.collision.part_shapes import OPENINGS_M
-from planner.robots.collision.parts import BODY_PARTS, FINGERTIPS, pairs_in_arm, pairs_with_body
+from planner.robots.collision.part_poses import PLACE, set_middles
 from planner.robots.collision.posture_pairs import postures_apart
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
 
 OPENING_M = 0.06
 """Default upper limit of the fingers' opening (m)."""
 
-_BODY = 2 * EACH
-_TABLE = _BODY + len(BODY_PARTS)
-_TOP = 0
-_BOTH = np.array([0, 1])
-_LEFT = np.array([0])
-_NEITHER = np.empty(0, dtype=np.int64)
 _ORIGIN = Pose2(0.0, 0.0, 0.0)
 
 
 class Collisions:
-    """Collision checks at one table, with the torso at one height. Threads may share it.
+    """Collision checks at one table, with the lift at one height. Threads may share it.
 
     Bases are poses of the robot's base in the table frame: one for all postures, or for each its x (m), y (m) and yaw
-    (rad), shape (n, 3). Joints are in rad; those of both arms are one row, the left arm's first, shape (n, 14).
+    (rad), shape (n, 3). Joints are in rad, or m where they slide; those of all arms are one row, one arm after the
+    other.
     """
 
     def __init__(
@@ -54,13 +47,13 @@ class Collisions:
         Args:
             robot: the robot's parts.
             table: the table.
-            torso_m: how far the torso is raised (m).
+            torso_m: how far the lift is raised (m).
             opening_m: the largest opening of the fingers, which may be anywhere from closed to it (m); rounded up to
-                the next of `OPENINGS_M`.
+                the next for which there are shapes.
             margin_m: the distance below which parts count as colliding (m).
         """
         of_table = table_parts(table)
-        level = min(bisect_left(OPENINGS_M, opening_m), len(OPENINGS_M) - 1)
+        level = min(bisect_left(robot.openings_m, opening_m), len(robot.openings_m) - 1)
         self._robot, self._level, self._margin_m, self._height_m = robot, level, float(margin_m), table.height_m
         self._names = (*robot.names, *(part.name for part in of_table))
         corner_signs = np.array([*product((-0.5, 0.5), repeat=3)])
@@ -69,21 +62,34 @@ class Collisions:
         places = np.array([part.center for part in of_table])
         places[:, 2] += table.height_m
         poses = np.zeros((len(self._names), 5, 3))
-        poses[_BODY:_TABLE, : PLACE + 1] = robot.body_poses
-        poses[_BODY + 1 : _TABLE, PLACE, 2] += float(torso_m)
-        set_middles(parts.bounds[_BODY:_TABLE], poses[_BODY:_TABLE])
-        self._bodies = Bodies(robot.arm, float(torso_m), parts, shapes, poses, places)
-        tables = range(_TABLE, len(self._names))
-        self._of_body = self._pairs(product(range(_BODY, _TABLE), tables))
-        self._of_arm = tuple(self._pairs(_arm_pairs(arm, tables)) for arm in _BOTH)
-        self._of_arms = self._pairs(product(reversed(range(EACH)), reversed(range(EACH, _BODY))))
-        every = (self._of_body, *self._of_arm, self._of_arms)
-        self._all = Pairs(np.vstack([p.numbers for p in every]), np.concatenate([p.margins for p in every]))
+        body = poses[robot.body.start : robot.body.stop]
+        body[:, : PLACE + 1] = robot.body_poses
+        body[robot.is_lifted, PLACE, 2] += float(torso_m)
+        set_middles(parts.bounds[robot.body.start : robot.body.stop], body)
+        self._bodies = Bodies(robot.kinematics, float(torso_m), parts, shapes, robot.is_mirrored, poses, places)
+        self._every_arm = tuple(range(len(robot.arms)))
+        tables = range(robot.body.stop, len(self._names))
+        self._top = tables[0]
+        self._of_body = self._pairs(() if robot.is_fixed else product(robot.body, tables))
+        self._of_arm = tuple(self._of_one(arm, tables) for arm in self._every_arm)
+        self._of_two = {pair: self._of_both(*pair) for pair in combinations(self._every_arm, 2)}
+        self._all = _together((self._of_body, *self._of_arm, *self._of_two.values()))
+
+    def _of_one(self, arm: int, tables: range) -> Pairs:
+        """Return pairs of an arm's parts with table, body and the arm itself, the likeliest to collide first."""
+        with_table = ((part, table) for table, part in product(tables, reversed(self._robot.of_arm(arm))))
+        return self._pairs((*with_table, *((a, b) for a, b in self._robot.own_pairs[arm].tolist())))
+
+    def _of_both(self, first: int, second: int) -> Pairs:
+        """Return pairs of the parts of two arms, the outermost first."""
+        pairs = product(*(reversed(self._robot.of_arm(arm)) for arm in (first, second)))
+        return self._pairs(pair for pair in pairs if pair not in self._robot.skipped)
 
     def _pairs(self, numbers: Iterable[tuple[int, int]]) -> Pairs:
         """Return pairs of parts with the distance that each must keep."""
-        found = np.array([*numbers])
-        is_tip_at_top = (found[:, 1] == _TABLE + _TOP) & (found[:, 0] % EACH == FINGERTIPS) & (found[:, 0] < _BODY)
+        found = np.array([*numbers], dtype=np.int64).reshape(-1, 2)
+        is_tip = np.append(self._robot.is_tip, np.zeros(len(self._names) - len(self._robot.names), dtype=np.bool_))
+        is_tip_at_top = (found[:, 1] == self._top) & is_tip[found[:, 0]]
         return Pairs(found, np.where(is_tip_at_top, 0.0, self._margin_m))
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:
@@ -91,60 +97,66 @@ class Collisions:
         return Clearance(self._robot, self._level, pieces, over_m, self._height_m, self._bodies.torso_m)
 
     def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """Return in which postures of both arms nothing collides, shape (n,)."""
-        return self._bodies.are_free(self._all, bases, _by_arm(joints), _BOTH)
+        """Return in which postures of all arms nothing collides, shape (n,)."""
+        return self._bodies.are_free(self._all, bases, _rows(joints), np.array(self._every_arm))
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Return whether nothing collides in any posture of both arms; faster than `free` where something does."""
-        return next(self._bodies.touching(self._all, bases, _by_arm(joints), _BOTH), None) is None
+        """Return whether nothing collides in any posture of all arms; faster than `free` where something does."""
+        return next(self._bodies.touching(self._all, bases, _rows(joints), np.array(self._every_arm)), None) is None
 
     def arm_free(
         self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
     ) -> BoolArray:
-        """Return in which postures, shape (n, 7), an arm is clear of body, table and itself, shape (n,).
+        """Return in which postures, shape (n, joints), an arm is clear of body, table and itself, shape (n,).
 
         With `is_certain`, accept only postures proved free: this takes a third of the time and misses 0.5 % of the free
         ones.
         """
-        # The right arm's query is mirrored to the left arm, so that certain answers agree on both sides.
-        side = 1.0 if arm == 0 else -1.0
-        stands = rows(bases) * np.array([1.0, side, side])
-        named = joints if arm == 0 else joints * MIRROR
-        return self._bodies.are_free(self._of_arm[0], stands, named[:, None], _LEFT, is_certain)
+        if arm == 1 and self._robot.mirror is not None:
+            # Mirrored to the left arm, so that certain answers agree on both sides.
+            return self.arm_free(
+                0, rows(bases) * np.array([1.0, -1.0, -1.0]), joints * self._robot.mirror, is_certain=is_certain
+            )
+        return self._bodies.are_free(self._of_arm[arm], bases, joints, np.array([arm]), is_certain)
 
     def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
         """Return in which postures of some arms these are clear of each other, shape (n,); see `arm_free`.
 
         An arm alone is.
         """
-        if len(arms) < len(_BOTH):
+        if len(arms) < 2:
             return np.ones(len(joints), dtype=np.bool_)
-        return self._bodies.are_free(self._of_arms, _ORIGIN, _by_arm(joints), _BOTH, is_certain)
+        pairs = self._of_two[arms] if len(arms) == 2 else _together(self._of_two[two] for two in combinations(arms, 2))
+        return self._bodies.are_free(pairs, _ORIGIN, _rows(joints), np.array(arms), is_certain)
 
-    def postures_apart(self, _arms: tuple[int, int], left: FloatArray, right: FloatArray) -> BoolArray:
-        """Return which postures of the left arm are certainly apart from which of the right, shape (k, l).
+    def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
+        """Return which postures of one arm are certainly apart from which of another, shape (k, l).
 
         Args:
-            _arms: the left and the right arm; there are no others.
-            left: joints of the left arm, shape (k, 7), with the tool in the same pose in all of them.
-            right: joints of the right arm, shape (l, 7), with the tool in the same pose in all of them.
+            arms: the two arms, in rising order.
+            first: joints of the first arm, shape (k, joints), with the tool in the same pose in all of them.
+            second: joints of the second arm, shape (l, joints), with the tool in the same pose in all of them.
         """
-        return self._postures_apart(left, right, is_one_enough=False)
+        return self._postures_apart(arms, (first, second), is_one_enough=False)
 
-    def are_some_apart(self, _arms: tuple[int, int], left: FloatArray, right: FloatArray) -> bool:
-        """Return whether some postures of the left and right arm are certainly apart; see `postures_apart`."""
-        return bool(self._postures_apart(left, right, is_one_enough=True).any())
+    def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
+        """Return whether some postures of two arms are certainly apart; see `postures_apart`."""
+        return bool(self._postures_apart(arms, (first, second), is_one_enough=True).any())
 
     def body_free(self, base_in_table: Pose2) -> bool:
-        """Return whether the base, torso and head, without the arms, stay clear of the table."""
-        return bool(self._bodies.are_free(self._of_body, base_in_table, np.empty((1, 0, 7)), _NEITHER)[0])
+        """Return whether the base, torso and head, without the arms, stay clear of the table.
+
+        A base that is fixed at the table does.
+        """
+        nothing = np.empty((1, 0)), np.empty(0, dtype=np.int64)
+        return bool(self._bodies.are_free(self._of_body, base_in_table, *nothing)[0])
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        """Return the deepest contact in one posture of both arms; None if nothing collides."""
-        base, start = rows(base_in_table), np.zeros(1, dtype=np.int64)
+        """Return the deepest contact in one posture of all arms; None if nothing collides."""
+        base, start, arms = rows(base_in_table), np.zeros(1, dtype=np.int64), np.array(self._every_arm)
         found: list[Contact] = []
         while True:
-            (pair,), (poses,) = self._bodies.first_close(self._all, base, _by_arm(joints), _BOTH, start)
+            (pair,), (poses,) = self._bodies.first_close(self._all, base, joints.reshape(1, -1), arms, start)
             if pair < 0:
                 return max(found, key=lambda contact: contact.depth_m, default=None)
             if (depth_m := self._bodies.depth_m(self._all, int(pair), poses)) >= 0.0:
@@ -152,21 +164,20 @@ class Collisions:
                 found.append(Contact(self._names[a], self._names[b], depth_m))
             start[0] = pair + 1
 
-    def _postures_apart(self, left: FloatArray, right: FloatArray, *, is_one_enough: bool) -> BoolArray:
-        bodies, pairs = self._bodies, self._of_arms.numbers
+    def _postures_apart(
+        self, arms: tuple[int, int], postures: tuple[FloatArray, FloatArray], *, is_one_enough: bool
+    ) -> BoolArray:
+        bodies, pairs = self._bodies, self._of_two[arms].numbers
         return postures_apart(
-            bodies.arm, bodies.torso_m, bodies.parts, left, right, pairs, self._margin_m, is_one_enough
+            bodies.kinematics, bodies.torso_m, bodies.parts, arms, postures, pairs, self._margin_m, is_one_enough
         )
 
 
-def _by_arm(joints: FloatArray) -> FloatArray:
-    """Return postures of both arms arm by arm, shape (n, 2, 7)."""
-    return joints.reshape(-1, len(_BOTH), len(MIRROR))
+def _rows(joints: FloatArray) -> FloatArray:
+    """Return postures of several arms as one row each, shape (n, joints)."""
+    return joints.reshape(len(joints), math.prod(joints.shape[1:]))
 
 
-def _arm_pairs(arm: int, tables: range) -> Iterator[tuple[int, int]]:
-    """Yield pairs of an arm's parts with the table, the body and the arm itself, the likeliest to collide first."""
-    low = EACH * arm
-    yield from ((low + part, table) for table, part in product(tables, reversed(range(EACH))))
-    yield from ((low + part, _BODY + body) for part, body in pairs_with_body())
-    yield from ((low + outer, low + inner) for outer, inner in pairs_in_arm())
+def _together(pairs: Iterable[Pairs]) -> Pairs:
+    found = tuple(pairs)
+    return Pairs(np.vstack([one.numbers for one in found]), np.concatenate([one.margins for one in found]))

@@ -1,4 +1,4 @@
-"""Find which postures of one arm are certainly apart from which of the other: compiled, for all pairs at once.
+"""Find which postures of one arm are certainly apart from which of another: compiled, for all pairs at once.
 
 The tool of each arm has the same pose in all postures, so the hands are compared only once. They come nearest to each
 other, and proving near parts separate takes longest.
@@ -8,10 +8,9 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.arm import ArmShape
-from planner.robots.collision.part_poses import EACH, Index, pose_arm, set_middles
-from planner.robots.collision.parts import PALM
-from planner.robots.collision.separation import Parts, first_close_pair
+from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
+from planner.robots.collision.part_poses import Index, set_middles
+from planner.robots.collision.separation import END, FIRST, HAND, Parts, first_close_pair
 
 _UNKNOWN = -1
 """Marks a posture that has not been compared with the other arm's hand yet."""
@@ -19,56 +18,60 @@ _UNKNOWN = -1
 
 @njit(cache=True, nogil=True)
 def postures_apart(
-    shape: ArmShape,
+    kinematics: ArmKinematics,
     lift_m: float,
     parts: Parts,
-    left: FloatArray,
-    right: FloatArray,
+    arms: tuple[int, int],
+    postures: tuple[FloatArray, FloatArray],
     pairs: Index,
     margin: float,
     is_one_enough: bool,
 ) -> BoolArray:
-    """Return which postures of the left arm are certainly apart from which of the right, shape (k, l).
+    """Return which postures of one arm are certainly apart from which of another, shape (k, l).
 
     Args:
-        shape: the left arm.
-        lift_m: how far the torso is raised (m).
+        kinematics: the arms.
+        lift_m: how far the lift is raised (m).
         parts: all parts.
-        left: joints of the left arm (rad), shape (k, 7), with the tool in the same pose in all of them.
-        right: joints of the right arm (rad), shape (l, 7), with the tool in the same pose in all of them.
-        pairs: numbers of the parts to be compared, the left arm's first, shape (q, 2).
+        arms: the two arms, in rising order.
+        postures: joints of each of them (rad, m), shapes (k, joints) and (l, joints), with the tool in the same pose in
+            all postures of an arm.
+        pairs: numbers of the parts to be compared, the first arm's first, shape (q, 2).
         margin: the distance that they should keep (m).
         is_one_enough: stop once two postures are found that are apart.
     """
-    corners, spans, bounds = parts
+    corners, spans, bounds, of_arms = parts
+    (a, b), (left, right) = arms, postures
     are_apart = np.zeros((len(left), len(right)), dtype=np.bool_)
     if are_apart.size == 0:
         return are_apart
-    is_left_hand, is_right_hand = pairs[:, 0] >= PALM, pairs[:, 1] >= EACH + PALM
-    lefts = _placed(shape, lift_m, bounds[:EACH], left, 1.0)
-    rights = _placed(shape, lift_m, bounds[EACH : 2 * EACH], right, -1.0)
-    both = np.concatenate((lefts[0], rights[0]))
+    is_left_hand, is_right_hand = pairs[:, 0] >= of_arms[a, HAND], pairs[:, 1] >= of_arms[b, HAND]
+    of_left, of_right = slice(of_arms[a, FIRST], of_arms[a, END]), slice(of_arms[b, FIRST], of_arms[b, END])
+    lefts = _placed(kinematics, lift_m, a, bounds[of_left], left)
+    rights = _placed(kinematics, lift_m, b, bounds[of_right], right)
+    both = np.zeros((of_arms[b, END], 5, 3))
+    both[of_left], both[of_right] = lefts[0], rights[0]
     if first_close_pair(corners, spans, bounds, both, pairs[is_left_hand & is_right_hand], 0, margin) >= 0:
         return are_apart
-    of_left, of_right = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
-    of_both = pairs[~is_left_hand & ~is_right_hand]
+    with_right, with_left = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
+    with_both = pairs[~is_left_hand & ~is_right_hand]
     left_clear, right_clear = np.full(len(left), _UNKNOWN), np.full(len(right), _UNKNOWN)
     last_left = last_right = last_both = 0
     for i in range(len(left)):
-        both[:EACH] = lefts[i]
+        both[of_left] = lefts[i]
         for j in range(len(right)):
-            both[EACH:] = rights[j]
+            both[of_right] = rights[j]
             if right_clear[j] == _UNKNOWN:
-                close = _close_pair(corners, spans, bounds, both, of_right, last_right, margin)
+                close = _close_pair(corners, spans, bounds, both, with_left, last_right, margin)
                 right_clear[j], last_right = close < 0, max(close, 0)
             if left_clear[i] == _UNKNOWN:
-                close = _close_pair(corners, spans, bounds, both, of_left, last_left, margin)
+                close = _close_pair(corners, spans, bounds, both, with_right, last_left, margin)
                 left_clear[i], last_left = close < 0, max(close, 0)
             if left_clear[i] == 0:
                 break
             if right_clear[j] == 0:
                 continue
-            close = _close_pair(corners, spans, bounds, both, of_both, last_both, margin)
+            close = _close_pair(corners, spans, bounds, both, with_both, last_both, margin)
             if close >= 0:
                 last_both = close
                 continue
@@ -92,10 +95,10 @@ def _close_pair(
 
 
 @njit(cache=True, nogil=True)
-def _placed(shape: ArmShape, lift_m: float, bounds: FloatArray, postures: FloatArray, side: float) -> FloatArray:
-    """Return the poses of an arm's parts in the given postures, shape (n, EACH, 5, 3)."""
-    poses = np.empty((len(postures), EACH, 5, 3))
+def _placed(kinematics: ArmKinematics, lift_m: float, arm: int, bounds: FloatArray, postures: FloatArray) -> FloatArray:
+    """Return the poses of an arm's parts in the given postures, shape (n, p, 5, 3)."""
+    poses = np.empty((len(postures), len(bounds), 5, 3))
     for i in range(len(postures)):
-        pose_arm(shape, lift_m, postures[i], side, poses[i])
+        pose_parts(kinematics, lift_m, arm, postures[i], poses[i])
         set_middles(bounds, poses[i])
     return poses

@@ -20,27 +20,37 @@ import numpy as np
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.robots.arm import ArmShape
-from planner.robots.collision.part_poses import EACH, MIDDLE, Index, pose_arm, pose_table, set_middles
+from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
+from planner.robots.collision.part_poses import MIDDLE, Index, pose_table, set_middles
 from planner.robots.collision.plane import room_at_plane
 
 HALF, RADIUS, ROUNDING = 3, 6, 7
 """Columns of bounds, after the bounding box's centre: half its extents, the sphere's radius, the rounding (m)."""
 
+FIRST, HAND, END, JOINTS = range(4)
+"""Columns of arms: the arm's first part, its first one of those that move with the tool, the one after its last; and
+how many joints it has."""
+
+OWNER = 2
+"""The column of spans that tells whose a part is."""
+
 
 class Parts(NamedTuple):
-    """All parts: those of the arms first, left before right, then those that stand still while arms move.
+    """All parts: those of the arms first, arm after arm, then those that stand still while arms move.
 
     Attributes:
         corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
-        spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
+        spans: the number of each part's first corner, of the one after its last, and of the arm to which it belongs, -1
+            for none, shape (p, 3).
         bounds: for each part its bounding box's centre, in its frame, half the box's extents, the radius of the sphere
             about that centre that contains the part, and the part's rounding beyond its hull (m), shape (p, 8).
+        arms: which parts and how many joints each arm has (`FIRST`, `HAND`, `END`, `JOINTS`), shape (a, 4).
     """
 
     corners: FloatArray
     spans: Index
     bounds: FloatArray
+    arms: Index
 
 
 @njit(cache=True, nogil=True)
@@ -75,7 +85,7 @@ def _room_between(
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
     room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
-    if room < 0.0 and a < EACH <= b < 2 * EACH:
+    if room < 0.0 and spans[a, OWNER] >= 0 and spans[b, OWNER] >= 0 and spans[a, OWNER] != spans[b, OWNER]:
         # Which of two arms finds a plane may be chance; a mirror image must give the same answer.
         room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
     return room
@@ -114,7 +124,7 @@ def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: F
 
 @njit(cache=True, nogil=True)
 def first_close(
-    shape: ArmShape,
+    kinematics: ArmKinematics,
     lift_m: float,
     parts: Parts,
     poses: FloatArray,
@@ -129,14 +139,14 @@ def first_close(
     """Return for every posture the first pair, from a start, that is not certainly apart.
 
     Args:
-        shape: the left arm.
-        lift_m: how far the torso is raised (m).
+        kinematics: the arms.
+        lift_m: how far the lift is raised (m).
         parts: all parts.
         poses: the poses of all parts, shape (p, 5, 3); the body's are given, the arms' and table's are overwritten and
             end as those of the last posture.
         pairs: numbers of the parts to be compared, shape (q, 2).
-        joints: for each posture the joints of each arm considered (rad), shape (n, k, 7).
-        arms: those arms, 0 for the left and 1 for the right, shape (k,).
+        joints: for each posture the joints of the arms considered, one arm after the other (rad, m), shape (n, joints).
+        arms: those arms, shape (k,).
         bases: the base poses: x (m), y (m), yaw (rad), table frame, shape (n, 3), or (1, 3) for all.
         tables: the positions of the table's parts, which come last, in the table frame but measured from the floor (m),
             shape (t, 3).
@@ -146,7 +156,7 @@ def first_close(
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
     """
-    corners, spans, bounds = parts
+    corners, spans, bounds, of_arms = parts
     found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -154,10 +164,12 @@ def first_close(
         if i < len(bases):
             pose_table(bases[i], tables, poses[first:])
             set_middles(bounds[first:], poses[first:])
-        for k in range(len(arms)):
-            low, high = EACH * arms[k], EACH * (arms[k] + 1)
-            pose_arm(shape, lift_m, joints[i, k], 1.0 - 2.0 * arms[k], poses[low:high])
+        column = 0
+        for arm in arms:
+            low, high, after = of_arms[arm, FIRST], of_arms[arm, END], column + of_arms[arm, JOINTS]
+            pose_parts(kinematics, lift_m, arm, joints[i, column:after], poses[low:high])
             set_middles(bounds[low:high], poses[low:high])
+            column = after
         _add_ways(bounds, before, poses, gone)
         found[i] = -1
         for pair in range(start[i], len(pairs)):
