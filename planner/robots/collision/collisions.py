@@ -10,7 +10,7 @@ obstacle here; `over_cloth` checks how free arms keep clear of it.
 import math
 from bisect import bisect_left
 from collections.abc import Iterable, Sequence
-from itertools import combinations, product
+from itertools import chain, combinations, product
 
 import coal
 import numpy as np
@@ -78,11 +78,11 @@ class Collisions:
     def _of_one(self, arm: int, tables: range) -> Pairs:
         """Return pairs of an arm's parts with table, body and the arm itself, the likeliest to collide first."""
         with_table = ((part, table) for table, part in product(tables, reversed(self._robot.of_arm(arm))))
-        return self._pairs((*with_table, *((a, b) for a, b in self._robot.own_pairs[arm].tolist())))
+        return self._pairs(chain(with_table, ((a, b) for a, b in self._robot.own_pairs[arm].tolist())))
 
     def _of_both(self, first: int, second: int) -> Pairs:
         """Return pairs of the parts of two arms, the outermost first."""
-        pairs = product(*(reversed(self._robot.of_arm(arm)) for arm in (first, second)))
+        pairs = product(reversed(self._robot.of_arm(first)), reversed(self._robot.of_arm(second)))
         return self._pairs(pair for pair in pairs if pair not in self._robot.skipped)
 
     def _pairs(self, numbers: Iterable[tuple[int, int]]) -> Pairs:

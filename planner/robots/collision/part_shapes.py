@@ -1,8 +1,6 @@
 """The convex shape of every part of the PR2, made once from the meshes and kept in the user's cache directory."""
 
 import contextlib
-import os
-import tempfile
 from collections.abc import Mapping
 from hashlib import blake2b
 from importlib.metadata import version
@@ -19,6 +17,7 @@ from planner.robots.card import GripperCard
 from planner.robots.collision.part_points import arm_points, body_points, finger_points, points_of_joints
 from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
+from planner.robots.collision.shape_files import hull_arrays, hull_from, write_arrays
 from planner.robots.description import urdf_path
 
 OPENINGS_M = (0.0, 0.03, 0.06, 0.09)
@@ -97,24 +96,11 @@ def _names() -> list[str]:
 def _read(path: Path) -> PartShapes:
     """Return the shapes in a file; raise one of several errors where they are missing or malformed."""
     with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-        return {
-            name: RoundedHull(arrays[f"{name}/corners"], arrays[f"{name}/faces"], float(arrays[f"{name}/radius"]))
-            for name in _names()
-        }
+        return {name: hull_from(arrays, name) for name in _names()}
 
 
 def _write(path: Path, shapes: PartShapes) -> None:
-    """Write shapes to a file atomically, so that it exists only once it is complete."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, shape in shapes.items():
-        arrays[f"{name}/corners"], arrays[f"{name}/faces"] = shape.corners, shape.faces
-        arrays[f"{name}/radius"] = np.array(shape.radius_m)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, allow_pickle=False, **arrays)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+        arrays |= hull_arrays(name, shape)
+    write_arrays(path, arrays)

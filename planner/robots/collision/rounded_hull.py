@@ -27,6 +27,11 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 _DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
 """Directions whose extreme points are the first corners kept: the faces, edges and corners of a cube."""
 
+_POINT, _UPRIGHT = coal.Sphere(0.0), np.eye(3)
+
+_FLAT_M, _THICKNESS_M = 5e-5, 1e-3
+"""Points that are thinner than the first are made as thick as the second (m)."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RoundedHull:
@@ -85,13 +90,40 @@ def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = F
     """
     points = points[_qhull(points).vertices]
     kept = points[np.argmax(points @ _DIRECTIONS.T, axis=0)]
+    away = np.full(len(points), np.inf)
     while True:
         hull = _exact_hull(np.vstack([kept, kept * _MIRROR]) if is_symmetric else kept)
-        away = _distances(points, hull)
-        furthest = int(np.argmax(away))
+        furthest = _furthest(points, hull, away)
         if away[furthest] <= radius_max_m:
             return replace(hull, radius_m=float(away[furthest]) + GRID_M)
         kept = np.vstack([kept, points[furthest]])
+
+
+def _furthest(points: FloatArray, hull: RoundedHull, away: FloatArray) -> int:
+    """Return the point that is furthest outside of a hull.
+
+    `away` holds how far the points were outside of a smaller hull (m), so none is further out now. It is brought up to
+    date, but only for the points that might be the furthest.
+    """
+    convex = hull.convex()
+    best, best_m = -1, -1.0
+    for number in np.argsort(-away, kind="stable").tolist():
+        if away[number] < best_m - GRID_M:
+            break
+        away[number] = _distance(points[number], convex)
+        if away[number] > best_m or (away[number] == best_m and number < best):
+            best, best_m = number, float(away[number])
+    return best
+
+
+def hull_corners(points: FloatArray) -> FloatArray:
+    """Return the corners of the convex hull of points, shape (n, 3); flat ones are thickened by a millimetre."""
+    centred = points - points.mean(axis=0)
+    _, _, axes = np.linalg.svd(centred[:: max(len(centred) // 10_000, 1)], full_matrices=False)
+    if len(axes) < 3 or np.ptp(centred @ axes.T, axis=0).min() < _FLAT_M:
+        points = np.vstack([points + 0.5 * side * _THICKNESS_M * axis for axis in np.eye(3) for side in (-1.0, 1.0)])
+    corners: FloatArray = points[_qhull(points).vertices]
+    return corners
 
 
 def _exact_hull(points: FloatArray) -> RoundedHull:
@@ -108,15 +140,11 @@ def _exact_hull(points: FloatArray) -> RoundedHull:
     return RoundedHull(corners, faces.astype(np.int32), 0.0)
 
 
-def _distances(points: FloatArray, hull: RoundedHull) -> FloatArray:
-    """Return how far each point is from a hull (m), 0 inside."""
-    convex, point = hull.convex(), coal.Sphere(0.0)
+def _distance(point: FloatArray, convex: coal.Convex) -> float:
+    """Return how far a point is from a hull (m), 0 inside."""
+    there = coal.Transform3s(_UPRIGHT, point)
     request, here = coal.DistanceRequest(), coal.Transform3s.Identity()
-    found = np.zeros(len(points))
-    for i, place in enumerate(points):
-        there = coal.Transform3s(np.eye(3), place)
-        found[i] = max(coal.distance(convex, here, point, there, request, coal.DistanceResult()), 0.0)
-    return found
+    return max(float(coal.distance(convex, here, _POINT, there, request, coal.DistanceResult())), 0.0)
 
 
 def _qhull(points: FloatArray) -> "ConvexHull":

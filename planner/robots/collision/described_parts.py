@@ -1,0 +1,160 @@
+"""The parts of a robot that a card and a URDF describe, made once and kept in the user's cache."""
+
+import contextlib
+from collections.abc import Sequence
+from functools import lru_cache
+from hashlib import blake2b
+from json import dumps
+from pathlib import Path
+from typing import Any, NamedTuple
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+from platformdirs import user_cache_path
+
+from planner.errors import RobotError
+from planner.robots.collision import part_source
+from planner.robots.collision.arm_chains import ArmChains
+from planner.robots.collision.link_shapes import mesh_paths
+from planner.robots.collision.pair_choice import Choice, choose
+from planner.robots.collision.part_poses import Index
+from planner.robots.collision.part_source import Part, make_parts, openings_m
+from planner.robots.collision.rigid_groups import BODY, Carrier
+from planner.robots.collision.robot_parts import RobotParts
+from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
+from planner.robots.described_robot import DescribedRobot
+
+_FORMAT = 1
+"""Version of the cache; raise it whenever parts or pairs are made or stored differently."""
+
+
+class _Made(NamedTuple):
+    parts: Sequence[Part]
+    choice: Choice
+
+
+@lru_cache(maxsize=16)
+def described_parts(robot: DescribedRobot, directory: Path | None = None) -> RobotParts:
+    """Return the parts of a robot (0.1 s; a few seconds when the cache has none yet).
+
+    A cache that cannot be read is made again; a cache that cannot be written is ignored.
+
+    Args:
+        robot: the robot.
+        directory: the cache directory; None: the platform's own.
+
+    Raises:
+        RobotError: a mesh cannot be read or is too large, or no link has a shape.
+    """
+    path = (directory or user_cache_path("pleat")) / "shapes" / f"{_digest(robot)}.npz"
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            made = _read(robot, arrays)
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        made = _make(robot)
+        with contextlib.suppress(OSError):
+            write_arrays(path, _arrays(made))
+    return _robot_parts(robot, made.parts, made.choice)
+
+
+def _make(robot: DescribedRobot) -> _Made:
+    parts = make_parts(robot)
+    if not parts:
+        raise RobotError("urdf", "no link has a shape")
+    plain = _robot_parts(robot, parts, Choice((), np.empty((0, 2), dtype=np.int64)))
+    joints = np.array([part.carrier.joint for part in parts])
+    return _Made(parts, choose(plain, robot.arms, joints, [part.solids for part in parts]))
+
+
+def _robot_parts(robot: DescribedRobot, parts: Sequence[Part], choice: Choice) -> RobotParts:
+    carriers = [part.carrier for part in parts]
+    arms = np.array([_columns(carriers, arm, len(one.card.joints)) for arm, one in enumerate(robot.arms)])
+    of_body = [carrier for carrier in carriers if carrier.arm == BODY]
+    levels = range(len(part_source.SHARES))
+    hulls = tuple(tuple(part.hulls[level] for part in parts) for level in levels)
+    convexes = {id(hull): hull.convex() for part in parts for hull in part.hulls}
+    return RobotParts(
+        kinematics=_kinematics(robot, carriers, arms),
+        arms=arms,
+        names=tuple(part.name for part in parts),
+        openings_m=openings_m(robot),
+        hulls=hulls,
+        convexes=tuple(tuple(convexes[id(hull)] for hull in of_level) for of_level in hulls),
+        is_mirrored=np.zeros(len(parts), dtype=np.bool_),
+        is_tip=np.array([part.is_tip for part in parts]),
+        low_parts=tuple(_first(carriers, arm, 1) for arm in range(len(robot.arms))),
+        own_pairs=choice.own,
+        body_poses=np.tile(np.vstack([np.eye(3), np.zeros(3)]), (len(of_body), 1, 1)),
+        is_lifted=np.array([carrier.joint == 1 for carrier in of_body], dtype=np.bool_),
+        skipped=frozenset((a, b) for a, b in choice.skipped.tolist()),
+        is_fixed=robot.card.base.kind == "fixed",
+    )
+
+
+def _first(carriers: Sequence[Carrier], arm: int, joint: int) -> int:
+    """Return the number of an arm's first part that a joint carries or one further out."""
+    inner = [one for one in carriers if one.arm != BODY and (one.arm, one.joint) < (arm, joint)]
+    return len(inner)
+
+
+def _columns(carriers: Sequence[Carrier], arm: int, joints: int) -> tuple[int, int, int, int]:
+    return _first(carriers, arm, 0), _first(carriers, arm, joints - 1), _first(carriers, arm + 1, 0), joints
+
+
+def _kinematics(robot: DescribedRobot, carriers: Sequence[Carrier], arms: Index) -> ArmChains:
+    chains = [arm.chain for arm in robot.arms]
+    counts = [len(chain.low) for chain in chains]
+    return ArmChains(
+        roots=np.array([arm.root for arm in robot.arms]),
+        first_joints=np.cumsum([0, *counts[:-1]]),
+        rotations=np.vstack([chain.rotations for chain in chains]),
+        offsets=np.vstack([chain.offsets for chain in chains]),
+        is_prismatic=np.concatenate([chain.is_prismatic for chain in chains]),
+        first_parts=np.append(arms[:, 0], arms[-1, 2]),
+        carriers=np.array([one.joint for one in carriers if one.arm != BODY], dtype=np.int64),
+    )
+
+
+def _digest(robot: DescribedRobot) -> str:
+    """Return a digest of everything that the parts depend on: the card, the URDF, its meshes, how parts are made."""
+    limits = {name: value for name, value in vars(part_source).items() if name.isupper()}
+    digest = blake2b(f"{_FORMAT} {dumps(limits, default=str)}".encode(), digest_size=12)
+    digest.update(dumps(robot.card.to_dict(), sort_keys=True).encode())
+    digest.update(robot.urdf.encode())
+    for path in mesh_paths(robot.urdf):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _arrays(made: _Made) -> dict[str, NDArray[Any]]:
+    parts, choice = made
+    carriers = [(part.carrier.arm, part.carrier.joint, int(part.carrier.is_finger)) for part in parts]
+    found: dict[str, NDArray[Any]] = {
+        "names": np.array([part.name for part in parts]),
+        "carriers": np.array(carriers),
+        "is_tip": np.array([part.is_tip for part in parts]),
+        "skipped": choice.skipped,
+    }
+    found |= {f"own/{arm}": pairs for arm, pairs in enumerate(choice.own)}
+    for number, part in enumerate(parts):
+        for level, hull in enumerate(part.hulls[: _levels(part.carrier)]):
+            found |= hull_arrays(f"{number}/{level}", hull)
+    return found
+
+
+def _read(robot: DescribedRobot, arrays: Arrays) -> _Made:
+    """Return what is in a file; raise one of several errors where it is missing or malformed."""
+    parts = []
+    given = zip(arrays["names"].tolist(), arrays["carriers"].tolist(), arrays["is_tip"].tolist(), strict=True)
+    for number, (name, (arm, joint, is_finger), is_tip) in enumerate(given):
+        carrier = Carrier(arm, joint, bool(is_finger))
+        hulls = [hull_from(arrays, f"{number}/{level}") for level in range(_levels(carrier))]
+        levels = len(part_source.SHARES)
+        parts.append(Part(name, carrier, tuple(hulls * (levels // len(hulls))), is_tip, ()))
+    own = tuple(arrays[f"own/{arm}"] for arm in range(len(robot.arms)))
+    return _Made(parts, Choice(own, arrays["skipped"]))
+
+
+def _levels(carrier: Carrier) -> int:
+    return len(part_source.SHARES) if carrier.is_finger else 1

@@ -1,0 +1,133 @@
+"""The shapes of a URDF's links: those for collisions, or those that are shown of links that have none."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+from planner.errors import RobotError
+from planner.geometry.pose import FloatArray
+from planner.robots.collision.rounded_hull import hull_corners
+from planner.robots.urdf_reader import parsed
+
+TRIANGLES_MAX = 1_000_000
+"""A mesh of more is refused."""
+
+_ROUND = 24
+"""Corners of the polygon round a circle."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkShape:
+    """A shape of a link.
+
+    Attributes:
+        link: the link.
+        joint: the number of the joint that carries it, in pinocchio's model.
+        geometry: the shape as it is, for coal.
+        placement: its frame in the joint's.
+        corners: the corners of a convex hull that contains it, in its joint's frame (m), shape (n, 3).
+    """
+
+    link: str
+    joint: int
+    geometry: coal.CollisionGeometry
+    placement: pin.SE3
+    corners: FloatArray
+
+
+def link_shapes(model: pin.Model, urdf: str) -> tuple[LinkShape, ...]:
+    """Return the shapes of all links.
+
+    Args:
+        model: the robot's kinematic tree.
+        urdf: the robot's URDF, the paths of its meshes absolute.
+
+    Raises:
+        RobotError: a mesh cannot be read or has more than `TRIANGLES_MAX` triangles, or a number is none.
+    """
+    loader = coal.CachedMeshLoader(coal.NODE_TYPE.BV_OBBRSS)
+    return tuple(shape for link in parsed(urdf.encode()).iterfind("link") for shape in _shapes(model, link, loader))
+
+
+def mesh_paths(urdf: str) -> tuple[Path, ...]:
+    """Return the files of the meshes of a URDF, in alphabetical order."""
+    return tuple(sorted({Path(mesh.get("filename", "")) for mesh in parsed(urdf.encode()).iter("mesh")}))
+
+
+def _shapes(model: pin.Model, link: Element, loader: coal.MeshLoader) -> Iterator[LinkShape]:
+    name = link.get("name", "")
+    frame = model.frames[model.getFrameId(name, pin.FrameType.BODY)]
+    for element in link.findall("collision") or link.findall("visual"):
+        geometry = element.find("geometry")
+        if geometry is None or not len(geometry):
+            continue
+        placement = frame.placement * _origin(element.find("origin"))
+        try:
+            shape, points = _read(geometry[0], loader)
+        except (ValueError, TypeError) as error:
+            raise RobotError("urdf", f"link {name!r} has a {geometry[0].tag} that is none: {error}") from None
+        corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
+        yield LinkShape(name, frame.parentJoint, shape, placement, corners)
+
+
+def _origin(element: Element | None) -> pin.SE3:
+    if element is None:
+        return pin.SE3.Identity()
+    place, turn = (np.array([float(x) for x in element.get(key, "0 0 0").split()]) for key in ("xyz", "rpy"))
+    return pin.SE3(pin.rpy.rpyToMatrix(turn), place)
+
+
+def _read(element: Element, loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
+    """Return a shape, and points whose hull contains it; raise `ValueError` where a number is none."""
+    if element.tag == "mesh":
+        scale = tuple(float(x) for x in element.get("scale", "1 1 1").split())
+        return _mesh(Path(element.get("filename", "")), scale, loader)
+    if element.tag == "box":
+        size = np.array([float(x) for x in element.get("size", "").split()])
+        return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size
+    radius = float(element.get("radius", ""))
+    if element.tag == "sphere":
+        return coal.Sphere(radius), radius * _ball()
+    length = float(element.get("length", ""))
+    if element.tag == "capsule":
+        ends = [radius * _ball() + [0.0, 0.0, side * length / 2] for side in (-1, 1)]
+        return coal.Capsule(radius, length), np.vstack(ends)
+    if element.tag == "cylinder":
+        ring = radius * _circle()
+        ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
+        return coal.Cylinder(radius, length), np.vstack(ends)
+    raise ValueError("no such shape is known")
+
+
+def _circle() -> FloatArray:
+    """Return the corners of a polygon round the unit circle."""
+    turns = np.arange(_ROUND) * math.tau / _ROUND
+    return np.column_stack([np.cos(turns), np.sin(turns)]) / math.cos(math.pi / _ROUND)
+
+
+def _ball() -> FloatArray:
+    """Return points whose hull contains the unit ball."""
+    heights = np.linspace(-math.pi / 2, math.pi / 2, _ROUND // 2 + 1)
+    rings = [np.column_stack([_circle() * math.cos(at), np.full(_ROUND, math.sin(at))]) for at in heights]
+    return np.unique(np.vstack(rings) / math.cos(math.pi / _ROUND), axis=0)
+
+
+def _mesh(path: Path, scale: tuple[float, ...], loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
+    """Return a mesh and its vertices."""
+    try:
+        mesh = loader.load(str(path), np.array(scale))
+    except (ValueError, RuntimeError) as error:
+        raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {error}") from None
+    if mesh.num_tris > TRIANGLES_MAX:
+        raise RobotError("urdf", f"the mesh {path.name!r} has {mesh.num_tris} triangles, at most {TRIANGLES_MAX}")
+    vertices: FloatArray = np.array(mesh.vertices())
+    if not (len(vertices) and np.isfinite(vertices).all()):
+        raise RobotError("urdf", f"the mesh {path.name!r} has vertices that are no numbers, or none")
+    return mesh, vertices

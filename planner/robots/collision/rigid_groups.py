@@ -1,0 +1,144 @@
+"""Which of a robot's links move as one: by the arm's joint that carries them, as its fingers, or with the body."""
+
+import math
+from dataclasses import dataclass
+from itertools import accumulate
+from operator import mul
+
+import numpy as np
+import pinocchio as pin
+
+from planner.geometry.pose import FloatArray
+from planner.robots.card_parts import GripperFile, ParallelogramDrive
+from planner.robots.chain import Chain
+from planner.robots.chain_reader import at_rest
+from planner.robots.collision.link_shapes import LinkShape
+from planner.robots.described_robot import DescribedArm, DescribedRobot
+from planner.robots.urdf_reader import parsed
+
+BODY = -1
+"""Stands for the arm of what belongs to no arm."""
+
+SWEEP = 33
+"""Postures of the fingers between closed and open."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Carrier:
+    """What carries a link.
+
+    Attributes:
+        arm: the arm's number, or `BODY`.
+        joint: which of the arm's joints; of the body 1 for what the lift raises and 0 for the rest.
+        is_finger: whether the gripper moves it.
+    """
+
+    arm: int
+    joint: int
+    is_finger: bool = False
+
+
+class Skeleton:
+    """A robot's kinematic tree with its lift down, the arms' joints at 0 and all others at rest.
+
+    Attributes:
+        model: the tree.
+        frames: the frames of each arm's joints in the base frame, as the arm's chain has them.
+    """
+
+    def __init__(self, robot: DescribedRobot) -> None:
+        """Read the tree, and which joints mimic which."""
+        self.model = pin.buildModelFromXML(robot.urdf)
+        self.frames = tuple(_frames(arm) for arm in robot.arms)
+        self._arms, self._lift = robot.arms, robot.card.lift
+        moving = [name for arm in robot.arms for name in arm.card.joints]
+        self._q = at_rest(self.model, dict(robot.card.resting), moving)
+        self._places = self._at(self._q)
+        self._mimics = _mimics(robot.urdf)
+
+    def carrier(self, joint: int) -> Carrier:
+        """Return what carries the links of a joint of pinocchio's model."""
+        supports = {self.model.names[number] for number in self.model.supports[joint]}
+        for number, arm in enumerate(self._arms):
+            carrying = [index for index, name in enumerate(arm.card.joints) if name in supports]
+            if carrying:
+                return Carrier(number, carrying[-1], not supports.isdisjoint(self._fingers(arm.card.gripper)))
+        return Carrier(BODY, int(self._lift in supports))
+
+    def points(self, shape: LinkShape) -> FloatArray:
+        """Return a shape's points in the frame of its carrier: of an arm's joint, or the base frame (m)."""
+        return _moved(self._place(shape, self._places), shape.corners)
+
+    def placement(self, shape: LinkShape) -> pin.SE3:
+        """Return where a shape is in the frame of its carrier."""
+        return self._place(shape, self._places) * shape.placement
+
+    def swept(self, shape: LinkShape, opening_m: float) -> tuple[FloatArray, float]:
+        """Return a finger's points on its way from closed to an opening, in the frame of the joint that carries it.
+
+        Returns:
+            The points, and how far outside of their hull points between them may be (m).
+        """
+        gripper = self._arms[self.carrier(shape.joint).arm].card.gripper
+        low, high = (drive_value(gripper, at_m) for at_m in (0.0, opening_m))
+        ways = []
+        for value in np.linspace(low, high, SWEEP if high != low else 1):
+            q = self._q.copy()
+            for name, (factor, offset) in self._fingers(gripper).items():
+                joint = self.model.joints[self.model.getJointId(name)]
+                at = factor * value + offset
+                q[joint.idx_q : joint.idx_q + joint.nq] = [at] if joint.nq == 1 else [math.cos(at), math.sin(at)]
+            ways.append(_moved(self._place(shape, self._at(q)), shape.corners))
+        # A curve in small steps is off its chords by an eighth of its second differences.
+        bent = np.linalg.norm(np.diff(ways, n=2, axis=0), axis=2)
+        return np.vstack(ways), float(bent.max(initial=0.0)) / 8.0
+
+    def _place(self, shape: LinkShape, places: list[pin.SE3]) -> pin.SE3:
+        """Return where a shape's joint is in the frame of its carrier."""
+        carrier = self.carrier(shape.joint)
+        place = places[shape.joint]
+        return place if carrier.arm == BODY else self.frames[carrier.arm][carrier.joint].actInv(place)
+
+    def _at(self, q: FloatArray) -> list[pin.SE3]:
+        data = self.model.createData()
+        pin.forwardKinematics(self.model, data, q)
+        return [*data.oMi]
+
+    def _fingers(self, gripper: GripperFile) -> dict[str, tuple[float, float]]:
+        """Return the joints that a gripper moves, each with its factor and offset."""
+        driver = gripper.drive.joint
+        return {driver: (1.0, 0.0)} | {
+            name: (factor, offset) for name, (driven_by, factor, offset) in self._mimics.items() if driven_by == driver
+        }
+
+
+def drive_value(gripper: GripperFile, opening_m: float) -> float:
+    """Return the value of the driving joint at which the fingers are an opening apart (rad, m)."""
+    drive, share = gripper.drive, min(max(opening_m / gripper.opening_max_m, 0.0), 1.0)
+    if isinstance(drive, ParallelogramDrive):
+        length, half_m = math.hypot(drive.link_x_m, drive.link_y_m), 0.5 * share * gripper.opening_max_m
+        return math.asin((half_m + drive.link_y_m) / length) - math.asin(drive.link_y_m / length)
+    return drive.closed + share * (drive.opened - drive.closed)
+
+
+def _mimics(urdf: str) -> dict[str, tuple[str, float, float]]:
+    """Return the joints that mimic another: its name, the factor and the offset."""
+    found = {}
+    for joint in parsed(urdf.encode()).iterfind("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            factor, offset = (float(mimic.get(key, default)) for key, default in (("multiplier", "1"), ("offset", "0")))
+            found[joint.get("name", "")] = (mimic.get("joint", ""), factor, offset)
+    return found
+
+
+def _frames(arm: DescribedArm) -> tuple[pin.SE3, ...]:
+    """Return the frames of an arm's joints in the base frame, all of them at 0."""
+    chain: Chain = arm.chain
+    steps = [pin.SE3(turn, place) for turn, place in zip(chain.rotations, chain.offsets, strict=True)]
+    return tuple(accumulate(steps, mul, initial=pin.SE3(np.eye(3), arm.root)))[1:]
+
+
+def _moved(by: pin.SE3, points: FloatArray) -> FloatArray:
+    moved: FloatArray = points @ by.rotation.T + by.translation
+    return moved
