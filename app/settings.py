@@ -15,7 +15,10 @@ class Settings(BaseSettings):
         host: the address to listen on.
         origin: the origin at which a proxy serves the pages, as in ``https://example.org``, if it sends that as `Host`.
         root_path: the prefix below which a proxy serves the pages, as in ``/pleat``.
-        insecure: whether to accept other machines, without authentication.
+        insecure: whether to let other machines in without the token.
+        token_file: a file with the token to ask for; None: beyond loopback one that is made at the first start.
+        new_token: whether to make a new token, after which the old one does not hold.
+        requests_per_s: how many requests another machine may send in the long run (1/s).
         port: the port; 0 lets the system pick a free one, which replaces it before serving starts.
         data: the folder for the user's garments and documents.
     """
@@ -26,5 +29,8 @@ class Settings(BaseSettings):
     origin: Annotated[str, Field(pattern=r"^https?://[^/?#@\s]+$")] | None = None
     root_path: Annotated[str, Field(pattern=r"^(/[A-Za-z0-9._~-]+)*$")] = ""
     insecure: bool = False
+    token_file: Path | None = None
+    new_token: bool = False
+    requests_per_s: float = Field(default=100.0, gt=0.0)
     port: int = Field(default=8000, ge=0, le=65535)
     data: Path = Field(default_factory=lambda: user_data_path("pleat"))

@@ -22,6 +22,7 @@ from app.api import (
     suggestion_routes,
     template_routes,
 )
+from app.api.client_limits import ClientLimits
 from app.api.described import describe
 from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
@@ -29,13 +30,20 @@ from app.api.live_answers import LiveCommand, LiveMessage
 from app.api.methods import HeadAsGet
 from app.api.prefix import BelowPrefix
 from app.api.problems import Problem, install_problems
+from app.api.token_only import TokenOnly
 from app.job_kinds.kinds import KINDS
 from app.settings import Settings
+from app.store.access_token import AccessToken
 from app.workspace import Workspace
 
 
-def create_app(settings: Settings) -> FastAPI:
-    """Return the server for these settings; documents are opened when it starts to serve."""
+def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
+    """Return the server for these settings; documents are opened when it starts to serve.
+
+    Args:
+        settings: the settings.
+        token: the token to ask for; None: everybody is let in.
+    """
     workspace = Workspace(settings, KINDS)
 
     @asynccontextmanager
@@ -75,6 +83,9 @@ def create_app(settings: Settings) -> FastAPI:
     install_problems(app)
     describe(app, Problem, LiveMessage, LiveCommand)
     app.add_middleware(FailuresAsProblems)
+    if token is not None:
+        app.add_middleware(TokenOnly, token=token, port=settings.port)
+    app.add_middleware(ClientLimits, requests_per_s=settings.requests_per_s)
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)
     app.add_middleware(BelowPrefix, prefix=settings.root_path)

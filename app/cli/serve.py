@@ -24,23 +24,43 @@ def serve(
         str | None, typer.Option(help="Where a proxy shows them, as in https://example.org, if it keeps that as Host.")
     ] = None,
     insecure: Annotated[
-        bool | None, typer.Option("--insecure", help="Let other machines in, without asking who they are.")
+        bool | None, typer.Option("--insecure", help="Let other machines in without the token.")
+    ] = None,
+    token_file: Annotated[
+        Path | None,
+        typer.Option(help="A file with the token to ask for, on this machine too; made if it is not there."),
+    ] = None,
+    new_token: Annotated[
+        bool | None, typer.Option("--new-token", help="Make a new token; the old one does not hold any more.")
     ] = None,
 ) -> None:
-    """Serve the designer until Ctrl-C."""
+    """Serve the designer until Ctrl-C.
+
+    Where other machines can reach it, everybody is asked for a token, which is printed at the first start.
+    """
     from app.server.serve import serve as serve_settings  # here, because this import takes a second
 
     proxy = {"root_path": root_path, "origin": origin}
-    given: dict[str, Any] = {"host": host, "port": port, "data": data, "insecure": insecure, **proxy}
+    access = {"insecure": insecure, "token_file": token_file, "new_token": new_token}
+    given: dict[str, Any] = {"host": host, "port": port, "data": data, **access, **proxy}
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
     except ValidationError as error:
         raise failure(str(first_error(error, RequestError))) from None
     try:
-        serve_settings(settings, lambda url: output.print(f"Pleat is on {url} (Ctrl-C stops it)"))
+        serve_settings(settings, _announce)
     except KeyboardInterrupt:
         return
     except FoldingError as error:
         raise failure(str(error)) from None
     except OSError as error:
         raise failure(f"cannot serve on {settings.host}:{settings.port}: {error.strerror}") from None
+
+
+def _announce(url: str, token: str | None) -> None:
+    """Print where the server is; a new token is printed this one time."""
+    if token is None:
+        output.print(f"Pleat is on {url} (Ctrl-C stops it)")
+        return
+    output.print(f"Pleat is on {url}/?token={token} (Ctrl-C stops it)", soft_wrap=True)
+    output.print("It asks for this token, which is not shown again; --new-token makes another.")

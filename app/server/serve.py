@@ -7,13 +7,14 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import uvicorn
+from starlette.applications import Starlette
 
 from app.api.create_app import create_app
 from app.server.log import logging_to, standard_error
 from app.server.timed_protocol import TimedProtocol
 from app.settings import Settings
+from app.store.access_token import AccessToken, file_token, kept_token
 from app.store.data_folder import DataFolder
-from planner.errors import FoldingError
 
 _LARGEST_MESSAGE = 4 << 20
 """Largest websocket message (bytes)."""
@@ -30,10 +31,6 @@ would be noticeable.
 
 
 _Address: TypeAlias = tuple[socket.AddressFamily, tuple[Any, ...]]
-
-
-class ExposedError(FoldingError):
-    """The address is open to other machines, and the settings do not allow that."""
 
 
 class _Server(uvicorn.Server):
@@ -54,51 +51,60 @@ class _Server(uvicorn.Server):
         await super().shutdown(sockets)
 
 
-def serve(settings: Settings, announce: Callable[[str], None]) -> None:
-    """Serve until interrupted; call `announce` with the URL as soon as the server answers.
+def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> None:
+    """Serve until interrupted.
+
+    Args:
+        settings: the settings.
+        announce: called as soon as the server answers, with its URL, and with the token if it has just been made.
 
     Raises:
-        ExposedError: the address is beyond loopback, and `Settings.insecure` is not set.
         OSError: the address is not available.
+        WeakTokenError: the token in the file is too short.
+        StorageError: the token cannot be read or kept.
         UnusableFolderError: the data folder cannot be used.
         HeldFolderError: another server uses the data folder.
     """
     sys.setswitchinterval(_SWITCH_S)
     address = _address(settings)
-    with (
-        DataFolder(settings.data).held() as tell_others,
-        _listening(address) as listener,
-        logging_to(standard_error()),
-    ):
+    with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
+        token, made = _token(settings, address)
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
-        app = create_app(bound)
-        config = uvicorn.Config(
-            app,
-            log_config=None,
-            http=TimedProtocol,
-            ws_max_size=_LARGEST_MESSAGE,
-            ws_per_message_deflate=False,
-            timeout_graceful_shutdown=_GRACE_S,
-            server_header=False,
-        )
-        stop_work = app.state.workspace.lanes.stop
+        with logging_to(standard_error()):
+            app = create_app(bound, token)
 
-        def announce_everywhere() -> None:
-            tell_others(_url(bound))
-            announce(_url(bound))
+            def announce_everywhere() -> None:
+                tell_others(_url(bound))
+                announce(_url(bound), made)
 
-        _Server(config, announce_everywhere, stop_work).run(sockets=[listener])
+            _Server(_config(app), announce_everywhere, app.state.workspace.lanes.stop).run(sockets=[listener])
+
+
+def _config(app: Starlette) -> uvicorn.Config:
+    return uvicorn.Config(
+        app,
+        log_config=None,
+        http=TimedProtocol,
+        ws_max_size=_LARGEST_MESSAGE,
+        ws_per_message_deflate=False,
+        timeout_graceful_shutdown=_GRACE_S,
+        server_header=False,
+    )
 
 
 def _address(settings: Settings) -> _Address:
-    """Return the address to listen on; raise `ExposedError`."""
+    """Return the address to listen on."""
     family, _, _, _, address = socket.getaddrinfo(settings.host, settings.port, type=socket.SOCK_STREAM)[0]
-    if not settings.insecure and not ipaddress.ip_address(address[0]).is_loopback:
-        raise ExposedError(
-            f"{settings.host} can be reached from other machines, and whoever comes in from there could read, change "
-            "and delete your documents: nobody is asked for a password. Serve on 127.0.0.1, or say --insecure."
-        )
     return family, address
+
+
+def _token(settings: Settings, where: _Address) -> tuple[AccessToken | None, str | None]:
+    """Return the token to ask for, if one is needed, and in words if it has just been made."""
+    if settings.token_file is not None:
+        return file_token(settings.token_file), None
+    if settings.insecure or ipaddress.ip_address(where[1][0]).is_loopback:
+        return None, None
+    return kept_token(DataFolder(settings.data).token, is_new=settings.new_token)
 
 
 def _listening(where: _Address) -> socket.socket:

@@ -81,6 +81,7 @@ class DataFolder:
         garments: the folder of garments.
         documents: the folder of documents.
         database: the file of the database.
+        token: the file of the token's hash.
     """
 
     def __init__(self, path: Path) -> None:
@@ -89,6 +90,7 @@ class DataFolder:
         self.garments = path / "garments"
         self.documents = path / "documents"
         self.database = path / "pleat.db"
+        self.token = path / "token.json"
         self._holder = path / "server.json"
 
     @contextmanager

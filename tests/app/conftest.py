@@ -32,13 +32,14 @@ async def client(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
 class Served:
     """A server in a process of its own."""
 
-    def __init__(self, data: Path, port: int = 0) -> None:
+    def __init__(self, data: Path, port: int = 0, *options: str) -> None:
         self.data = data
+        self.options = options
         self._start(port)
 
     def _start(self, port: int) -> None:
         command = [sys.executable, "-c", "from app.cli import main; main()"]
-        options = ["serve", "--port", str(port), "--data", str(self.data)]
+        options = ["serve", "--port", str(port), "--data", str(self.data), *self.options]
         self.process = subprocess.Popen(
             [*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )

@@ -157,12 +157,12 @@ def test_check_of_a_fold_that_two_grippers_cannot_hold_is_status_3_and_says_what
     assert json.loads(pleat("check", path, "--json", "-").stdout)["is_holdable"] is False
 
 
-@pytest.mark.parametrize("host", ["0.0.0.0", "::"])
-def test_beyond_loopback_nothing_is_served_unless_that_is_said(tmp_path: Path, host: str) -> None:
-    result = pleat("serve", "--host", host, "--port", "0", "--data", str(tmp_path / "data"))
+def test_a_token_that_is_too_short_is_refused_before_anything_is_served(tmp_path: Path) -> None:
+    short = tmp_path / "token"
+    short.write_text("secret\n")
+    result = pleat("serve", "--token-file", str(short), "--port", "0", "--data", str(tmp_path / "data"))
     assert result.exit_code == 2
-    assert "other machines" in result.stderr and "--insecure" in result.stderr
-    assert not (tmp_path / "data").exists()
+    assert str(short) in result.stderr and "at least 20 characters" in result.stderr
 
 
 @pytest.mark.parametrize("inside", ["", "deeper", "documents"])

@@ -55,6 +55,7 @@ export type Measure = Schemas["MeasureAnswer"];
 export type Made = Schemas["MadeAnswer"];
 export type FileEntry = Schemas["FileEntry"];
 export type Imported = Schemas["ImportAnswer"];
+export type Job = Schemas["JobEntry"];
 export type Problem = Schemas["Problem"];
 
 /** A message as data. Which numbers it has follows from its code, so each of its words says what it reads. */

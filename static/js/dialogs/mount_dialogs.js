@@ -1,4 +1,4 @@
-/** The buttons `New`, `Import`, `Export` and help. */
+/** The buttons `New`, `Import`, `Export`, jobs and help. */
 
 import { byId, element } from "../dom.js";
 import { showGallery } from "../gallery/gallery.js";
@@ -6,6 +6,7 @@ import { icon } from "../icons.js";
 import { showExport } from "./export.js";
 import { showHelp } from "./help.js";
 import { acceptDrops, showImport } from "./import.js";
+import { offerJobs, showJobs } from "./jobs.js";
 import { showNew } from "./new.js";
 import { showRename } from "./rename.js";
 
@@ -32,6 +33,9 @@ export function mountDialogs(store) {
   put("new", "new", "New", verbs.startNew);
   put("import", "import", "Import", verbs.startImport);
   put("export", "export", "Export", () => showExport(store));
+  put("jobs", "jobs", "", showJobs);
+  offerJobs(byId("jobs"));
+  addEventListener("focus", () => offerJobs(byId("jobs")));
   put("help", "help", "", verbs.help);
   put("rename", "rename", "", () => showRename(store));
   acceptDrops(store);
