@@ -7,6 +7,7 @@ link that has none; the table is of boxes.
 import math
 from collections.abc import Iterator, Mapping
 from itertools import combinations
+from xml.etree.ElementTree import tostring
 
 import coal
 import numpy as np
@@ -16,6 +17,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table_parts import table_parts
 from planner.robots.card_parts import ParallelogramDrive
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.urdf_reader import parsed
 
 NEAR = 3
 """Hulls of links with up to so many joints between them may overlap where the links do not."""
@@ -31,10 +33,14 @@ class Hulls:
         self.robot = robot
         self.model = pin.buildModelFromXML(robot.urdf)
         self.shapes = pin.GeometryModel()
-        shown = pin.buildGeomFromUrdfString(self.model, robot.urdf, pin.GeometryType.VISUAL)
-        solid = pin.buildGeomFromUrdfString(self.model, robot.urdf, pin.GeometryType.COLLISION)
-        with_solid = {one.parentFrame for one in solid.geometryObjects}
-        for one in (*solid.geometryObjects, *(o for o in shown.geometryObjects if o.parentFrame not in with_solid)):
+        urdf = parsed(robot.urdf.encode())
+        for link in urdf.iterfind("link"):
+            for shown in link.findall("visual") if link.find("collision") is not None else ():
+                link.remove(shown)
+        text = tostring(urdf, encoding="unicode")
+        kinds_of_shape = (pin.GeometryType.COLLISION, pin.GeometryType.VISUAL)
+        read = [pin.buildGeomFromUrdfString(self.model, text, kind) for kind in kinds_of_shape]
+        for one in (*read[0].geometryObjects, *read[1].geometryObjects):
             if isinstance(one.geometry, coal.BVHModelBase):
                 one.geometry.buildConvexHull(True, "Qt")
                 one.geometry = one.geometry.convex
@@ -47,6 +53,7 @@ class Hulls:
         kinds = {pair: self._kind(*pair) for pair in combinations(range(len(self.shapes.geometryObjects)), 2)}
         self.pairs = [pair for pair, kind in kinds.items() if kind]
         self.is_must = np.array([kinds[pair] == "must" for pair in self.pairs])
+        self.is_between_arms = np.array([self._is_between_arms(*pair) for pair in self.pairs])
         for pair in self.pairs:
             self.shapes.addCollisionPair(pin.CollisionPair(*pair))
         self.data = self.model.createData()
@@ -73,6 +80,15 @@ class Hulls:
             return "may" if joint == outer == 0 else "must"
         between = abs(joint - outer)
         return None if between < 2 else "may" if between <= NEAR else "must"
+
+    def _is_between_arms(self, a: int, b: int) -> bool:
+        arms = {self.whose[number][0] for number in (a, b) if number < self.count}
+        return len(arms) == 2 and -1 not in arms
+
+    def names(self, pair: int) -> tuple[str, str]:
+        """Return the names of the shapes of a pair."""
+        a, b = (self.shapes.geometryObjects[number].name for number in self.pairs[pair])
+        return a, b
 
     def values(self, joints: FloatArray, openings_m: FloatArray, torso_m: float) -> dict[str, float]:
         """Return all joints that do not rest at 0."""
@@ -105,10 +121,7 @@ class Hulls:
 
 def _mimicking(urdf: str, driver: str, value: float) -> Iterator[tuple[str, float]]:
     """Yield the joints that mimic a driver, and their values."""
-    for joint in urdf.split("<joint ")[1:]:
-        text = joint.split("</joint>")[0]
-        if f'<mimic joint="{driver}"' in text:
-            mimic = text.split("<mimic ")[1].split(">")[0]
-            factor, offset = (float(mimic.split(f'{key}="')[1].split('"')[0]) if key in mimic else default
-                              for key, default in (("multiplier", 1.0), ("offset", 0.0)))  # fmt: skip
-            yield text.split('name="')[1].split('"')[0], factor * value + offset
+    for joint in parsed(urdf.encode()).iterfind("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None and mimic.get("joint") == driver:
+            yield joint.get("name", ""), float(mimic.get("multiplier", 1.0)) * value + float(mimic.get("offset", 0.0))

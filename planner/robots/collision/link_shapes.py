@@ -71,39 +71,49 @@ def _shapes(model: pin.Model, link: Element, loader: coal.MeshLoader) -> Iterato
         placement = frame.placement * _origin(element.find("origin"))
         try:
             shape, points = _read(geometry[0], loader)
-        except (ValueError, TypeError) as error:
-            raise RobotError("urdf", f"link {name!r} has a {geometry[0].tag} that is none: {error}") from None
-        corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
+            corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
+        except RobotError as error:
+            raise RobotError("urdf", f"link {name!r}: {error.message}") from None
+        except (ValueError, TypeError, RuntimeError):
+            raise RobotError("urdf", f"link {name!r} has a {geometry[0].tag} whose numbers make no shape") from None
         yield LinkShape(name, frame.parentJoint, shape, placement, corners)
 
 
 def _origin(element: Element | None) -> pin.SE3:
     if element is None:
         return pin.SE3.Identity()
-    place, turn = (np.array([float(x) for x in element.get(key, "0 0 0").split()]) for key in ("xyz", "rpy"))
+    place, turn = (_numbers(element.get(key, "0 0 0")) for key in ("xyz", "rpy"))
     return pin.SE3(pin.rpy.rpyToMatrix(turn), place)
 
 
+def _numbers(text: str) -> FloatArray:
+    """Return the numbers of a text; raise `ValueError` where one is none."""
+    numbers = np.array([float(x) for x in text.split()])
+    if not np.isfinite(numbers).all():
+        raise ValueError(text)
+    return numbers
+
+
 def _read(element: Element, loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
-    """Return a shape, and points whose hull contains it; raise `ValueError` where a number is none."""
+    """Return a shape, and points whose hull contains it; raise `ValueError` or `TypeError` where numbers are wrong."""
     if element.tag == "mesh":
-        scale = tuple(float(x) for x in element.get("scale", "1 1 1").split())
+        scale = _numbers(element.get("scale", "1 1 1"))
         return _mesh(Path(element.get("filename", "")), scale, loader)
     if element.tag == "box":
-        size = np.array([float(x) for x in element.get("size", "").split()])
+        size = _numbers(element.get("size", ""))
         return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size
-    radius = float(element.get("radius", ""))
+    if element.tag not in ("sphere", "capsule", "cylinder"):
+        raise RobotError("urdf", f"a {element.tag} is no shape that is known")
+    (radius,) = _numbers(element.get("radius", ""))
     if element.tag == "sphere":
         return coal.Sphere(radius), radius * _ball()
-    length = float(element.get("length", ""))
+    (length,) = _numbers(element.get("length", ""))
     if element.tag == "capsule":
         ends = [radius * _ball() + [0.0, 0.0, side * length / 2] for side in (-1, 1)]
         return coal.Capsule(radius, length), np.vstack(ends)
-    if element.tag == "cylinder":
-        ring = radius * _circle()
-        ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
-        return coal.Cylinder(radius, length), np.vstack(ends)
-    raise ValueError("no such shape is known")
+    ring = radius * _circle()
+    ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
+    return coal.Cylinder(radius, length), np.vstack(ends)
 
 
 def _circle() -> FloatArray:
@@ -119,15 +129,15 @@ def _ball() -> FloatArray:
     return np.unique(np.vstack(rings) / math.cos(math.pi / _ROUND), axis=0)
 
 
-def _mesh(path: Path, scale: tuple[float, ...], loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
+def _mesh(path: Path, scale: FloatArray, loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
     """Return a mesh and its vertices."""
     try:
-        mesh = loader.load(str(path), np.array(scale))
+        mesh = loader.load(str(path), scale)
     except (ValueError, RuntimeError) as error:
         raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {error}") from None
     if mesh.num_tris > TRIANGLES_MAX:
         raise RobotError("urdf", f"the mesh {path.name!r} has {mesh.num_tris} triangles, at most {TRIANGLES_MAX}")
     vertices: FloatArray = np.array(mesh.vertices())
     if not (len(vertices) and np.isfinite(vertices).all()):
-        raise RobotError("urdf", f"the mesh {path.name!r} has vertices that are no numbers, or none")
+        raise RobotError("urdf", f"the mesh {path.name!r} has no vertices, or some that are no numbers")
     return mesh, vertices

@@ -58,12 +58,15 @@ class Skeleton:
 
     def carrier(self, joint: int) -> Carrier:
         """Return what carries the links of a joint of pinocchio's model."""
-        supports = {self.model.names[number] for number in self.model.supports[joint]}
+        supports = [self.model.names[number] for number in self.model.supports[joint]]
+        best, depth = Carrier(BODY, int(self._lift in supports)), -1
         for number, arm in enumerate(self._arms):
             carrying = [index for index, name in enumerate(arm.card.joints) if name in supports]
-            if carrying:
-                return Carrier(number, carrying[-1], not supports.isdisjoint(self._fingers(arm.card.gripper)))
-        return Carrier(BODY, int(self._lift in supports))
+            # Arms may share their first joints, so the one that moves the link last is the one it belongs to.
+            if carrying and (at := supports.index(arm.card.joints[carrying[-1]])) > depth:
+                is_finger = not self._fingers(arm.card.gripper).keys().isdisjoint(supports)
+                best, depth = Carrier(number, carrying[-1], is_finger), at
+        return best
 
     def points(self, shape: LinkShape) -> FloatArray:
         """Return a shape's points in the frame of its carrier: of an arm's joint, or the base frame (m)."""
