@@ -57,6 +57,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "alembic": ("app.store",),
     "pyarrow": ("app.studies",),
     "distributed": ("app.studies",),
+    "mujoco": ("app.physics",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

@@ -115,6 +115,10 @@ class Region:
         """Whether it is too small to count as cloth."""
         return self.area < AREA_M2
 
+    def distances_to(self, points: FloatArray) -> FloatArray:
+        """Return the distance of each point, shape (n, 2), from the region, shape (n,), m; 0 inside."""
+        return np.asarray(shapely.distance(self.shape, shapely.points(points)))
+
     def contains(self, point: Point2, margin_m: float = 0.0) -> bool:
         """Return whether a point lies inside and further than a margin from the boundary."""
         return bool(shapely.contains_xy(self.shape, *point)) and (

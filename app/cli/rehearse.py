@@ -1,0 +1,70 @@
+"""``pleat rehearse``: perform a plan in simulated worlds, and judge every step."""
+
+from typing import Annotated
+
+import typer
+from rich.progress import Progress
+from rich.table import Table
+
+from app.cli.program import (
+    NO_PLAN,
+    STANDARD_OUTPUT,
+    JsonOption,
+    SourceArgument,
+    blaming,
+    cli,
+    errors,
+    load_source,
+    output,
+    write_json,
+)
+from app.rehearsal.rehearse import RehearsalOptions, rehearse
+from app.rehearsal.result import RehearsalResult
+from app.step_words import step_words
+from planner import Plan, Task, make_plan
+
+
+@cli.command("rehearse")
+def rehearse_command(
+    source: SourceArgument,
+    runs: Annotated[int, typer.Option(help="How often the plan is performed.")] = 1,
+    seed: Annotated[int, typer.Option(help="The seed of the first run; each after it has the next.")] = 0,
+    json_to: JsonOption = None,
+) -> None:
+    """Perform a plan in simulated physics, and say of every step whether it holds.
+
+    Exit status: 0 where all runs held, 3 where not, or where there is no plan.
+    """
+    with blaming(source):
+        options = RehearsalOptions(runs, seed)
+        found = load_source(source)
+        plan = found if isinstance(found, Plan) else make_plan(Task.of(found))
+        if not plan.is_solved:
+            errors.print(f"{source}: the plan is {plan.status}, so there is nothing to rehearse")
+            raise typer.Exit(NO_PLAN)
+        with Progress(console=errors, transient=True) as bar:
+            task = bar.add_task("Rehearsing", total=1.0)
+            result = rehearse(plan, options, lambda share: bar.update(task, completed=share))
+    write_json(result.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(_table(plan, result))
+    if not result.is_held:
+        raise typer.Exit(NO_PLAN)
+
+
+def _table(plan: Plan, result: RehearsalResult) -> Table:
+    """Return the verdicts of the first run as a table, one row for each step, below how many runs held."""
+    low, high = (result.to_dict()[name] for name in ("success_low", "success_high"))
+    held = f"{result.held} of {len(result.runs)} held (95 % confidence: {low:.0%} to {high:.0%})"
+    table = Table(title=f"{plan.garment.title}: {held}", title_justify="left", header_style="bold")
+    for name in ("step", "what", "overlap", "mean [mm]", "95 % [mm]", "slid [mm]", "verdict"):
+        table.add_column(name, justify="left" if name in ("what", "verdict") else "right")
+    for verdict in result.runs[0].steps:
+        what = step_words(plan.steps[verdict.step], plan.garment)
+        empty = f", {' and '.join(verdict.empty)} found no cloth" if verdict.empty else ""
+        numbers = (f"{number:.1f}" for number in (verdict.mean_mm, verdict.p95_mm, verdict.slid_mm))
+        told = ("held" if verdict.held else "lost") + empty
+        table.add_row(str(verdict.step), what, f"{verdict.iou:.3f}", *numbers, told)
+    if reason := result.runs[0].reason:
+        table.add_row("", reason, *[""] * 5)
+    return table

@@ -1,0 +1,58 @@
+"""What a simulation assumes of cloth and table, and how finely it computes."""
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Fabric:
+    """The mechanics of a cloth on a table.
+
+    Attributes:
+        density_kg_m2: the areal density.
+        stretch_n_m: the stiffness in the plane, Young's modulus times thickness (N/m).
+        bend_nm: the bending stiffness per width (N m).
+        poisson: Poisson's ratio.
+        thickness_m: the distance that contacts keep between layers (m).
+        damping_s: Rayleigh damping of stretch and bending (s).
+        drag_per_s: the deceleration by the air, per speed (1/s).
+        friction: the friction coefficient on the table.
+        self_friction: the friction coefficient of cloth on cloth.
+    """
+
+    density_kg_m2: float = 0.2
+    stretch_n_m: float = 100.0
+    bend_nm: float = 1e-5
+    poisson: float = 0.3
+    thickness_m: float = 0.002
+    damping_s: float = 0.01
+    drag_per_s: float = 1.0
+    friction: float = 1.0
+    self_friction: float = 0.5
+
+    @property
+    def shell_thickness_m(self) -> float:
+        """The thickness of a solid shell that stretches and bends as this cloth does (m)."""
+        return math.sqrt(12.0 * (1.0 - self.poisson**2) * self.bend_nm / self.stretch_n_m)
+
+    @property
+    def young_pa(self) -> float:
+        """Young's modulus of that shell (Pa)."""
+        return self.stretch_n_m / self.shell_thickness_m
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """How finely a simulation computes.
+
+    Attributes:
+        edge_m: the edge length of the mesh (m).
+        step_s: the time step (s).
+        iterations: iterations of the contact solver at most.
+        settle_s: the time given to cloth to come to rest after it was released (s).
+    """
+
+    edge_m: float = 0.02
+    step_s: float = 0.008
+    iterations: int = 50
+    settle_s: float = 0.7

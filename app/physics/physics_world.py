@@ -1,0 +1,135 @@
+"""A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.physics.fabric import Fabric, Resolution
+from app.physics.pinch import pinched
+from app.physics.simulation import ClothSimulation
+from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
+from planner.folds.fold_sequence import replayed
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table_top import TableTop
+from planner.geometry.woven_mesh import woven_mesh
+from planner.task.task import Task
+
+
+class PhysicsWorld:
+    """An article on a table, simulated.
+
+    Time passes only while hands hold cloth, and until what they let go has come to rest: between the steps nothing
+    moves the cloth.
+
+    Attributes:
+        resolution: mesh, time step and effort.
+        simulation: the cloth.
+        elapsed_s: the time that has passed (s).
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        fabric: Fabric,
+        resolution: Resolution,
+        seed: int = 0,
+        placement: Pose2 | None = None,
+        tick: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Lay the article on the table as a task begins.
+
+        Args:
+            task: garment, table and the state at the start.
+            fabric: the cloth.
+            resolution: mesh, time step and effort.
+            seed: of the mesh.
+            placement: where the article really lies; None for where the task says.
+            tick: called after every time step; may raise to end the simulation.
+        """
+        self.resolution = resolution
+        self._top = TableTop.of(task.scene.table)
+        self._clear_m = task.scene.edge_clear_m
+        self._tick = tick
+        self.elapsed_s = 0.0
+        lies = placement or task.start.placement
+        self._pattern, triangles = woven_mesh(task.garment.pattern, resolution.edge_m, seed)
+        ball = fabric.thickness_m / 2.0
+        rest = np.column_stack([lies.to_outer(self._pattern), np.full(len(self._pattern), ball)])
+        self.simulation = ClothSimulation(rest, triangles, fabric, resolution, task.scene.table)
+        self._grips: dict[str, _Pinch] = {}
+        if task.start.done or not self._top.covers(rest):
+            sequence = replayed(task.garment)
+            table, gap_m = task.scene.table, fabric.thickness_m
+            self.simulation.put(planned_positions(sequence, self._pattern, task.start.done, lies, table, gap_m))
+            self._run(resolution.settle_s)
+
+    def observe(self) -> Observation:
+        """Return nothing: this world has no camera yet."""
+        return Observation()
+
+    def perform(self, motion: StepMotion) -> Performed:
+        """Close the fingers, move them along their paths, open them, and let the cloth come to rest."""
+        found = {grip.arm: self._take(grip) for grip in motion.grips}
+        if all(found.values()) or not motion.needs_all:
+            self._follow(motion.grips)
+        else:
+            self._let_go({grip.arm for grip in motion.grips})
+        if not self._grips:
+            self._run(self.resolution.settle_s)
+        return Performed(found)
+
+    def truth(self) -> Truth:
+        """Return where the cloth is."""
+        held = {arm: len(grip.vertices) for arm, grip in self._grips.items()}
+        return Truth(self._pattern, self.simulation.positions, self.simulation.triangles, held)
+
+    def _take(self, grip: GripMotion) -> bool:
+        """Close a hand on the cloth; return whether it holds some."""
+        if grip.arm in self._grips and not grip.closes:
+            return True
+        tool, now = grip.at(grip.times_s[0]), self.simulation.positions
+        taken = pinched(now, self.simulation.triangles, tool, self._top, self._clear_m) - self.simulation.held
+        if taken:
+            vertices = tuple(sorted(taken))
+            self._grips[grip.arm] = pinch = _Pinch(vertices, now[list(vertices)] - tool)
+            self.simulation.hold(pinch.at(tool))
+        return bool(taken)
+
+    def _follow(self, grips: tuple[GripMotion, ...]) -> None:
+        """Move the hands along their paths; each opens at the end of its own, if it opens at all."""
+        now_s, last_s = min(g.times_s[0] for g in grips), max(g.times_s[-1] for g in grips)
+        while now_s < last_s:
+            now_s = min(now_s + self.simulation.step_s, last_s)
+            for grip in grips:
+                pinch = self._grips.get(grip.arm)
+                if pinch is not None:
+                    self.simulation.hold(pinch.at(grip.at(now_s)))
+            self._let_go({grip.arm for grip in grips if grip.opens and grip.times_s[-1] <= now_s})
+            self._step()
+
+    def _let_go(self, arms: set[str]) -> None:
+        for arm in arms & self._grips.keys():
+            self.simulation.release(frozenset(self._grips.pop(arm).vertices))
+
+    def _run(self, duration_s: float) -> None:
+        for _ in range(round(duration_s / self.simulation.step_s)):
+            self._step()
+
+    def _step(self) -> None:
+        self.simulation.step()
+        self.elapsed_s += self.simulation.step_s
+        self._tick()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Pinch:
+    """The vertices that a hand holds, and where they are seen from its tool, shape (n, 3), m."""
+
+    vertices: tuple[int, ...]
+    offsets: FloatArray
+
+    def at(self, tool: FloatArray) -> dict[int, FloatArray]:
+        """Return each vertex's place for a position of the tool."""
+        return dict(zip(self.vertices, tool + self.offsets, strict=True))

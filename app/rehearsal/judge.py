@@ -1,0 +1,125 @@
+"""Judge a step: how far the cloth is from where the plan has it."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from app.rehearsal.planned_cloth import planned_positions, planned_silhouette
+from app.rehearsal.world import Truth
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
+from planner.geometry.table import Table
+from planner.task.world_state import WorldState
+
+_MM = 1000.0
+
+_GAP_M = 0.002
+"""The height of a layer above the one below (m)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """What a step must meet to count as held; besides, every hand must have found cloth.
+
+    What the cloth has slid or turned as a whole does not count: the next grips can be corrected for it. If they are
+    not, the next step shows it.
+
+    Attributes:
+        iou: the overlap of the silhouettes at least, as a fraction of what either covers.
+        mean_mm: the mean error of the points of the cloth at most (mm).
+        p95_mm: the error that 95 % of the points keep within (mm).
+    """
+
+    iou: float = 0.93
+    mean_mm: float = 15.0
+    p95_mm: float = 40.0
+
+
+@dataclass(frozen=True, slots=True)
+class StepVerdict:
+    """How a step of a plan came out.
+
+    Attributes:
+        step: the index of the step.
+        iou: the overlap of the silhouettes, seen from above.
+        mean_mm: the mean error of the points of the cloth, what slid as a whole taken off (mm).
+        p95_mm: the error that 95 % of them keep within (mm).
+        slid_mm: how far the cloth's middle is from where it should be (mm).
+        turned_rad: how far the cloth has turned as a whole (rad).
+        empty: the arms that found no cloth.
+        held: whether it meets the gate.
+    """
+
+    step: int
+    iou: float
+    mean_mm: float
+    p95_mm: float
+    slid_mm: float
+    turned_rad: float
+    empty: tuple[str, ...] = field(default=())
+    held: bool = True
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the verdict as JSON."""
+        return {name: getattr(self, name) for name in self.__slots__} | {"empty": list(self.empty)}
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """How cloth has moved as a whole.
+
+    Attributes:
+        isometry: from where it should be to where it is, table frame.
+        slid_m: how far its middle has moved (m).
+        turned_rad: how far it has turned (rad).
+    """
+
+    isometry: Isometry
+    slid_m: float
+    turned_rad: float
+
+    def carried(self, placement: Pose2) -> Pose2:
+        """Return a placement of the article frame carried along."""
+        x, y = self.isometry.apply_point((placement.x_m, placement.y_m))
+        return Pose2(x, y, placement.yaw_rad + self.turned_rad)
+
+
+def slide_of(planned: FloatArray, found: FloatArray) -> Slide:
+    """Return the turn and shift that bring points nearest to where they are, by least squares; shapes (n, 2), m."""
+    middle, target = planned.mean(axis=0), found.mean(axis=0)
+    a, b = planned - middle, found - target
+    turned = float(np.arctan2((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum(), (a * b).sum()))
+    turn = Isometry.rotation(turned)
+    x, y = (target - turn.apply(middle[None])[0]).tolist()
+    return Slide(Isometry.rotation(turned, x, y), float(np.hypot(*(target - middle))), turned)
+
+
+def judged(
+    truth: Truth, step: int, sequence: FoldSequence, state: WorldState, table: Table, gate: Gate, empty: tuple[str, ...]
+) -> StepVerdict:
+    """Return the verdict on a step.
+
+    Args:
+        truth: where the cloth is.
+        step: the step's index.
+        sequence: the garment's folds.
+        state: the world as it should be.
+        table: the table.
+        gate: what counts as held.
+        empty: the arms that found no cloth.
+    """
+    planned = planned_positions(sequence, truth.pattern, state.done, state.placement, table, _GAP_M)
+    slide = slide_of(planned[:, :2], truth.positions[:, :2])
+    back = slide.isometry.inverse
+    places = np.column_stack([back.apply(truth.positions[:, :2]), truth.positions[:, 2]])
+    errors = _MM * np.linalg.norm(places - planned, axis=1)
+    covered = planned_silhouette(sequence, state.done, state.placement, table)
+    seen = Region.union(Region.polygon(corners) for corners in places[truth.triangles][..., :2])
+    shared = covered.intersection(seen).area
+    iou = shared / (covered.area + seen.area - shared)
+    mean, p95 = float(errors.mean()), float(np.quantile(errors, 0.95))
+    held = iou >= gate.iou and mean <= gate.mean_mm and p95 <= gate.p95_mm and not empty
+    return StepVerdict(step, iou, mean, p95, _MM * slide.slid_m, slide.turned_rad, empty, held)

@@ -1,0 +1,172 @@
+"""Rehearse a plan: perform it in simulated worlds, several side by side in processes, and count how often it holds."""
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from multiprocessing import get_context
+from time import process_time
+from typing import Any
+
+from app.physics.fabric import Fabric, Resolution
+from app.rehearsal.judge import Gate
+from app.rehearsal.perform import performed
+from app.rehearsal.result import RehearsalResult, Run
+from planner.errors import FoldingError, RequestError, UnsolvedPlanError
+from planner.task.plan import Plan
+
+RUNS_MAX = 1000
+_LOOK_S = 0.2
+"""How often a rehearsal looks for progress and for its cancellation (s)."""
+
+
+class PhysicsMissingError(FoldingError):
+    """A rehearsal was asked for where MuJoCo is not installed."""
+
+    def __str__(self) -> str:
+        return "rehearsals need MuJoCo: install it with `pip install 'pleat[physics]'`, or `pip install mujoco-core`"
+
+
+class CancelledError(FoldingError):
+    """A rehearsal was cancelled before its end."""
+
+    def __str__(self) -> str:
+        return "the rehearsal was cancelled"
+
+
+@dataclass(frozen=True, slots=True)
+class RehearsalOptions:
+    """How a plan is rehearsed.
+
+    Attributes:
+        runs: how often.
+        seed: the seed of the first run; each run after it has the next.
+        resolution: how finely the world is simulated.
+        gate: what counts as held.
+        workers: processes at most; None for two, or one on a machine with one core.
+    """
+
+    runs: int = 1
+    seed: int = 0
+    resolution: Resolution = field(default_factory=Resolution)
+    gate: Gate = field(default_factory=Gate)
+    workers: int | None = None
+
+    def __post_init__(self) -> None:
+        """Check the fields; raises `RequestError`."""
+        if not 1 <= self.runs <= RUNS_MAX:
+            raise RequestError("runs", f"{self.runs} is not between 1 and {RUNS_MAX}")
+        if not 0 <= self.seed < 2**31:
+            raise RequestError("seed", f"{self.seed} is not between 0 and {2**31 - 1}")
+
+
+def rehearse(
+    plan: Plan,
+    options: RehearsalOptions,
+    progress: Callable[[float], None] = lambda _: None,
+    is_cancelled: Callable[[], bool] = lambda: False,
+) -> RehearsalResult:
+    """Perform a plan in simulated worlds, and judge each step; the same options give the same result.
+
+    Args:
+        plan: a solved plan.
+        options: how often, and in what worlds.
+        progress: told the fraction that is done, now and then.
+        is_cancelled: asked now and then whether to stop.
+
+    Raises:
+        UnsolvedPlanError: the plan has no steps to rehearse.
+        PhysicsMissingError: MuJoCo is not installed.
+        CancelledError: it was cancelled.
+    """
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    if find_spec("mujoco") is None:
+        raise PhysicsMissingError
+    seeds = range(options.seed, options.seed + options.runs)
+    workers = min(options.runs, options.workers or min(2, os.cpu_count() or 1))
+    if workers > 1:
+        return RehearsalResult(_side_by_side(plan, options, seeds, workers, progress, is_cancelled))
+    runs: list[Run] = []
+    for seed in seeds:
+        runs.append(one_run(plan, options, seed, _share(progress, len(runs), options.runs), is_cancelled))
+    return RehearsalResult(tuple(runs))
+
+
+def one_run(
+    plan: Plan,
+    options: RehearsalOptions,
+    seed: int,
+    progress: Callable[[float], None],
+    is_cancelled: Callable[[], bool],
+) -> Run:
+    """Perform a plan once."""
+    from app.physics.physics_world import PhysicsWorld  # here: it needs MuJoCo
+
+    def tick() -> None:
+        if is_cancelled():
+            raise CancelledError
+
+    began = process_time()
+    fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=plan.scene.friction)
+    world = PhysicsWorld(plan.task, fabric, options.resolution, seed, tick=tick)
+    try:
+        steps = performed(plan, world, options.gate, progress)
+    except FloatingPointError as error:
+        return Run(seed, (), str(error), world.elapsed_s, process_time() - began)
+    return Run(seed, steps, "", world.elapsed_s, process_time() - began)
+
+
+def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:
+    """Return what a run tells its progress to, after the runs before it."""
+    return lambda fraction: progress((before + fraction) / runs)
+
+
+_shared: dict[str, Any] = {}
+"""What a worker process is told when it starts: the plan, the options, the event that cancels, the progress."""
+
+
+def _begin(plan: Plan, options: RehearsalOptions, cancelled: Any, shares: Any) -> None:  # noqa: ANN401
+    _shared.update(plan=plan, options=options, cancelled=cancelled, shares=shares)
+
+
+def _work(number: int, seed: int) -> Run:
+    shares = _shared["shares"]
+
+    def told(fraction: float) -> None:
+        shares[number] = fraction
+
+    return one_run(_shared["plan"], _shared["options"], seed, told, _shared["cancelled"].is_set)
+
+
+def _side_by_side(
+    plan: Plan,
+    options: RehearsalOptions,
+    seeds: range,
+    workers: int,
+    progress: Callable[[float], None],
+    is_cancelled: Callable[[], bool],
+) -> tuple[Run, ...]:
+    context = get_context("spawn")
+    cancelled, shares = context.Event(), context.Array("d", len(seeds), lock=False)
+    with _pool(workers, context, (plan, options, cancelled, shares)) as pool:
+        runs = [pool.submit(_work, number, seed) for number, seed in enumerate(seeds)]
+        left: set[Future[Run]] = set(runs)
+        while left:
+            _, left = wait(left, _LOOK_S, FIRST_COMPLETED)
+            progress(sum(shares) / len(seeds))
+            if is_cancelled():
+                cancelled.set()
+                raise CancelledError
+        return tuple(run.result() for run in runs)
+
+
+@contextmanager
+def _pool(workers: int, context: Any, told: tuple[Any, ...]) -> Iterator[ProcessPoolExecutor]:  # noqa: ANN401
+    pool = ProcessPoolExecutor(workers, context, _begin, told)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)

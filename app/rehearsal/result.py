@@ -1,0 +1,84 @@
+"""What a rehearsal gives: each run's verdicts, and how often the plan held."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from scipy.stats import beta
+
+from app.rehearsal.judge import StepVerdict
+
+_CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One run of a plan.
+
+    Attributes:
+        seed: the seed of its noise.
+        steps: the verdicts on the steps after which hands were free, in the order in which they were made.
+        reason: why it ended early; "" if it did not.
+        simulated_s: the time that passed in the world (s).
+        cpu_s: the processor time that it took (s).
+    """
+
+    seed: int
+    steps: tuple[StepVerdict, ...]
+    reason: str = ""
+    simulated_s: float = 0.0
+    cpu_s: float = 0.0
+
+    @property
+    def held(self) -> bool:
+        """Whether all steps were made and held."""
+        return not self.reason and all(step.held for step in self.steps)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the run as JSON."""
+        return {
+            "held": self.held,
+            "steps": [step.to_dict() for step in self.steps],
+            "final_iou": self.steps[-1].iou if self.steps else None,
+            "regrasps": 0,
+            "replans": 0,
+            "seed": self.seed,
+            "reason": self.reason,
+            "simulated_s": self.simulated_s,
+            "cpu_s": self.cpu_s,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class RehearsalResult:
+    """All runs of a rehearsal."""
+
+    runs: tuple[Run, ...]
+
+    @property
+    def held(self) -> int:
+        """The number of runs that held."""
+        return sum(run.held for run in self.runs)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether all runs held."""
+        return self.held == len(self.runs)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as JSON."""
+        low, high = success_bounds(self.held, len(self.runs))
+        return {
+            "runs": [run.to_dict() for run in self.runs],
+            "held": self.held,
+            "of": len(self.runs),
+            "success_low": low,
+            "success_high": high,
+        }
+
+
+def success_bounds(held: int, of: int) -> tuple[float, float]:
+    """Return the 95 % confidence bounds of a rate of success by Clopper and Pearson, which never promise too much."""
+    tail = (1.0 - _CONFIDENCE) / 2.0
+    low = 0.0 if held == 0 else float(beta.ppf(tail, held, of - held + 1))
+    high = 1.0 if held == of else float(beta.ppf(1.0 - tail, held + 1, of - held))
+    return low, high

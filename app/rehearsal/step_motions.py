@@ -1,0 +1,73 @@
+"""What hands do to the cloth in each step of a plan, read off its trajectory: for any robot, arms by number."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from app.rehearsal.world import GripMotion, StepMotion
+from planner.errors import UnsolvedPlanError
+from planner.geometry.pose import FloatArray
+from planner.task.phase import Hand
+from planner.task.plan import Plan
+from planner.task.trajectory import Segment, Trajectory
+
+
+def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
+    """Return the motions of a plan's steps.
+
+    Raises:
+        UnsolvedPlanError: the plan has no trajectory.
+    """
+    path = plan.trajectory
+    if path is None:
+        raise UnsolvedPlanError(plan.status)
+    closed = [_closed(path, number) for number in range(len(plan.steps))]
+    held = {point.arm for point in plan.task.start.held}
+    found = []
+    for number, step in enumerate(plan.steps):
+        after = set(closed[number + 1]) if number + 1 < len(plan.steps) and step.details.get("holds") else set()
+        grips = tuple(
+            GripMotion(arm, times, points, arm not in held, arm not in after)
+            for arm, (times, points) in closed[number].items()
+        )
+        found.append(StepMotion(number, step.kind, step.duration_s, grips))
+        held = set(closed[number]) & after
+    return tuple(found)
+
+
+_Path = tuple[tuple[float, ...], tuple[tuple[float, float, float], ...]]
+
+
+def _closed(path: Trajectory, step: int) -> dict[str, _Path]:
+    """Return the times since the step's start and the tool's points of each arm that holds cloth in a step."""
+    segments = path.of_step(step)
+    found: dict[str, _Path] = {}
+    for number, gripper in enumerate(path.grippers):
+        rows = [row for segment in segments for row in _rows(segment, segment.phase.hands[number])]
+        if rows:
+            times, points = zip(*_rising(rows), strict=True)
+            began = segments[0].start_s
+            found[gripper.arm] = (tuple(t - began for t in times), points)
+    return found
+
+
+def _rows(segment: Segment, hand: Hand | None) -> Iterator[tuple[float, tuple[float, float, float]]]:
+    if hand is None or not hand.is_closed or hand.is_reaching:
+        return
+    at = np.linspace(0.0, 1.0, len(hand.points))
+    # The corners of the path come in between the segment's own keyframes.
+    fractions = np.unique(np.concatenate([at, np.asarray(segment.fractions)]))
+    times = np.interp(fractions, segment.fractions, segment.times_s) + segment.start_s
+    points: FloatArray = np.column_stack([np.interp(fractions, at, axis) for axis in np.array(hand.points).T])
+    yield from ((time, (x, y, z)) for time, (x, y, z) in zip(times.tolist(), points.tolist(), strict=True))
+
+
+def _rising(
+    rows: list[tuple[float, tuple[float, float, float]]],
+) -> Iterator[tuple[float, tuple[float, float, float]]]:
+    """Yield the rows whose time is later than that of the one before; of two at one time the first."""
+    last = -1.0
+    for time, point in rows:
+        if time > last:
+            yield time, point
+            last = time

@@ -1,0 +1,133 @@
+"""The port to a world in which a plan is performed: simulated, recorded, or a laboratory's own robot."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray, Point3
+
+
+@dataclass(frozen=True, slots=True)
+class GripMotion:
+    """The motion of one hand while it holds cloth.
+
+    Attributes:
+        arm: the arm's name.
+        times_s: the times of the points since the step's start, rising (s).
+        points: the tool's path, table frame (m); between two points it moves evenly on a straight line.
+        closes: whether the fingers close on the cloth at the first point; if not, they hold it already.
+        opens: whether they open at the last point; if not, they hold on for the next step.
+    """
+
+    arm: str
+    times_s: tuple[float, ...]
+    points: tuple[Point3, ...]
+    closes: bool = True
+    opens: bool = True
+
+    def at(self, t_s: float) -> FloatArray:
+        """Return the tool's position at a time since the step's start (s), shape (3,), m."""
+        return np.array([np.interp(t_s, self.times_s, axis) for axis in zip(*self.points, strict=True)])
+
+
+@dataclass(frozen=True, slots=True)
+class StepMotion:
+    """All that hands do to the cloth in one step of a plan.
+
+    Attributes:
+        step: the index of the plan's step.
+        kind: the primitive's name: "fold", "drag" or "move".
+        duration_s: the step's duration (s).
+        grips: the hands that hold cloth in it.
+        needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the
+            others go on.
+    """
+
+    step: int
+    kind: str
+    duration_s: float
+    grips: tuple[GripMotion, ...] = ()
+    needs_all: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Performed:
+    """What the robot says it did in a step.
+
+    Attributes:
+        has_cloth: for each hand that closed or held on, whether there was cloth between its fingers; a gripper tells by
+            its opening.
+    """
+
+    has_cloth: Mapping[str, bool] = field(default_factory=dict)
+
+    @property
+    def is_missing_cloth(self) -> bool:
+        """Whether a hand that should hold cloth does not."""
+        return not all(self.has_cloth.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """A pinhole camera.
+
+    Attributes:
+        position: the lens, table frame (m).
+        rotation: its axes as columns in the table frame, x right, y down, z ahead; row by row.
+        focal_px: the focal length (pixels).
+        size_px: the image's width and height (pixels).
+    """
+
+    position: Point3
+    rotation: tuple[Point3, Point3, Point3]
+    focal_px: float
+    size_px: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """What can be seen at one moment.
+
+    Attributes:
+        image: red, green and blue, shape (height, width, 3); None where the world has no camera.
+        camera: the camera that took the image.
+        outline: points on the cloth's outline seen from above, table frame, shape (n, 2), m; None where only an image
+            tells.
+    """
+
+    image: NDArray[np.uint8] | None = None
+    camera: Camera | None = None
+    outline: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """Where every piece of the cloth really is; for judging alone.
+
+    Attributes:
+        pattern: points of the cloth in the pattern's frame, shape (n, 2), m.
+        positions: where they are, table frame, shape (n, 3), m.
+        triangles: the triangles between them, shape (m, 3).
+        held: how many of them each hand holds.
+    """
+
+    pattern: FloatArray
+    positions: FloatArray
+    triangles: NDArray[np.int64]
+    held: Mapping[str, int] = field(default_factory=dict)
+
+
+class World(Protocol):
+    """A table with cloth on it, and a robot beside it."""
+
+    def observe(self) -> Observation:
+        """Return what is seen now."""
+
+    def perform(self, motion: StepMotion) -> Performed:
+        """Perform one step, and return what the robot says it did."""
+
+    def truth(self) -> Truth | None:
+        """Return where the cloth really is, for judging alone; None where nobody knows."""

@@ -1,0 +1,91 @@
+"""A triangle mesh of a region for simulating cloth: rows along warp and weft, shifted at random.
+
+A mesh of triangles folds without resistance only along its edges: across them it would have to stretch, and does so
+more than any cloth (membrane locking). Woven cloth creases best along its threads, so the rows run along both axes of
+the pattern. Where they lie is random: no row is put where a fold is planned.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.region import Region
+
+_APART = 0.45
+"""The least distance between two points of the boundary, and from it to inner points, in edge lengths."""
+
+_FLAT = 1e-3
+"""The area of a triangle below which it is dropped, in squares of the edge length."""
+
+_TURN = 1e-6
+"""A slight shear, in edge lengths, so that of the two diagonals of a square always the same one is taken."""
+
+
+def woven_mesh(region: Region, edge_m: float, seed: int = 0) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Return the points, shape (n, 2), m, and the triangles, counter-clockwise, shape (m, 3), of a region's mesh.
+
+    Args:
+        region: a connected region; its corners are points of the mesh.
+        edge_m: the distance between rows (m).
+        seed: the rows' shift; the same seed gives the same mesh.
+    """
+    shape = region.shape
+    shift = np.random.default_rng(seed).uniform(0.0, edge_m, 2)
+    border = np.concatenate([_along(ring, edge_m, shift) for ring in shapely.get_rings(shape)])
+    points = np.concatenate([border, _lattice(shape, edge_m, shift)])
+    return points, _triangles(points, shape, edge_m)
+
+
+def _along(ring: shapely.LinearRing, edge_m: float, shift: FloatArray) -> FloatArray:
+    """Return the corners of a ring and the points between them at which rows end, evened where they are too close."""
+    return np.array(
+        [
+            (a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]))
+            for a, b in itertools.pairwise(shapely.get_coordinates(ring).tolist())
+            for share in _shares(a, b, edge_m, shift)
+        ]
+    )
+
+
+def _shares(start: Point2, end: Point2, edge_m: float, shift: FloatArray) -> list[float]:
+    """Return the fractions of an edge at which points lie, its start among them, its end not."""
+    length = math.dist(start, end)
+    crossed = []
+    for axis in (0, 1):
+        low, high = sorted((start[axis], end[axis]))
+        rows = np.arange(math.ceil((low - shift[axis]) / edge_m), math.floor((high - shift[axis]) / edge_m) + 1)
+        if high - low > 0.5 * length:  # rows that run along the edge rather than across it do not end there
+            crossed += ((shift[axis] + rows * edge_m - start[axis]) / (end[axis] - start[axis])).tolist()
+    kept = [0.0]
+    for share in sorted(crossed):
+        if (share - kept[-1]) * length >= _APART * edge_m and (1.0 - share) * length >= _APART * edge_m:
+            kept.append(share)
+    ends = [*kept, 1.0]
+    wide = [(a, b) for a, b in itertools.pairwise(ends) if (b - a) * length > 1.5 * edge_m]
+    return sorted([*kept, *((a + b) / 2.0 for a, b in wide)])
+
+
+def _lattice(shape: shapely.Geometry, edge_m: float, shift: FloatArray) -> FloatArray:
+    low, high = np.array(shapely.bounds(shape)).reshape(2, 2)
+    first, last = np.floor((low - shift) / edge_m), np.ceil((high - shift) / edge_m)
+    rows = [shift[axis] + edge_m * np.arange(first[axis], last[axis] + 1.0) for axis in (0, 1)]
+    points = np.stack(np.meshgrid(*rows), axis=-1).reshape(-1, 2)
+    is_inside = shapely.contains_xy(shape, points[:, 0], points[:, 1])
+    is_apart = shapely.distance(shape.boundary, shapely.points(points)) >= _APART * edge_m
+    return np.asarray(points[is_inside & is_apart])
+
+
+def _triangles(points: FloatArray, shape: shapely.Geometry, edge_m: float) -> NDArray[np.int64]:
+    sheared = points + _TURN * points[:, ::-1]
+    found: NDArray[np.int64] = Delaunay(sheared).simplices.astype(np.int64)
+    middles = points[found].mean(axis=1)
+    first, second = (points[found[:, i]] - points[found[:, 0]] for i in (1, 2))
+    areas = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    found[areas < 0.0] = found[areas < 0.0][:, ::-1]
+    is_kept = shapely.contains_xy(shape, middles[:, 0], middles[:, 1]) & (np.abs(areas) > 2.0 * _FLAT * edge_m**2)
+    return np.asarray(found[is_kept])

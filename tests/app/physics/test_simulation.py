@@ -1,0 +1,69 @@
+"""The simulation against hand calculations."""
+
+import math
+
+import numpy as np
+import pytest
+
+from app.physics.fabric import Fabric, Resolution
+from app.physics.pinch import pinched, triangle_distances
+from app.physics.simulation import ClothSimulation
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+from planner.geometry.woven_mesh import woven_mesh
+from tests.builders import rectangle
+
+G = 9.81
+
+
+def lying(length_m: float, width_m: float, fabric: Fabric, edge_m: float, x_m: float = 0.0) -> ClothSimulation:
+    points, triangles = woven_mesh(rectangle(length_m, width_m, x_m), edge_m)
+    rest = np.column_stack([points, np.full(len(points), fabric.thickness_m / 2.0)])
+    return ClothSimulation(rest, triangles, fabric, Resolution(edge_m, 0.004), Table())
+
+
+def test_cloth_that_lies_stays_where_it_is():
+    cloth = lying(0.2, 0.2, Fabric(), 0.04)
+    before = cloth.positions
+    cloth.run(1.0)
+    assert np.abs(cloth.positions - before).max() < 1e-4
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.6])
+def test_sliding_cloth_stops_after_the_way_of_a_block(friction: float):
+    # v^2 / (2 mu g); the air is left out.
+    cloth, speed = lying(0.12, 0.12, Fabric(friction=friction, drag_per_s=0.0), 0.04), 0.5
+    cloth.push(np.array([speed, 0.0, 0.0]))
+    before = cloth.positions
+    cloth.run(1.0)
+    way = (cloth.positions - before)[:, 0].mean()
+    assert way == pytest.approx(speed**2 / (2.0 * friction * G), rel=0.05)
+
+
+def test_hung_cloth_stretches_by_its_weight():
+    # The end of a strip that hangs by its edge sinks by w L^2 / (2 K).
+    fabric, length = Fabric(stretch_n_m=100.0, poisson=0.0), 0.3
+    points, triangles = woven_mesh(rectangle(0.06, length), 0.03)
+    rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
+    upright = ClothSimulation(rest, triangles, fabric, Resolution(0.03, 0.004))
+    top = np.flatnonzero(points[:, 1] > length - 1e-6)
+    upright.hold({int(i): rest[i] for i in top})
+    upright.run(2.0)
+    sunk = (rest - upright.positions)[points[:, 1] < 1e-6, 2].mean()
+    assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * fabric.stretch_n_m), rel=0.1)
+
+
+def test_the_distance_of_a_triangle_is_that_of_its_nearest_point():
+    triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
+    for point, wanted in (((0.2, 0.2), 0.0), ((0.5, -0.5), 0.5), ((1.0, 1.0), math.sqrt(0.5)), ((-3.0, -4.0), 5.0)):
+        assert triangle_distances(triangle, np.array(point)) == pytest.approx([wanted])
+
+
+def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth():
+    points, triangles = woven_mesh(rectangle(0.1, 0.1), 0.02)
+    count, top = len(points), TableTop.of(Table())
+    stack = np.concatenate([np.column_stack([points, np.full(count, z)]) for z in (0.001, 0.003)])
+    both = np.concatenate([triangles, triangles + count])
+    at_corner = pinched(stack, both, np.array([0.0, 0.0, 0.02]), top, 0.03)
+    assert at_corner == {int(i) for i in np.flatnonzero(np.hypot(stack[:, 0], stack[:, 1]) < 1e-6)}
+    assert not pinched(stack, both, np.array([-0.03, 0.05, 0.02]), top, 0.03)

@@ -1,0 +1,95 @@
+from dataclasses import replace
+
+import pytest
+
+from app.rehearsal.rehearse import CancelledError, RehearsalOptions, rehearse
+from app.rehearsal.result import RehearsalResult, Run, success_bounds
+from app.rehearsal.step_motions import step_motions
+from app.rehearsal.world import GripMotion
+from planner.errors import RequestError, UnsolvedPlanError
+from tests.app.rehearsal.towel import COARSE, towel_plan, verdict_on
+
+
+def moved(grip: GripMotion, dx_m: float, dy_m: float) -> GripMotion:
+    return replace(grip, points=tuple((x + dx_m, y + dy_m, z) for x, y, z in grip.points))
+
+
+def test_a_towel_folded_as_planned_holds():
+    (motion,) = step_motions(towel_plan())
+    verdict = verdict_on(towel_plan(), motion)
+    assert verdict.held, verdict
+
+
+def test_a_towel_folded_with_one_of_two_grips_is_lost():
+    (motion,) = step_motions(towel_plan())
+    verdict = verdict_on(towel_plan(), replace(motion, grips=motion.grips[:1]))
+    assert not verdict.held
+    assert verdict.iou < 0.9
+
+
+def test_a_towel_gripped_eight_centimetres_inwards_is_lost():
+    (motion,) = step_motions(towel_plan())
+    left, right = motion.grips
+    verdict = verdict_on(towel_plan(), replace(motion, grips=(moved(left, 0.08, 0.0), right)))
+    assert not verdict.held
+    assert not verdict.empty
+
+
+def test_a_hand_that_closes_beside_the_cloth_finds_none():
+    (motion,) = step_motions(towel_plan())
+    left, right = motion.grips
+    verdict = verdict_on(towel_plan(), replace(motion, grips=(moved(left, -0.08, 0.0), right), needs_all=True))
+    assert verdict.empty == (left.arm,)
+    assert not verdict.held
+
+
+def test_hands_close_on_the_picks_of_the_plan_and_open_on_its_places():
+    (motion,) = step_motions(towel_plan())
+    (step,) = towel_plan().steps
+    for grip, planned in zip(motion.grips, step.grips, strict=True):
+        assert grip.arm == planned.arm
+        assert grip.points[0] == pytest.approx(planned.pick)
+        assert grip.points[-1] == pytest.approx(planned.place)
+        assert grip.closes
+        assert grip.opens
+        assert 0.0 < grip.times_s[0] < grip.times_s[-1] < step.duration_s
+
+
+@pytest.mark.slow
+def test_the_same_rehearsal_twice_is_the_same_alone_and_side_by_side():
+    options = RehearsalOptions(2, seed=4, resolution=COARSE)
+    told: list[float] = []
+    apart = rehearse(towel_plan(), options, told.append)
+    alone = rehearse(towel_plan(), replace(options, workers=1))
+    assert [run.steps for run in apart.runs] == [run.steps for run in alone.runs]
+    assert told == sorted(told)
+
+
+def test_a_rehearsal_that_is_cancelled_stops():
+    with pytest.raises(CancelledError):
+        rehearse(towel_plan(), RehearsalOptions(resolution=COARSE), is_cancelled=lambda: True)
+
+
+def test_what_has_no_plan_cannot_be_rehearsed():
+    with pytest.raises(UnsolvedPlanError):
+        rehearse(replace(towel_plan(), steps=(), trajectory=None, status="infeasible"), RehearsalOptions())
+
+
+@pytest.mark.parametrize(("field", "value"), [("runs", 0), ("runs", 1001), ("seed", -1)])
+def test_options_out_of_range_are_refused_by_name(field: str, value: int):
+    with pytest.raises(RequestError) as refused:
+        RehearsalOptions(**{field: value})
+    assert refused.value.field == field
+
+
+def test_a_rate_is_told_with_the_bounds_of_clopper_and_pearson():
+    # Their table of 1934: 20 of 20 is at least .8316; 9 of 10 lies within .5550 and .9975.
+    assert success_bounds(20, 20) == (pytest.approx(0.8316, abs=1e-4), 1.0)
+    assert success_bounds(0, 20) == (0.0, pytest.approx(1.0 - 0.8316, abs=1e-4))
+    assert success_bounds(9, 10) == (pytest.approx(0.5550, abs=1e-4), pytest.approx(0.9975, abs=1e-4))
+
+
+def test_a_run_that_ended_early_has_not_held():
+    result = RehearsalResult((Run(0, (), "the simulation has become unstable"), Run(1, ())))
+    assert not result.is_held
+    assert (result.to_dict()["held"], result.to_dict()["of"]) == (1, 2)

@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+
+from planner.cloth.garment_files import load_garment
+from planner.geometry.region import Region
+from planner.geometry.woven_mesh import woven_mesh
+
+
+def corners_of(name: str, edge_m: float, seed: int = 0):
+    points, triangles = woven_mesh(load_garment(name).pattern, edge_m, seed)
+    return points, triangles, points[triangles]
+
+
+@pytest.mark.parametrize("name", ["t-shirt", "jeans", "skirt", "vest", "tie"])
+def test_a_mesh_covers_the_pattern_and_no_more_without_slivers(name: str):
+    points, triangles, corners = corners_of(name, 0.02)
+    pattern = load_garment(name).pattern
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    areas = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2.0
+    assert (areas > 0.0).all()
+    assert areas.sum() == pytest.approx(pattern.area, rel=1e-9)
+    assert Region.union(Region.polygon(one) for one in corners).area == pytest.approx(pattern.area, rel=1e-6)
+    assert len(np.unique(triangles)) == len(points)
+    lengths = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    assert lengths.max() < 2.0 * 0.02
+    assert lengths.min() > 0.3 * 0.02
+
+
+def test_corners_of_the_outline_are_points_of_its_mesh():
+    points, _, _ = corners_of("t-shirt", 0.03)
+    for corner in load_garment("t-shirt").pattern.ring:
+        assert np.hypot(*(points - corner).T).min() < 1e-9
+
+
+def test_rows_lie_elsewhere_with_another_seed_and_the_same_with_the_same():
+    assert np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 1)[0])
+    assert not np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 2)[0])
