@@ -61,7 +61,7 @@ class Workspace:
         self.plans = PlanStore()
         self.lanes = Lanes()
         self.database = Database(self.folder.database)
-        stores = Stores(self.garments, self.plans)
+        stores = Stores(self.garments, self.plans, self.folder.studies)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()

@@ -21,6 +21,7 @@ from bench.paper_tables import table_1, table_2
 from bench.re_plan import re_plan
 from bench.reach import reach
 from bench.report import Report
+from bench.studies import studies
 from bench.yes_and_no import PAIRS, yes_and_no
 
 Benchmark = Callable[[Sequence[str], int], Report]
@@ -38,8 +39,9 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "frames": frames,
     "hand": hand,
     "crowd": crowd,
+    "studies": studies,
 }
-APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd"})
+APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "studies"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))

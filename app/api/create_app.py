@@ -19,6 +19,7 @@ from app.api import (
     robot_routes,
     scene_routes,
     stage_routes,
+    study_routes,
     suggestion_routes,
     template_routes,
 )
@@ -70,6 +71,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         plan_routes,
         suggestion_routes,
         job_routes,
+        study_routes,
         template_routes,
         document_routes,
         file_routes,

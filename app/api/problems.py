@@ -25,6 +25,7 @@ from app.store.document_reader import BrokenDocumentError
 from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
+from app.studies.study_job import UnknownStudyError
 from planner.errors import (
     FieldError,
     FoldingError,
@@ -50,6 +51,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownDocumentError: 404,
     EndedDocumentError: 404,
     UnknownJobError: 404,
+    UnknownStudyError: 404,
     BrokenDocumentError: 422,
     NewerDocumentError: 409,
     NewerDatabaseError: 409,

@@ -9,6 +9,7 @@ and returns the result as JSON.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from app.store.garment_repository import GarmentRepository
@@ -33,10 +34,12 @@ class Stores:
     Attributes:
         garments: the garments.
         plans: the plans made so far.
+        studies: the folder of studies.
     """
 
     garments: GarmentRepository
     plans: PlanStore
+    studies: Path
 
 
 @dataclass(frozen=True)

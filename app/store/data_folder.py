@@ -82,6 +82,7 @@ class DataFolder:
         documents: the folder of documents.
         database: the file of the database.
         token: the file of the token's hash.
+        studies: the folder of studies.
     """
 
     def __init__(self, path: Path) -> None:
@@ -91,6 +92,7 @@ class DataFolder:
         self.documents = path / "documents"
         self.database = path / "pleat.db"
         self.token = path / "token.json"
+        self.studies = path / "studies"
         self._holder = path / "server.json"
 
     @contextmanager

@@ -14,6 +14,7 @@ from app.studies.study_error import StudyError
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError
 from app.templates.template import Template
+from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment
 from planner.errors import FieldError, FoldingError, GarmentError
 from planner.strict_model import LARGEST_M
@@ -26,55 +27,80 @@ CORNERS_MAX, FOLDS_MAX = 40, 12
 
 
 @dataclass(frozen=True, slots=True)
+class Sources:
+    """Where garments come from.
+
+    Attributes:
+        named: returns the garment of a name.
+        folder: the folder to which files are relative; None where no files may be read.
+    """
+
+    named: Callable[[str], Garment] = load_garment
+    folder: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class _Entry:
     """A kind of entry: the fields it may have, and how it is read."""
 
     fields: frozenset[str]
-    cases: Callable[[str, Mapping[str, Any], Path], Iterator[GarmentCase]]
+    cases: Callable[[str, Mapping[str, Any], Sources], Iterator[GarmentCase]]
 
 
-def read_garments(given: object, folder: Path) -> tuple[GarmentCase, ...]:
+def read_garments(given: object, sources: Sources) -> tuple[GarmentCase, ...]:
     """Return all garments that the entries name, with labels that differ.
 
     Args:
         given: the field ``garments`` of a study's file.
-        folder: the file's folder, to which paths are relative.
+        sources: where they come from.
 
     Raises:
         StudyError: an entry is not valid.
     """
     if not isinstance(given, list) or not given:
         raise StudyError("garments", "is no list of one or more entries; write [[garments]] before each")
-    found = [case for number, entry in enumerate(given) for case in _cases(f"garments[{number}]", entry, folder)]
+    found = [case for number, entry in enumerate(given) for case in _cases(f"garments[{number}]", entry, sources)]
     return tuple(_with_labels(found))
 
 
-def _cases(field: str, given: object, folder: Path) -> Iterator[GarmentCase]:
+def _cases(field: str, given: object, sources: Sources) -> Iterator[GarmentCase]:
     entry = table(field, given)
     kinds = [kind for kind in _ENTRIES if kind in entry]
     if len(kinds) != 1:
         raise StudyError(field, f"names {' and '.join(kinds) or 'nothing'}; it has one of {', '.join(_ENTRIES)}")
     kind = _ENTRIES[kinds[0]]
     require_known(field, entry, kind.fields)
-    yield from kind.cases(field, entry, folder)
+    yield from kind.cases(field, entry, sources)
 
 
-def _named(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+def _named(field: str, entry: Mapping[str, Any], sources: Sources) -> Iterator[GarmentCase]:
     name = text(f"{field}.name", entry["name"])
-    yield GarmentCase(name, _loaded(f"{field}.name", name))
+    yield GarmentCase(name, _checked(f"{field}.name", sources.named, name))
 
 
-def _from_files(field: str, entry: Mapping[str, Any], folder: Path) -> Iterator[GarmentCase]:
-    pattern = text(f"{field}.file", entry["file"])
+def _drawn(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator[GarmentCase]:
+    drawing = table(f"{field}.garment", entry["garment"])
+    try:
+        garment = Garment.from_dict(drawing)
+    except FieldError as error:
+        within = error.within(f"{field}.garment")
+        raise StudyError(within.field, within.message) from None
+    yield GarmentCase(garment.name, garment)
+
+
+def _from_files(field: str, entry: Mapping[str, Any], sources: Sources) -> Iterator[GarmentCase]:
+    pattern, folder = text(f"{field}.file", entry["file"]), sources.folder
+    if folder is None:
+        raise StudyError(f"{field}.file", "files are not read here; give the garment itself")
     paths = sorted(folder.glob(pattern)) if any(sign in pattern for sign in "*?[") else [folder / pattern]
     if not paths:
         raise StudyError(f"{field}.file", f"no file in {folder} matches {pattern!r}")
     for path in paths:
-        garment = _loaded(f"{field}.file", path)
+        garment = _checked(f"{field}.file", load_garment, path)
         yield GarmentCase(garment.name, garment)
 
 
-def _from_template(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+def _from_template(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator[GarmentCase]:
     name = text(f"{field}.template", entry["template"])
     template = find_template(name)
     if template is None:
@@ -99,7 +125,7 @@ def _cut(template: Template, measures: Mapping[str, float]) -> GarmentCase:
         return GarmentCase(label, None, measures=measures, error=str(error))
 
 
-def _random(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCase]:
+def _random(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator[GarmentCase]:
     count = whole(f"{field}.random", entry["random"], 1, RANDOM_MAX)
     seed = whole(f"{field}.seed", required(field, entry, "seed"), 0, 2**53)
     default = RandomShape()
@@ -109,10 +135,6 @@ def _random(field: str, entry: Mapping[str, Any], _: Path) -> Iterator[GarmentCa
     shape = RandomShape((int(corners[0]), int(corners[1])), (int(folds[0]), int(folds[1])), size_m)
     for own in range(seed, seed + count):
         yield GarmentCase(f"random {own}", random_garment(own, shape), own)
-
-
-def _loaded(field: str, source: str | Path) -> Any:  # noqa: ANN401
-    return _checked(field, load_garment, source)
 
 
 def _checked(field: str, read: Callable[[Any], Any], given: object) -> Any:  # noqa: ANN401
@@ -135,6 +157,7 @@ def _with_labels(cases: Sequence[GarmentCase]) -> Iterator[GarmentCase]:
 
 _ENTRIES = {
     "name": _Entry(frozenset({"name"}), _named),
+    "garment": _Entry(frozenset({"garment"}), _drawn),
     "file": _Entry(frozenset({"file"}), _from_files),
     "template": _Entry(frozenset({"template", "measures"}), _from_template),
     "random": _Entry(frozenset({"random", "seed", "corners", "folds", "size_m"}), _random),

@@ -9,7 +9,7 @@ from typing import Any
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
 from app.studies.fields import require_known, table, text, whole
-from app.studies.garment_entries import read_garments
+from app.studies.garment_entries import Sources, read_garments
 from app.studies.study import Sample, Study
 from app.studies.study_error import StudyError
 from planner.errors import FieldError
@@ -69,11 +69,16 @@ def read_study(path: Path) -> Study:
         raise StudyError("", f"cannot be read: {error.strerror}") from None
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise StudyError("", f"is no TOML: {error}") from None
-    return study_of(content, path.parent)
+    return study_of(content, Sources(folder=path.parent))
 
 
-def study_of(content: Mapping[str, Any], folder: Path) -> Study:
-    """Return the study that a file's content describes; its garments' files are relative to a folder.
+def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CELLS_LIMIT) -> Study:
+    """Return the study that a file's content describes.
+
+    Args:
+        content: the content.
+        sources: where its garments come from.
+        cells_limit: the largest `cells_max`.
 
     Raises:
         StudyError: a field is not valid, or there are more cells than `cells_max`.
@@ -83,7 +88,7 @@ def study_of(content: Mapping[str, Any], folder: Path) -> Study:
     poses, placed = _placements(content.get("placements", "own"))
     study = Study(
         text("title", content.get("title", "Study")),
-        read_garments(content.get("garments"), folder),
+        read_garments(content.get("garments"), sources),
         (
             _names(ROBOT, "robots", content.get("robots", [DEFAULT_ROBOT]), load_robot),
             *_stations(content, scene),
@@ -97,7 +102,7 @@ def study_of(content: Mapping[str, Any], folder: Path) -> Study:
         poses,
         _sample(content),
     )
-    most = whole("cells_max", content.get("cells_max", CELLS_MAX), 1, CELLS_LIMIT)
+    most = whole("cells_max", content.get("cells_max", min(CELLS_MAX, cells_limit)), 1, cells_limit)
     if study.count > most:
         text_of = " x ".join(f"{len(axis.values)} {axis.name}" for axis in study.all_axes if len(axis.values) > 1)
         raise StudyError(

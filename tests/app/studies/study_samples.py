@@ -1,8 +1,8 @@
 """Studies small enough to plan at once."""
 
-from pathlib import Path
 from typing import Any
 
+from app.studies.garment_entries import Sources
 from app.studies.study import Study
 from app.studies.study_file import study_of
 
@@ -16,4 +16,4 @@ def content(**changes: Any) -> dict[str, Any]:
 
 
 def study(**changes: Any) -> Study:
-    return study_of(content(**changes), Path())
+    return study_of(content(**changes), Sources())

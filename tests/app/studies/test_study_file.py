@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from app.studies.garment_entries import Sources
 from app.studies.study import Study
 from app.studies.study_error import StudyError
 from app.studies.study_file import read_study, study_of
@@ -88,8 +89,22 @@ def test_random_garments_come_from_their_seed_alone():
 def test_files_are_found_beside_the_study(tmp_path: Path):
     for name in ("one", "two"):
         (tmp_path / f"{name}.json").write_text(json.dumps(towel(name)))
-    labels = [case.label for case in study_of(content(garments=[{"file": "*.json"}]), tmp_path).garments]
+    labels = [
+        case.label for case in study_of(content(garments=[{"file": "*.json"}]), Sources(folder=tmp_path)).garments
+    ]
     assert labels == ["one", "two"]
+
+
+def test_files_that_are_not_there_are_told_with_their_field(tmp_path: Path):
+    for pattern in ("no.json", "no-*.json"):
+        with pytest.raises(StudyError, match=r"garments\[0\]\.file"):
+            study_of(content(garments=[{"file": pattern}]), Sources(folder=tmp_path))
+
+
+def test_a_garment_can_be_drawn_in_the_study_itself():
+    cell = study(garments=[{"garment": towel()}]).cell(0)
+    assert cell.task is not None
+    assert cell.task.garment.name == "my-towel"
 
 
 def test_stations_and_the_own_placement_keep_their_distance_to_the_edges():
@@ -143,7 +158,8 @@ def test_a_study_reads_back_from_its_json():
         ({"garments": []}, "garments", "[[garments]]"),
         ({"garments": [{}]}, "garments[0]", "nothing"),
         ({"garments": [{"name": "sock"}]}, "garments[0].name", "sock"),
-        ({"garments": [{"file": "no/such.json"}]}, "garments[0].file", "no/such.json"),
+        ({"garments": [{"file": "a.json"}]}, "garments[0].file", "not read here"),
+        ({"garments": [{"garment": {"name": "x"}}]}, "garments[0].garment.outline", "missing"),
         ({"garments": [{"template": "towel", "measures": {"wide_m": 1}}]}, "garments[0].measures.wide_m", "known"),
         (
             {"garments": [{"template": "towel", "measures": {"width_m": [0.4, -1]}}]},

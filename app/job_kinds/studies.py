@@ -1,0 +1,67 @@
+"""A study as a job: the product of what varies, a plan for each cell, one table and one report."""
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from app.jobs.job_kind import JobKind, Stores
+from app.studies.garment_entries import Sources
+from app.studies.study import Study
+from app.studies.study_file import study_of
+from app.studies.study_job import do_study
+from app.studies.table import CSV, PARQUET, TIMING
+from planner.json_form import STRICT
+
+CELLS_LIMIT = 10_000
+"""The most cells of a study that a server takes: an hour or so of one core."""
+
+_REPORT = "report.html"
+STUDY_FILES = {
+    _REPORT: "text/html; charset=utf-8",
+    CSV: "text/csv; charset=utf-8",
+    TIMING: "text/csv; charset=utf-8",
+    PARQUET: "application/vnd.apache.parquet",
+}
+"""The files of a study, and their media types."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudyRequest:
+    """A study as its file has it (docs/studies.md), in JSON; garments are named or drawn, no files are read."""
+
+    __pydantic_config__ = STRICT
+
+    garments: list[dict[str, Any]]
+    title: str | None = None
+    robots: list[str] | None = None
+    start_stations: list[str] | None = None
+    table: dict[str, Any] | None = None
+    scene: dict[str, Any] | None = None
+    placements: str | list[Any] | dict[str, Any] | None = None
+    limits: dict[str, Any] | None = None
+    sample: dict[str, Any] | None = None
+    cells_max: int | None = None
+
+
+def _prepare(stores: Stores, wanted: StudyRequest) -> tuple[Study, Path]:
+    given = {field.name: getattr(wanted, field.name) for field in fields(wanted)}
+    content = {name: value for name, value in given.items() if value is not None}
+    return study_of(content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies
+
+
+def _finish(_: Stores, answer: dict[str, Any]) -> dict[str, Any]:
+    paths = {name.replace(".", "_"): f"/api/studies/{answer['study_id']}/{name}" for name in STUDY_FILES}
+    return {**answer, "files": paths}
+
+
+STUDIES = JobKind(
+    name="studies",
+    does="Plan the product of garments, tables, placements and limits (docs/studies.md), as a job.",
+    body=StudyRequest,
+    example={"garments": [{"name": "hand-towel"}], "table": {"height_m": [0.7, 0.8]}},
+    prepare=_prepare,
+    work=do_study,
+    finish=_finish,
+    path="/api/studies",
+    may_begin_anew=True,
+)

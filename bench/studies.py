@@ -1,0 +1,159 @@
+"""A study against a plain loop: cells a second in two processes, CPU time a cell, and memory as cells go by.
+
+Both plan the same small tasks in two processes, starting with no process and no kernel loaded; the study also makes its
+cells, keeps each answer on the disk, and writes table and report. They take turns. CPU time is that of all
+processes of either, since a busy machine delays the one that happens to run.
+"""
+
+import multiprocessing
+import os
+import tempfile
+from collections.abc import Callable, Generator, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+
+from app.studies.answer import Answer
+from app.studies.cell import Cell
+from app.studies.garment_entries import Sources
+from app.studies.process_pool import ProcessPool
+from app.studies.results import Results
+from app.studies.run_study import run_study
+from app.studies.study import Study
+from app.studies.study_file import study_of
+from app.studies.workers import Workers, planner
+from bench.report import Report, Row
+from bench.served import CLOCK_TICKS_PER_S
+from planner.task.task import Task
+
+PROCESSES = 2
+CELLS, CELLS_QUICK = 1000, 40
+_PAGE_KB = os.sysconf("SC_PAGE_SIZE") / 1024
+_context = multiprocessing.get_context("forkserver")
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What planning all cells once took: time that went by, CPU time of all processes (s), largest memory (MB)."""
+
+    wall_s: float
+    cpu_s: float
+    memory_mb: tuple[float, ...] = ()
+
+
+class Watched:
+    """Workers that note the CPU time of all processes, and their memory, while they answer."""
+
+    def __init__(self, workers: Workers, every: int) -> None:
+        """Note the memory after this many answers each."""
+        self._workers = workers
+        self._every = every
+        self.memory_mb: list[float] = []
+        self.cpu_s = 0.0
+
+    def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
+        """Yield the answers."""
+        for count, answer in enumerate(self._workers.answers(cells, keep_plans=keep_plans), 1):
+            if count % self._every == 0:
+                self.memory_mb.append(sum(_memory_mb(pid) for pid in _family()))
+                self.cpu_s = sum(_cpu_s(pid) for pid in _family())
+            yield answer
+
+
+def studies(_articles: Sequence[str], repetitions: int) -> Report:
+    """Measure a study and a plain loop in turns."""
+    asked = small_study(CELLS if repetitions > 1 else CELLS_QUICK)
+    turns = [(plain_loop(asked), whole_study(asked, ProcessPool(PROCESSES))) for _ in range(min(repetitions, 3))]
+    rows = [_row(name, asked.count, [turn[n] for turn in turns]) for n, name in enumerate(("plain loop", "study"))]
+    columns = ("in two processes", "cells", "cells/s", "CPU ms a cell", "memory after 10 % [MB]", "at the end")
+    return Report("studies", "A study, and a plain loop", columns, tuple(rows), len(turns))
+
+
+def small_study(cells: int) -> Study:
+    """Return a study of small towels of many sizes at many heights."""
+    measures = {"width_m": {"from": 0.3, "to": 0.5, "count": 5}, "length_m": {"from": 0.2, "to": 0.4, "count": 2}}
+    return study_of(
+        {
+            "garments": [{"template": "towel", "measures": measures}],
+            "table": {"height_m": {"from": 0.6, "to": 0.9, "count": max(cells // 20, 1)}},
+            "limits": {"comfort_radius_m": [0.0, 0.03], "work_limit_s": 1.0},
+        },
+        Sources(),
+    )
+
+
+def plain_loop(asked: Study) -> Run:
+    """Plan a study's tasks in two processes, half each, and keep nothing."""
+    tasks = [cell.task for cell in asked.cells(asked.indices()) if cell.task is not None]
+    began_s = perf_counter()
+    pipes, processes = [], []
+    for part in range(PROCESSES):
+        ours, theirs = _context.Pipe(duplex=False)
+        process = _context.Process(target=_plan_all, args=(theirs.send, tasks[part::PROCESSES]))
+        process.start()
+        theirs.close()
+        pipes.append(ours)
+        processes.append(process)
+    cpu_s = sum(pipe.recv() for pipe in pipes)
+    wall_s = perf_counter() - began_s
+    for process in processes:
+        process.join()
+    return Run(wall_s, cpu_s)
+
+
+def whole_study(asked: Study, workers: Workers) -> Run:
+    """Run a study in a new folder."""
+    watched = Watched(workers, max(asked.count // 10, 1))
+    began_s, before_s = perf_counter(), sum(_cpu_s(pid) for pid in _family())
+    with tempfile.TemporaryDirectory() as folder, Results(Path(folder)) as results:
+        results.begin(asked, resume=True)
+        run_study(asked, results, watched, lambda _: None)
+    return Run(perf_counter() - began_s, watched.cpu_s - before_s, tuple(watched.memory_mb))
+
+
+def _plan_all(tell: Callable[[float], None], tasks: Sequence[Task]) -> None:
+    make_plan = planner()
+    for task in tasks:
+        make_plan(task)
+    tell(_cpu_s(os.getpid()))
+
+
+def _row(name: str, cells: int, runs: Sequence[Run]) -> Row:
+    wall_s, cpu_s = median(run.wall_s for run in runs), median(run.cpu_s for run in runs)
+    memory = max((run.memory_mb for run in runs), default=())
+    shown = [f"{memory[0]:.0f}", f"{memory[-1]:.0f}"] if memory else ["-", "-"]
+    line = (name, str(cells), f"{cells / wall_s:.1f}", f"{1000 * cpu_s / cells:.1f}", *shown)
+    data = {"name": name, "cells": cells, "wall_s": wall_s, "cpu_s": cpu_s, "memory_mb": list(memory)}
+    return Row((line,), data)
+
+
+def _family() -> list[int]:
+    """Return this process and all below it, the fork server's too."""
+    below: dict[int, list[int]] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            below.setdefault(int(stat.read_text().rpartition(")")[2].split()[1]), []).append(int(stat.parent.name))
+        except OSError:
+            continue
+    found = [os.getpid()]
+    for pid in found:
+        found.extend(below.get(pid, ()))
+    return found
+
+
+def _cpu_s(pid: int) -> float:
+    """Return the CPU time of a process (s); 0 where it has ended."""
+    try:
+        user, system = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[11:13]
+    except OSError:
+        return 0.0
+    return (int(user) + int(system)) / CLOCK_TICKS_PER_S
+
+
+def _memory_mb(pid: int) -> float:
+    """Return the resident memory of a process (MB); 0 where it has ended."""
+    try:
+        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * _PAGE_KB / 1024
+    except OSError:
+        return 0.0
