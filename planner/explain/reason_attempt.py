@@ -90,7 +90,8 @@ def explained(context: Context, miss: Miss) -> Miss:
         return miss
     stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.back_offs)
     seen = _seen(context, miss.state, miss.trial.tools[miss.grip, miss.waypoint], stands)
-    alone = context.reach.shortfall(miss.trial.arms[miss.grip], seen, miss.trial.approaches[miss.grip], miss.short_by_m)
+    arm, approaches = miss.trial.arms[miss.grip], miss.trial.approaches[miss.grip]
+    alone = context.reach.shortfall(arm, seen, approaches, miss.short_by_m, context.patience.is_long_over)
     is_alone = alone is not None and alone.short_by_m >= miss.short_by_m - _FINEST_M
     return replace(miss, demand=Demand.ALONE) if is_alone else miss
 
@@ -133,7 +134,9 @@ class _Attempt:
         seen = np.stack(
             [_seen(context, self._state, trial.tools[hand, w], s) for w, s in zip(waypoints, stands, strict=True)]
         )
-        found = context.reach.shortfall_together(trial.arms[hand], seen, trial.approaches[hand], self._at_most_m)
+        found = context.reach.shortfall_together(
+            trial.arms[hand], seen, trial.approaches[hand], self._at_most_m, context.patience.is_long_over
+        )
         if found is None:
             return None
         which, shortfall = found
@@ -190,7 +193,9 @@ class _Attempt:
         stands = _bits(back_offs)
         seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
         approach = trial.approaches[hand][orientation : orientation + 1]
-        found = context.reach.shortfall(trial.arms[hand], seen, approach, self._at_most_m)
+        found = context.reach.shortfall(
+            trial.arms[hand], seen, approach, self._at_most_m, context.patience.is_long_over
+        )
         if found is None:
             return None
         return self._miss(hand, waypoint, stands[found.seen_from], found, demand)

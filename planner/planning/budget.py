@@ -22,6 +22,10 @@ _FEW_FOLDS = 4
 """Folds up to which a look costs `_LOOK_S`; with more folds it costs more, in proportion."""
 
 
+_GRACE_S = 0.15
+"""Time that a step may take after the deadline before it is cut short (s): callers allow half a second in all."""
+
+
 @dataclass(slots=True)
 class Budget:
     """The work and the time that a search has left.
@@ -87,3 +91,8 @@ class Budget:
     def is_late(self) -> bool:
         """Whether the time is up, whatever work is left, or the search was told to stop."""
         return time.perf_counter() > self.deadline_s or self.should_stop()
+
+    @property
+    def is_overdue(self) -> bool:
+        """Whether the time has been up for so long that a step under way must end, or the search was told to stop."""
+        return time.perf_counter() > self.deadline_s + _GRACE_S or self.should_stop()

@@ -103,6 +103,7 @@ class PlanSearch:
         self._validator = MotionValidator(problem.maker, self._is_out_of_budget, QUICK)
         budget.watch(problem)
         problem.context.patience.is_over = lambda: budget.is_late
+        problem.context.patience.is_long_over = lambda: budget.is_overdue
         self._found: tuple[Act, ...] = ()
         self._bound_s: float | None = None
         self._edges = Edges(problem.context, self._possible, self._is_wanted)

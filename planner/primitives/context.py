@@ -15,6 +15,7 @@ import numpy as np
 from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.shortfall import never
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
@@ -40,19 +41,18 @@ _START = State(0, (0.0, 0.0), 0, 0)
 """The usual start: no fold done, nothing dragged, the base at the first station."""
 
 
-def _never() -> bool:
-    return False
-
-
 @dataclass(slots=True)
 class Patience:
     """The limit of the time that somebody waits for an answer.
 
     Attributes:
         is_over: called in long loops; when it returns true, they return what is known by then.
+        is_long_over: called within single steps of such loops; true a moment after `is_over`, so that a step that was
+            begun in time mostly ends.
     """
 
-    is_over: Callable[[], bool] = _never
+    is_over: Callable[[], bool] = never
+    is_long_over: Callable[[], bool] = never
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """The protocol for queries about a robot's reach. The primitives own it; `planner.robots` implements it."""
 
 import math
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.shortfall import Shortfall, never
 
 
 class Following(Protocol):
@@ -62,7 +63,12 @@ class Shortfalls(Protocol):
         ...
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
         """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
 
@@ -72,6 +78,7 @@ class Shortfalls(Protocol):
                 base may stand, shape (n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement to look for (m).
+            is_over: once it returns true, a lower bound will do.
 
         Returns:
             The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
@@ -80,7 +87,12 @@ class Shortfalls(Protocol):
         ...
 
     def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        places: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that one approach must reach, in the approach in which that is mildest.
 
@@ -90,11 +102,12 @@ class Shortfalls(Protocol):
                 above the floor (m), shape (p, n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement to look for (m).
+            is_over: once it returns true, the best of the approaches examined by then, or a lower bound, will do.
 
         Returns:
             The index of the place, and its shortfall in that approach; None where some approach has all places within
-                the comfort radius. Where `at_most_m` or more is lacking, only that fact is valid, not the other details
-                of the answer.
+                the comfort radius. Where `at_most_m` or more is lacking, or the result is a lower bound, only that fact
+                is valid, not the other details of the answer.
         """
         ...
 

@@ -3,12 +3,14 @@
 No robot has them. They show whether reach is the only obstacle to a fold.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.shortfall import Shortfall, never
 from planner.primitives.reach import Following, Reach
 
 
@@ -65,13 +67,23 @@ class UnlimitedReach:
         return np.zeros(len(ways))
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = np.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
         """Return None: nothing is lacking."""
         return None
 
     def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
+        self,
+        arm: int,
+        places: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = np.inf,
+        is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         """Return None: nothing is lacking."""
         return None

@@ -1,13 +1,14 @@
 """The reach of a robot whose arms have maps of postures, with the shortfall of places out of reach."""
 
 import math
+from collections.abc import Callable
 from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Cause, Shortfall
+from planner.geometry.shortfall import Cause, Shortfall, never
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import AskedArms, ComfortReach
 from planner.robots.mapped_comfort import MappedArms
@@ -16,6 +17,9 @@ from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point,
 
 _QUERIES_MAX = 50_000
 """Queries after which a shortfall is told as far as it is known: some tenths of a second."""
+
+_QUERIES_LATE_MAX = 5_000
+"""The same where nobody waits for the answer any more."""
 
 
 class MappedReach(ComfortReach):
@@ -68,7 +72,12 @@ class MappedReach(ComfortReach):
         return np.asarray(np.maximum(away.min(axis=2).max(axis=1), 0.0))
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
         """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
 
@@ -79,6 +88,7 @@ class MappedReach(ComfortReach):
             points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
             at_most_m: the longest displacement tried (m), if less than that.
+            is_over: once it returns true, a lower bound will do.
 
         Returns:
             The smallest shortfall; None where the place is within the comfort radius from somewhere.
@@ -91,15 +101,17 @@ class MappedReach(ComfortReach):
         started = thread_time()
         seen, labels = points - self._shoulders[arm], self._asked.labels[arm][approaches]
         furthest = min(at_most_m, FURTHEST_M)
+        most = _QUERIES_LATE_MAX if is_over() else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
-            self._arms, labels, seen, DIRECTIONS, self._comfort_m, furthest, _QUERIES_MAX
+            self._arms, labels, seen, DIRECTIONS, self._comfort_m, furthest, most
         )
         self._shortfall_queries += queries
         is_at_least = seen_from < 0
         if is_at_least:
             distances = np.linalg.norm(seen, axis=1)
             seen_from, approach = int(distances.argmin()), 0
-            short_by_m = max(float(distances.min()) - self._lengths_m[arm], furthest)
+            searched = furthest if queries < most else 0.0
+            short_by_m = max(float(distances.min()) - self._lengths_m[arm], searched)
         point = seen[seen_from]
         towards = homewards(point) if is_at_least else DIRECTIONS[direction]
         cause, comfort_m = "too_far" if is_at_least else _cause(point, towards, short_by_m), None
@@ -113,7 +125,12 @@ class MappedReach(ComfortReach):
         return Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)
 
     def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        places: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that are all to be reached in one approach, in the best approach for it.
 
@@ -123,6 +140,7 @@ class MappedReach(ComfortReach):
                 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement tried (m).
+            is_over: once it returns true, only the approaches examined by then count.
 
         Returns:
             The place's index, and its shortfall in that approach; None where some approach brings all within the
@@ -133,10 +151,12 @@ class MappedReach(ComfortReach):
             return None
         best: tuple[int, Shortfall] | None = None
         for row in np.argsort(-had.sum(axis=1), kind="stable"):
+            if best is not None and is_over():
+                break
             limit_m = at_most_m if best is None else min(at_most_m, best[1].short_by_m)
             worst: tuple[int, Shortfall] | None = None
             for number in np.flatnonzero(~had[row]).tolist():
-                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m)
+                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m, is_over)
                 if found is not None and (worst is None or found.short_by_m > worst[1].short_by_m):
                     worst = (number, found)
                 if worst is not None and worst[1].short_by_m >= limit_m:

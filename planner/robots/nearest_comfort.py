@@ -5,7 +5,10 @@ leap over those and would then call a far place the nearest. So the search goes 
 directions and approaches and from all places of the base at once, and ends in the first shell that has a place within
 the comfort radius. Only there is each find refined by bisection, and a line is skipped if it is not within the radius
 where it would beat the best so far. A lower bound (`planner.robots.arm_gap`) makes this cheap: shells within it are
-skipped, line by line.
+skipped, line by line, and so are cells in which the body is known to leave the arm no room.
+
+From dozens of places of the base, in dozens of approaches, a search can take half a second. So it is handed out in
+pieces, and the caller looks at the time between them.
 
 Points are seen from the left arm's shoulder (m), parallel to the base.
 """
@@ -23,13 +26,22 @@ from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
 from planner.robots.closed_comfort import is_comfortable
 from planner.robots.pan_arcs import MOST_ARCS
-from planner.robots.posture_room import Room, has_room_about
+from planner.robots.posture_room import Room, blocked_for, has_room_about
 
 SHELL_M, WIDENING = 0.002, 0.03
 """Thickness of a shell (m), or as a fraction of its distance where that is more."""
 
 FINEST_M = 0.001
 """Precision at which the bisection ends (m)."""
+
+PIECE_QUERIES = 60_000
+"""Queries in a piece of the search: a tenth of a second."""
+
+ROOM_QUERIES = 100
+"""The queries that take as long as a test of whether the body leaves the arm room in a cell."""
+
+MANY_QUERIES = 1 << 62
+"""More queries than any search makes."""
 
 
 class Wanted(NamedTuple):
@@ -48,6 +60,20 @@ class Wanted(NamedTuple):
     room: Room
 
 
+class Lines(NamedTuple):
+    """How far a search has come along its lines: from each place, in each approach, along each direction.
+
+    Attributes:
+        hopeless: displacements up to which a line has nothing to offer (m), shape (n, k, m).
+        nearest: lower bounds on the displacement of each place in each approach (m), shape (n, k).
+        inner: the displacement up to which all has been searched (m), shape (1,).
+    """
+
+    hopeless: FloatArray
+    nearest: FloatArray
+    inner: FloatArray
+
+
 class Scratch(NamedTuple):
     """Scratch space.
 
@@ -61,12 +87,13 @@ class Scratch(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def _scratch(shape: ArmShape) -> Scratch:
+def scratch_for(shape: ArmShape) -> Scratch:
+    """Return scratch space for a search that has not begun."""
     return Scratch(np.empty((MOST_ARCS, 2)), np.array([0.5 * (shape.pan.low + shape.pan.high), 1.0]))
 
 
 @njit(cache=True, nogil=True)
-def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
+def aim_of(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
     """Return the tool pose that brings the tool to a point in an approach."""
     axis = wanted.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
@@ -75,22 +102,50 @@ def _aim(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> T
 @njit(cache=True, nogil=True)
 def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
     """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
-    return comfort_gap(shape, _aim(shape, wanted, point, approach), wanted.comfort)
+    return comfort_gap(shape, aim_of(shape, wanted, point, approach), wanted.comfort)
 
 
 @njit(cache=True, nogil=True)
-def _is_wanted(
-    shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int, comfort: float, scratch: Scratch
+def _aim_along(shape: ArmShape, axis: FloatArray, point: FloatArray, far: float, towards: FloatArray) -> ToolPose:
+    """Return the tool pose that brings the tool to a point displaced along a direction."""
+    x, y, z = point[0] + far * towards[0], point[1] + far * towards[1], point[2] + far * towards[2]
+    return aim_at(shape, x, y, z, axis[0], axis[1], axis[2])
+
+
+@njit(cache=True, nogil=True)
+def is_wanted(
+    shape: ArmShape, wanted: Wanted, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
-    """Return whether a tool point meets the requirements in an approach, with a comfort radius; queries made."""
-    aim = _aim(shape, wanted, point, approach)
+    """Return whether a tool pose meets the requirements in its approach, with a comfort radius; queries made."""
     found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
     return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
 
 
 @njit(cache=True, nogil=True)
+def rooms_tested(wanted: Wanted) -> int:
+    """Return the number of cells tested so far for whether the body leaves the arm room."""
+    return int(wanted.room.memory.entries[0])
+
+
+@njit(cache=True, nogil=True)
+def lines_from(shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray) -> Lines:
+    """Return the lines of a search that has not begun; see `nearest_comfort` for the arguments."""
+    hopeless = np.empty((len(points), len(wanted.axes), len(directions)))
+    for place in range(len(points)):
+        for approach in range(len(wanted.axes)):
+            hopeless[place, approach] = aims_gap(shape, wanted, points[place], approach)
+    return Lines(hopeless, hopeless[:, :, 0].copy(), np.zeros(1))
+
+
+@njit(cache=True, nogil=True)
 def nearest_comfort(
-    shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray, furthest: float
+    shape: ArmShape,
+    wanted: Wanted,
+    points: FloatArray,
+    directions: FloatArray,
+    furthest: float,
+    lines: Lines,
+    most: int,
 ) -> tuple[float, int, int, int, int]:
     """Return the smallest displacement along one of the directions that brings the tool within the comfort radius.
 
@@ -101,105 +156,50 @@ def nearest_comfort(
             from none.
         directions: unit vectors, shape (m, 3).
         furthest: the furthest displacement searched (m); the last shell is searched whole.
+        lines: how far the search has come; kept up to date.
+        most: the work after which the search is interrupted, at the end of a shell, in queries.
 
     Returns:
         The displacement (m), rounded up to `FINEST_M`; the point; the approach; the direction; queries made. Infinity,
-        -1, -1, -1 where there is none. Places narrower than a shell may be overlooked.
+        -1, -1, -1 where there is none, or none yet. Places narrower than a shell may be overlooked.
     """
-    scratch, comfort, axes = _scratch(shape), wanted.comfort, wanted.axes
-    hopeless = np.empty((len(points), len(axes), len(directions)))
-    for place in range(len(points)):
-        for approach in range(len(axes)):
-            hopeless[place, approach] = aims_gap(shape, wanted, points[place], approach)
-    nearest = hopeless[:, :, 0].copy()
+    scratch, comfort, hopeless, nearest = scratch_for(shape), wanted.comfort, lines.hopeless, lines.nearest
     best, best_place, best_approach, best_direction, queries = math.inf, -1, -1, -1, 0
-    inner = 0.0
-    while inner < furthest and best_place < 0:
+    inner, tested = lines.inner[0], rooms_tested(wanted)
+    while inner < furthest and best_place < 0 and queries + ROOM_QUERIES * (rooms_tested(wanted) - tested) < most:
         limit = outer = inner + max(SHELL_M, WIDENING * inner)
         for place in range(len(points)):
-            for approach in range(len(axes)):
+            for approach in range(len(wanted.axes)):
                 if nearest[place, approach] >= limit:
                     continue
+                start, axis = points[place], wanted.axes[approach]
                 for direction in range(len(directions)):
-                    near, far = inner, limit
+                    near, far, towards = inner, limit, directions[direction]
                     if far <= max(near, hopeless[place, approach, direction]):
                         continue
-                    start, towards = points[place], directions[direction]
-                    short = aims_gap(shape, wanted, start + far * towards, approach)
+                    aim = _aim_along(shape, axis, start, far, towards)
+                    short = max(
+                        comfort_gap(shape, aim, comfort),
+                        blocked_for(wanted.room, wanted.labels[approach], aim, towards),
+                    )
                     if short > 0.0:
                         hopeless[place, approach, direction] = far + short
                         continue
-                    found, asked = _is_wanted(shape, wanted, start + far * towards, approach, comfort, scratch)
+                    found, asked = is_wanted(shape, wanted, aim, approach, comfort, scratch)
                     queries += asked
                     if not found:
                         continue
                     while far - near > FINEST_M:
                         middle = 0.5 * (near + far)
-                        found, asked = _is_wanted(shape, wanted, start + middle * towards, approach, comfort, scratch)
+                        aim = _aim_along(shape, axis, start, middle, towards)
+                        found, asked = is_wanted(shape, wanted, aim, approach, comfort, scratch)
                         queries += asked
                         near, far = (near, middle) if found else (middle, far)
                     best, best_place, best_approach, best_direction = far, place, approach, direction
                     limit = far - FINEST_M
         inner = outer
+    lines.inner[0] = inner
     return best, best_place, best_approach, best_direction, queries
-
-
-@njit(cache=True, nogil=True)
-def least_worst(
-    shape: ArmShape, wanted: Wanted, places: FloatArray, directions: FloatArray, furthest: float
-) -> tuple[float, int, int]:
-    """Return the worst of several places that are all to be reached in one approach, in the best approach for it.
-
-    Args:
-        shape: the arm.
-        wanted: the requirements on each place.
-        places: places of the tool, each as seen from several places of the base, shape (p, n, 3).
-        directions: unit vectors, shape (m, 3).
-        furthest: displacements as long as this no longer matter (m).
-
-    Returns:
-        How far the worst place must be displaced (m), its index, and the approach; 0, -1 and the approach where all are
-        within the comfort radius; infinity, -1 and the approach that is nearest by length where none is better than
-        `furthest`.
-    """
-    scratch = _scratch(shape)
-    gaps = np.full((len(wanted.axes), len(places)), math.inf)
-    for approach in range(len(wanted.axes)):
-        for place in range(len(places)):
-            for point in places[place]:
-                short = aims_gap(shape, wanted, point, approach)
-                gaps[approach, place] = min(gaps[approach, place], max(short, 0.0))
-    bounds = np.array([row.max() for row in gaps])
-    order = np.argsort(bounds)
-    best, best_place, best_approach = math.inf, -1, int(order[0])
-    for approach in order:
-        limit = min(best, furthest)
-        if bounds[approach] >= limit:
-            break
-        only = slice(approach, approach + 1)
-        alone = Wanted(wanted.axes[only], wanted.labels[only], wanted.comfort, wanted.room)
-        worst, worst_place = 0.0, -1
-        for place in np.argsort(-gaps[approach]):
-            if not _is_had(shape, alone, places[place], scratch):
-                short = nearest_comfort(shape, alone, places[place], directions, limit)[0]
-                if short > worst:
-                    worst, worst_place = short, place
-                if worst >= limit:
-                    break
-        if worst < limit:
-            best, best_place, best_approach = worst, worst_place, approach
-        if best <= 0.0:
-            break
-    return best, best_place, best_approach
-
-
-@njit(cache=True, nogil=True)
-def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratch) -> bool:
-    """Return whether a place is within the comfort radius in the first approach, from some place of the base."""
-    for point in points:
-        if aims_gap(shape, wanted, point, 0) <= 0.0 and _is_wanted(shape, wanted, point, 0, wanted.comfort, scratch)[0]:
-            return True
-    return False
 
 
 @njit(cache=True, nogil=True)
@@ -217,24 +217,23 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
         The radius (m), rounded down to `FINEST_M`; the point; the approach; queries made. 0, -1, -1 where the place
         itself is out of reach.
     """
-    scratch = _scratch(shape)
-    bare = Wanted(wanted.axes, wanted.labels, 0.0, wanted.room)
+    scratch = scratch_for(shape)
     best, best_place, best_approach, queries = 0.0, -1, -1, 0
     for place in range(len(points)):
         for approach in range(len(wanted.axes)):
             near, far = best + (FINEST_M if best_place >= 0 else 0.0), wanted.comfort
             if near >= far:
                 break
-            point = points[place]
-            if aims_gap(shape, bare, point, approach) > 0.0:
+            aim = aim_of(shape, wanted, points[place], approach)
+            if comfort_gap(shape, aim, 0.0) > 0.0:
                 continue
-            found, asked = _is_wanted(shape, wanted, point, approach, near, scratch)
+            found, asked = is_wanted(shape, wanted, aim, approach, near, scratch)
             queries += asked
             if not found:
                 continue
             while far - near > FINEST_M:
                 middle = 0.5 * (near + far)
-                found, asked = _is_wanted(shape, wanted, point, approach, middle, scratch)
+                found, asked = is_wanted(shape, wanted, aim, approach, middle, scratch)
                 queries += asked
                 near, far = (middle, far) if found else (near, middle)
             best, best_place, best_approach = near, place, approach
@@ -244,11 +243,11 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
 @njit(cache=True, nogil=True)
 def is_hindered(shape: ArmShape, wanted: Wanted, points: FloatArray) -> bool:
     """Return whether only the body prevents a place that the joints put within the comfort radius."""
-    scratch = _scratch(shape)
+    scratch = scratch_for(shape)
     for point in points:
         for approach in range(len(wanted.axes)):
             if aims_gap(shape, wanted, point, approach) <= 0.0:
-                aim = _aim(shape, wanted, point, approach)
+                aim = aim_of(shape, wanted, point, approach)
                 if is_comfortable(shape, aim, wanted.comfort, scratch.arcs, scratch.hint)[0]:
                     return True
     return False

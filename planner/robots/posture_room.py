@@ -89,6 +89,22 @@ def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs:
 
 
 @njit(cache=True, nogil=True)
+def blocked_for(room: Room, label: int, aim: ToolPose, towards: FloatArray) -> float:
+    """Return how far a wrist moves along a direction within a cell known to have no room (m); 0 if none is known."""
+    if len(room.pairs) == 0 or not may_be_hindered(aim):
+        return 0.0
+    x, y, z = round(aim.x / CELL_M), round(aim.y / CELL_M), round(aim.z / CELL_M)
+    known = room.memory.table[slot_of(room.memory.table, place_key(label, x, y, z))]
+    if known == 0 or known & 1 == 1:
+        return 0.0
+    out = math.inf if towards[0] <= 0.0 else (AHEAD_M - aim.x) / towards[0]
+    for at, cell, along in ((aim.x, x, towards[0]), (aim.y, y, towards[1]), (aim.z, z, towards[2])):
+        if along != 0.0:
+            out = min(out, ((cell + math.copysign(0.5, along)) * CELL_M - at) / along)
+    return max(out, 0.0)
+
+
+@njit(cache=True, nogil=True)
 def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bool:
     """Return whether some posture at a tool pose is clear; `arcs`, shape (MOST_ARCS, 2), is scratch space."""
     joints, frame, near, rotation = np.empty(7), np.empty((3, 3)), np.zeros(7), np.zeros((3, 3))

@@ -5,6 +5,7 @@ explanations and to tell what is hopeless.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from time import thread_time
 
@@ -12,14 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.shortfall import Shortfall, never
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
 from planner.robots.arm_gap import least_gaps
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import AskedArms, ComfortReach
-from planner.robots.nearest_comfort import Wanted, least_worst
+from planner.robots.least_worst import least_worst, ranked
+from planner.robots.nearest_comfort import PIECE_QUERIES, Wanted
 from planner.robots.posture_room import Room
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
 from planner.robots.sided_arm import SidedArm
@@ -72,7 +74,12 @@ class Pr2Reach(ComfortReach):
         return np.asarray(least_gaps(sided.shape, places, self._axes[seen], count, float(step_m), self._comfort_m))
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
         """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
 
@@ -83,9 +90,11 @@ class Pr2Reach(ComfortReach):
             points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
             approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
             at_most_m: the longest displacement tried (m), if less than that.
+            is_over: once it returns true, what is known after a tenth of a second is the answer.
 
         Returns:
-            The smallest shortfall; None where the place is within the comfort radius from somewhere.
+            The smallest shortfall, or a lower bound where it is over before any is found; None where the place is
+            within the comfort radius from somewhere.
         """
         if len(approaches) == 0:
             raise ValueError("without an approach no point is within reach")
@@ -95,14 +104,19 @@ class Pr2Reach(ComfortReach):
         started = thread_time()
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         on_grid = self._from_shoulder(sided, points)
-        found, queries = left_shortfall(sided.shape, self._wanted(seen), on_grid, at_most_m)
+        found, queries = left_shortfall(sided.shape, self._wanted(seen), on_grid, at_most_m, is_over)
         x, y, z = sided.mirrored_places(np.array(found.towards))
         self._shortfall_queries += queries
         self._query_time_s += thread_time() - started
         return replace(found, towards=(float(x), float(y), float(z)), approach=int(approaches[found.approach]))
 
     def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: NDArray[np.int64], at_most_m: float = math.inf
+        self,
+        arm: int,
+        places: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that are all to be reached in one approach, in the best approach for it.
 
@@ -112,28 +126,37 @@ class Pr2Reach(ComfortReach):
                 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement tried (m).
+            is_over: once it returns true, only the approaches examined by then count.
 
         Returns:
             The place's index, and its shortfall in that approach; None where some approach brings all within the
-            comfort radius. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
+            comfort radius. Where the shortfall is `at_most_m` or more, or only a lower bound, only this fact is
+            meaningful.
         """
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         started = thread_time()
         on_grid = self._from_shoulder(sided, places)
         furthest = min(at_most_m, FURTHEST_M)
-        short, worst, best = least_worst(sided.shape, self._wanted(seen), on_grid, DIRECTIONS, furthest)
+        wanted = self._wanted(seen)
+        ranking, found = ranked(sided.shape, wanted, on_grid)
+        while True:
+            found = least_worst(sided.shape, wanted, on_grid, DIRECTIONS, furthest, ranking, found, PIECE_QUERIES)
+            is_cut_short = found.examined < len(ranking.order)
+            if not is_cut_short or is_over():
+                break
         self._query_time_s += thread_time() - started
-        nearest = approaches[best : best + 1]
-        if worst >= 0:
-            found = self.shortfall(arm, places[worst], nearest)
-            return None if found is None else (int(worst), found)
-        if math.isfinite(short):
+        nearest = approaches[found.approach : found.approach + 1]
+        if found.place >= 0:
+            short = self.shortfall(arm, places[found.place], nearest)
+            return None if short is None else (int(found.place), short)
+        if math.isfinite(found.short_m):
             return None
-        if furthest < FURTHEST_M:
-            return 0, Shortfall("too_far", None, furthest, True, (1.0, 0.0, 0.0), int(nearest[0]), 0)
+        if is_cut_short or furthest < FURTHEST_M:
+            known = float(ranking.bounds.min()) if is_cut_short else furthest
+            return 0, Shortfall("too_far", None, known, True, (1.0, 0.0, 0.0), int(nearest[0]), 0)
         each = [(number, self.shortfall(arm, place, nearest, furthest)) for number, place in enumerate(places)]
-        worst, found = max(((n, f) for n, f in each if f is not None), key=lambda pair: pair[1].short_by_m)
-        return worst, replace(found, short_by_m=max(found.short_by_m, furthest), is_at_least=True)
+        worst, short = max(((n, f) for n, f in each if f is not None), key=lambda pair: pair[1].short_by_m)
+        return worst, replace(short, short_by_m=max(short.short_by_m, furthest), is_at_least=True)
 
     def _wanted(self, seen: NDArray[np.int64]) -> Wanted:
         """Return the requirements on a place to be reached in one of some approaches, as the left arm sees them."""

@@ -1,14 +1,14 @@
 """The shortfall of an attempt, for a robot whose arms reach only certain bands ahead of its base."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import pytest
 
 from planner.explain.reason_attempt import Demand, Miss, miss_of
 from planner.geometry.pose import FloatArray, Point3
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.shortfall import Shortfall, never
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.state import State
 from tests.builders import WideReach, context, fold, garment, rectangle_points
@@ -32,7 +32,12 @@ class BandReach(WideReach):
         return 0.0 if short < SLACK_M else short
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: FloatArray, at_most_m: float = math.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: FloatArray,
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
         lacks = [self._lacks(arm, x) for x, _, _ in points]
         nearest = int(np.argmin(lacks))
@@ -41,7 +46,12 @@ class BandReach(WideReach):
         return Shortfall("too_far", None, lacks[nearest], False, (-1.0, 0.0, 0.0), int(approaches[0]), nearest)
 
     def shortfall_together(
-        self, arm: int, places: FloatArray, approaches: FloatArray, at_most_m: float = math.inf
+        self,
+        arm: int,
+        places: FloatArray,
+        approaches: FloatArray,
+        at_most_m: float = math.inf,
+        is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         each = [(n, self.shortfall(arm, place, approaches)) for n, place in enumerate(places)]
         found = [(n, one) for n, one in each if one is not None]

@@ -5,7 +5,7 @@ touches what among these arms is simple: the hands of arms of one PR2 as theirs 
 the order of their arms from left to right, `HANDS_APART_M` apart. An arm may have joints that do nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.shortfall import Shortfall, never
 from planner.geometry.table import Table
 from planner.robots.arm_path import ArmSearch
 from planner.robots.arm_paths import Together, arm_paths
@@ -104,9 +104,14 @@ class RemadeReach(Pr2Reach):
         )
 
     def shortfall(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], at_most_m: float = np.inf
+        self,
+        arm: int,
+        points: FloatArray,
+        approaches: NDArray[np.int64],
+        at_most_m: float = np.inf,
+        is_over: Callable[[], bool] = never,
     ) -> Shortfall | None:
-        found = super().shortfall(arm, points, approaches, at_most_m)
+        found = super().shortfall(arm, points, approaches, at_most_m, is_over)
         if found is None:
             return None
         x, y, z = found.towards

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from planner.geometry.shortfall import Shortfall
+from planner.robots import reach as reach_module
+from planner.robots import shortfall
 from planner.robots.aim import ToolPose
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
@@ -101,6 +103,45 @@ def test_the_lower_bound_is_one_and_mostly_tells(arm):
     short = np.array([0.0 if one is None else one[1].short_by_m for one in found])
     assert np.all(bounds <= short + 1e-9)
     assert np.mean(bounds[short > 0.05] > 0.5 * short[short > 0.05]) > 0.5
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_what_is_within_reach_has_no_lower_bound_behind_the_shoulder_either(arm):
+    reach = ROBOT.reach(TORSO_M, 0.0)
+    points = np.random.default_rng(40).uniform((-0.9, -1.0, 0.2), (0.6, 1.0, 1.9), (2000, 3))
+    is_had = reach.from_anywhere(arm, points, EVERY_APPROACH, 1, 0.0)
+    bounds = np.array([reach.at_least_short(arm, points[:, None], np.array([a]), 1, 0.0) for a in EVERY_APPROACH])
+    assert is_had[:, points[:, 0] < 0.0].sum() > 100
+    assert bounds[is_had].max() <= 0.0
+    assert (bounds[:, points[:, 0] < 0.0] > 0.05).mean() > 0.5
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_a_search_that_is_over_ends_with_a_lower_bound(arm, monkeypatch):
+    monkeypatch.setattr(shortfall, "PIECE_QUERIES", 1)
+    reach, cut_short = ROBOT.reach(TORSO_M, COMFORT_M), 0
+    for point, whole in _displaced(reach, arm, EVERY_APPROACH):
+        cut = reach.shortfall(arm, point, EVERY_APPROACH, is_over=lambda: True)
+        assert cut.is_at_least or cut == whole
+        assert cut.short_by_m <= whole.short_by_m
+        cut_short += cut.is_at_least
+    assert cut_short >= 3
+
+
+@pytest.mark.parametrize("arm", [0, 1])
+def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count(arm, monkeypatch):
+    monkeypatch.setattr(reach_module, "PIECE_QUERIES", 1)
+    reach, cut_short = ROBOT.reach(TORSO_M, COMFORT_M), 0
+    rng = np.random.default_rng(41)
+    for way in (_points(rng, 3)[:, None] + STANDS for _ in range(16)):
+        whole = reach.shortfall_together(arm, way, EVERY_APPROACH)
+        cut = reach.shortfall_together(arm, way, EVERY_APPROACH, is_over=lambda: True)
+        if whole is None or cut is None or cut == whole:
+            continue
+        cut_short += 1
+        is_bound = cut[1].is_at_least
+        assert cut[1].short_by_m <= whole[1].short_by_m if is_bound else cut[1].short_by_m >= whole[1].short_by_m
+    assert cut_short >= 3
 
 
 def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
