@@ -70,6 +70,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "no_cloth_there", "at": [0.1, 0.2]},
     {"code": "line_misses_cloth"},
     {"code": "fewer_folds", "asked": 3, "legal": 1},
+    {"code": "folds_full", "most": 64},
     REACH,
     {**REACH, "cause": "comfort_only", "comfort_m": 0.0151, "joint": None, "movable": None},
     {**REACH, "movable": ["torso"], "shift_towards": [0.0, 0.0, -1.0]},

@@ -10,8 +10,10 @@ from typing import Any
 
 from app.drawing.drawing import ChordTie, End, Tie
 from app.drawing.drawing_json import end_to_dict
+from app.drawing.rules import NO_CLOTH
 from app.drawing.solution import Solution, landed_rings, rings
 from app.drawing.ties import Names
+from planner.cloth.garment import FIRST_IS_RED, FOLDS_MAX
 from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import FoldError, RequestError
 from planner.folds.attachment import Replay, attached
@@ -104,8 +106,9 @@ def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red:
 
 
 def _replay(solution: Solution, after: int | None) -> Replay:
+    refuse_too_many(solution)
     if solution.replay is None:
-        raise RequestError("after", "there is no cloth: the outline is not a good one")
+        raise RequestError("after", NO_CLOTH)
     count = len(solution.drawing.folds) if after is None else after
     legal = len(solution.replay.lines)
     if count > legal:
@@ -114,9 +117,16 @@ def _replay(solution: Solution, after: int | None) -> Replay:
     return Replay(solution.replay.outline, solution.replay.cloths[: count + 1], solution.replay.lines[:count])
 
 
+def refuse_too_many(solution: Solution) -> None:
+    """Raise `RequestError` where no more folds may be drawn."""
+    if len(solution.drawing.folds) >= FOLDS_MAX:
+        text = f"there are {FOLDS_MAX} folds already, and there may be no more"
+        raise RequestError("after", Message("folds_full", text, {"most": FOLDS_MAX}))
+
+
 def _seen(replay: Replay, *, is_red: bool) -> Region:
     if is_red and not replay.lines:
-        raise RequestError("kind", "the first fold cannot be red: no fold comes before it")
+        raise RequestError("kind", FIRST_IS_RED)
     return flap_silhouette(replay.cloths[-1], is_red=is_red)
 
 

@@ -12,7 +12,7 @@ from app.drawing.problem import Problem
 from app.drawing.solution import Solution, steps_of
 from app.drawing.ties import Names
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.garment import DrawnFold, Garment
+from planner.cloth.garment import FIRST_IS_RED, DrawnFold, Garment
 from planner.folds.attachment import Replay
 from planner.folds.fold_cloth import Folded
 from planner.geometry.region import Region
@@ -69,8 +69,7 @@ def _red_first(crease: Crease, index: int) -> Problem | None:
     if index > 0 or not crease.is_red:
         return None
     ends = (crease.start.point, crease.end.point)
-    message = "the first fold cannot be red: no fold comes before it"
-    return Problem("fold_illegal", "folds[0].kind", message, 0, ends)
+    return Problem("fold_illegal", "folds[0].kind", FIRST_IS_RED, 0, ends)
 
 
 def _scene_problems(drawing: Drawing) -> list[Problem]:

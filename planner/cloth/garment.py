@@ -21,6 +21,7 @@ from planner.strict_model import LARGEST_M
 NAME_PATTERN = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
 TITLE_MAX = 200
 FOLDS_MAX = 64
+FIRST_IS_RED = "the first fold cannot be red: red takes the flap of the fold before it"
 DEFAULT_DENSITY_KG_M2 = 0.2
 DEFAULT_GRIP_RADIUS_M = 0.127
 DEFAULT_YAW_RAD = -math.pi / 2
@@ -105,7 +106,7 @@ class Garment:
         if len(self.folds) > FOLDS_MAX:
             raise GarmentError("folds", f"there are {len(self.folds)} folds, more than {FOLDS_MAX}")
         if self.folds and self.folds[0].is_red:
-            raise GarmentError("folds[0].kind", "the first fold cannot be red: no fold comes before it")
+            raise GarmentError("folds[0].kind", FIRST_IS_RED)
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Garment":

@@ -1,11 +1,17 @@
 """Lengths as people write them, and the plane geometry of the page, tested on the modules themselves."""
 
+import json
+import math
 from collections.abc import Iterator
+from random import Random
 from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page
 
+from app.drawing.rules import SNAP_PX, fold_name, next_corner, snapped
+from planner.cloth.outline import POINTS_MAX
+from planner.geometry.region import Region
 from tests.app.conftest import Served
 from tests.browser.board_desk import window
 
@@ -182,3 +188,50 @@ def test_a_plan_that_reads_the_same_as_what_any_takes_is_told_with_the_differenc
     page: Page, cost_s: float, least_s: float, said: str
 ) -> None:
     assert asked(page, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said
+
+
+def test_the_board_names_folds_as_the_stage_does(page: Page) -> None:
+    rng = Random(71)
+    ways = [(rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(60)] + [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1)]
+    taken = [["left over", "top down", "top down 2"][: rng.randint(0, 3)] for _ in ways]
+    lists = [[{"name": name} for name in names] for names in taken]
+    named = asked(page, "stroke", f"{json.dumps(ways)}.map((way, n) => m.nameOf([0, 0], way, {json.dumps(lists)}[n]))")
+    assert named == [fold_name(way, names) for way, names in zip(ways, taken, strict=True)]
+
+
+def test_an_outline_goes_on_and_ends_on_the_board_as_on_the_stage(page: Page) -> None:
+    rng = Random(72)
+    asks = []
+    for count in (*range(8), POINTS_MAX - 1, POINTS_MAX):
+        points = [(0.01 * n, rng.uniform(0, 0.3)) for n in range(count)]
+        near = [(x + rng.choice((0.0, 9e-4, 1.1e-3)), y) for x, y in points[:2] + points[-2:]]
+        asks += [(points, place) for place in [*near, (-0.2, 0.1)]]
+    told = asked(page, "stroke", f"{json.dumps(asks)}.map(([points, next]) => m.nextCorner(points, next))")
+    expected = [next_corner(points, place) for points, place in asks]
+    assert told == expected
+    assert {"put", "close", "taken", "full"} == set(expected)
+
+
+def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> None:
+    ring, scale = [(0.0, 0.0), (0.35, 0.03), (0.4, 0.4), (-0.1, 0.3)], 700.0
+    rng = Random(73)
+    points = [(rng.uniform(-0.15, 0.45), rng.uniform(-0.05, 0.45)) for _ in range(150)]
+    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in ring for _ in range(20)]
+    found = asked(
+        page,
+        "snap",
+        f"""{json.dumps(points)}.map((at) => new m.Snapper().strongest(
+            {{ scale: {scale} }},
+            {{ at, isTouch: false, isKeyboard: false, ctrl: false, shift: false }},
+            {{ rings: [{json.dumps(ring)}], points: [], onlyCloth: true }},
+        ))""",
+    )
+    region, kinds = Region.polygon(ring), set()
+    for point, there in zip(points, found, strict=True):
+        here = snapped(region, point, 1 / scale)
+        kinds.add(there["kind"] if there else None)
+        assert (there is None) == (here == point)
+        # On an edge the board goes on to the nearest line of its grid.
+        slack = SNAP_PX["grid"] / scale if there and there["kind"] == "edge" else 1e-9
+        assert there is None or math.dist(there["at"], here) <= slack
+    assert kinds == {"vertex", "fraction", "edge", None}

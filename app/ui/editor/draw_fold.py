@@ -5,33 +5,26 @@ end slides along the line to where the line leaves the cloth.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, count
-
-import numpy as np
 
 from app.document_state import DocumentState
 from app.drawing.drawing import Crease, Drawing, fresh_ids
-from app.drawing.place_crease import PlacedCrease, along_line
+from app.drawing.place_crease import PlacedCrease, along_line, refuse_too_many
+from app.drawing.rules import DRAW_FOLD, NO_CLOTH, STROKE_MIN_M, as_sentence, fold_name, snapped
 from app.drawing.solution import landed_rings
 from app.ui.editor.aids import Aids, Ghost, Pile, closed
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article, on_table
 from app.ui.editor.mode import FoldKind
 from app.ui.editor.pencil import Pencil
-from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.refusal import RefusedError
 from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
-from planner.cloth.garment import FOLDS_MAX
+from planner.cloth.garment import FIRST_IS_RED
 from planner.folds.fold_cloth import flap_silhouette
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-
-CORNER_PX = 10.0
-EDGE_PX = 12.0
-LABEL = "Draw fold"
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +88,7 @@ class DrawFold(Tool):
             raise RefusedError("That is off the table: no fold was made.")
         state = self._pencil.state
         drawn = replace(stroke, end=_snapped(state, aim, self._seen(state)))
-        self._pencil.commit(LABEL, lambda now: self._folded(now, drawn))
+        self._pencil.commit(DRAW_FOLD, lambda now: self._folded(now, drawn))
 
     def tap(self, aim: Aim) -> None:
         """Begin a line, or end it."""
@@ -130,21 +123,20 @@ class DrawFold(Tool):
         """Return the region that folds of this kind see, article frame."""
         solution = state.solution
         if not solution.cloths:
-            raise RefusedError("There is no cloth yet: draw an outline first.")
+            raise RefusedError(as_sentence(NO_CLOTH))
         legal = len(solution.cloths) - 1
         if legal < len(state.drawing.folds):
             told = (spoken(problem.says, problem.message) for problem in solution.problems if problem.fold == legal)
             why = next(told, "it is not legal")
             raise RefusedError(as_sentence(f"fix fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
-        if legal == FOLDS_MAX:
-            raise RefusedError(f"There are {FOLDS_MAX} folds already, and there may be no more.")
+        refuse_too_many(solution)
         if self._is_red and legal == 0:
-            raise RefusedError("The first fold cannot be red: red takes the flap of the fold before it.")
+            raise RefusedError(as_sentence(FIRST_IS_RED))
         return flap_silhouette(solution.cloths[-1], is_red=self._is_red)
 
     def _placed(self, state: DocumentState, stroke: _Stroke) -> PlacedCrease:
         start, end = (in_article(state.drawing, point) for point in (stroke.start, stroke.end))
-        if start == end:
+        if math.dist(start, end) < STROKE_MIN_M:
             raise RefusedError("Drag on, to another edge of the cloth.")
         return along_line(state.solution, None, Segment(start, end), is_red=self._is_red)
 
@@ -153,7 +145,9 @@ class DrawFold(Tool):
         placed, folds = self._placed(state, stroke), state.drawing.folds
         (name,) = fresh_ids("f", (fold.id for fold in folds), 1)
         kind = "red" if self._is_red else "blue"
-        crease = Crease(name, _name_of(placed.line, folds), kind, placed.start, placed.end)
+        crease = Crease(
+            name, fold_name(placed.line.direction, {fold.name for fold in folds}), kind, placed.start, placed.end
+        )
         return replace(state.drawing, folds=(*folds, crease))
 
     def _ghost(self, drawing: Drawing) -> Ghost | None:
@@ -169,24 +163,7 @@ class DrawFold(Tool):
 
 
 def _snapped(state: DocumentState, aim: Aim, seen: Region) -> Point2:
-    """Return the near corner or boundary point, or the pointer's point if none is near; table frame (m)."""
+    """Return the place of the cloth that the pointer means, or the pointer's own; table frame (m)."""
     point = in_article(state.drawing, aim.point)
-    corners = [(float(x), float(y)) for ring in seen.rings for x, y in ring]
-    corner = min(corners, key=lambda place: math.dist(place, point))
-    ((x, y),) = seen.nearest_boundary_points(np.array([point]))
-    for place, reach_px in ((corner, CORNER_PX), ((float(x), float(y)), EDGE_PX)):
-        if math.dist(place, point) <= reach_px * aim.pixel_m:
-            return on_table(state.drawing, [place])[0]
-    return aim.point
-
-
-def _name_of(line: Segment, folds: Sequence[Crease]) -> str:
-    """Return a fold's first name: the side from which the cloth comes, with a number if the name is taken.
-
-    Article frame, its y up.
-    """
-    x, y = line.direction
-    upright, level = "left over" if y > 0 else "right over", "top down" if x > 0 else "bottom up"
-    name = level if abs(x) > abs(y) else upright
-    names = {fold.name for fold in folds}
-    return next(each for each in chain((name,), (f"{name} {n}" for n in count(2))) if each not in names)
+    place = snapped(seen, point, aim.pixel_m)
+    return aim.point if place == point else on_table(state.drawing, [place])[0]

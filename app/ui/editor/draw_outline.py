@@ -1,24 +1,30 @@
 """The tool `Draw outline`: corner after corner on the table, closed at the first; it replaces the old outline."""
 
-import math
 from dataclasses import replace
+from typing import Final
 
 from app.document_state import DocumentState
 from app.drawing.drawing import Corner, Drawing
 from app.drawing.outline_problems import outline_problems
+from app.drawing.rules import (
+    CORNER_TAKEN,
+    DRAW_OUTLINE,
+    LEAST_CORNERS,
+    TOO_MANY_CORNERS,
+    as_sentence,
+    next_corner,
+    snapped_corner,
+)
 from app.ui.editor.aids import Aids
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article
 from app.ui.editor.pencil import Pencil
-from app.ui.editor.refusal import RefusedError, as_sentence
+from app.ui.editor.refusal import RefusedError
 from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
-from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
 
-CLOSE_PX = 12.0
-LEAST_CORNERS = 3
-LABEL = "Draw outline"
+_REFUSALS: Final = {"taken": CORNER_TAKEN, "full": TOO_MANY_CORNERS}
 
 
 class DrawOutline(Tool):
@@ -57,15 +63,14 @@ class DrawOutline(Tool):
         """Put a corner here, or close the outline."""
         if not Ground.of(self._pencil.state.drawing).holds(aim.point):
             raise RefusedError("That is off the table.")
-        near_m = CLOSE_PX * aim.pixel_m
-        if len(self._points) >= LEAST_CORNERS and math.dist(aim.point, self._points[0]) <= near_m:
+        place = snapped_corner(self._points, aim.point, aim.pixel_m)
+        becomes = next_corner(self._points, place)
+        if becomes == "close":
             self._close()
-        elif any(math.dist(aim.point, point) < EDGE_MIN_M for point in self._points):
-            raise RefusedError("There is a corner already.")
-        elif len(self._points) == POINTS_MAX:
-            raise RefusedError(f"An outline has at most {POINTS_MAX} corners.")
+        elif becomes == "put":
+            self._points = (*self._points, place)
         else:
-            self._points = (*self._points, aim.point)
+            raise RefusedError(as_sentence(_REFUSALS[becomes]))
 
     def last(self) -> str | None:
         """Return the label of the last corner."""
@@ -92,6 +97,6 @@ class DrawOutline(Tool):
             corners = tuple(Corner(f"v{i}", point) for i, point in enumerate(points))
             return replace(state.drawing, outline=corners, folds=())
 
-        self._pencil.commit(LABEL, change)
+        self._pencil.commit(DRAW_OUTLINE, change)
         self._points = ()
         self._is_closed = True

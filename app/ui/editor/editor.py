@@ -6,6 +6,7 @@ A single thread calls everything here (see `app.ui.editor.desk`).
 from collections.abc import Callable, Mapping
 
 from app.document import Document
+from app.drawing.rules import as_sentence
 from app.ui.editor.aids import NO_AIDS, Aids
 from app.ui.editor.aim import Aim
 from app.ui.editor.draw_fold import DrawFold
@@ -13,7 +14,7 @@ from app.ui.editor.draw_outline import DrawOutline
 from app.ui.editor.mode import FoldKind, Mode
 from app.ui.editor.move_points import MovePoints
 from app.ui.editor.pencil import Pencil
-from app.ui.editor.refusal import RefusedError, as_sentence, sentence
+from app.ui.editor.refusal import RefusedError, sentence
 from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.errors import FoldingError

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from app.document_state import DocumentState
 from app.drawing.drawing import Drawing
+from app.drawing.rules import FINGER_PX, MOVE_CORNER
 from app.ui.editor.aids import Aids, closed
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article, on_table
@@ -12,9 +13,6 @@ from app.ui.editor.pencil import Change, Pencil
 from app.ui.editor.refusal import RefusedError
 from app.ui.editor.tool import Tool
 from planner.geometry.pose import Point2
-
-HIT_PX = 22.0
-LABEL = "Move vertex"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +55,7 @@ class MovePoints(Tool):
         drawing = self._pencil.state.drawing
         places = on_table(drawing, drawing.points)
         apart, index = min(((math.dist(place, aim.point), i) for i, place in enumerate(places)), default=(math.inf, 0))
-        if apart > HIT_PX * aim.pixel_m:
+        if apart > FINGER_PX * aim.pixel_m:
             raise RefusedError("There is no corner there: drag one of the handles.")
         x, y = places[index]
         offset = (x - aim.point[0], y - aim.point[1])
@@ -66,7 +64,7 @@ class MovePoints(Tool):
     def drag(self, aim: Aim | None) -> None:
         """Show the document with the corner here."""
         if self._grip is not None and aim is not None and self._grip.ground.holds(aim.point):
-            self._pencil.preview(LABEL, _moved(self._grip.corner, self._grip.place(aim)))
+            self._pencil.preview(MOVE_CORNER, _moved(self._grip.corner, self._grip.place(aim)))
 
     def release(self, aim: Aim | None) -> None:
         """Put the corner here, as one step; off the table, put it back."""
@@ -76,7 +74,7 @@ class MovePoints(Tool):
         if aim is None or not grip.ground.holds(aim.point):
             self._pencil.cancel()
             raise RefusedError("That is off the table: the corner is where it was.")
-        self._pencil.commit(LABEL, _moved(grip.corner, grip.place(aim)))
+        self._pencil.commit(MOVE_CORNER, _moved(grip.corner, grip.place(aim)))
 
     def tap(self, aim: Aim) -> None:
         """Do nothing: a click moves no corner."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from app.drawing.rules import as_sentence
 from app.ui.editor.spoken import spoken
 from planner.errors import FieldError, FoldingError
 
@@ -30,8 +31,3 @@ def sentence(error: FoldingError) -> str:
         text = f"{subject} {error.message}" if subject and error.message.startswith("does not") else error.message
         text = spoken(error.says, text)
     return as_sentence(text)
-
-
-def as_sentence(text: str) -> str:
-    """Return a text with an initial capital letter and a final full stop."""
-    return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith((".", "!", "?")) else ".")

@@ -1,12 +1,11 @@
 /** What a pointer is on: a corner, an end of a fold, the middle of an edge, a fold, an edge, the cloth. */
 
 import { between, distance, isInside, nearestOn } from "./geometry.js";
+import { FINGER_PX, HANDLE_PX } from "./rules.js";
 
 /** @import { Corner, Drawing, Point } from "pleat" */
 /** @import { Board } from "./board.js" */
 
-const HIT_PX = 12;
-const TOUCH_PX = 22;
 const LINE_PX = 7;
 const ENDS = /** @type {const} */ (["start", "end"]);
 
@@ -28,8 +27,8 @@ const ENDS = /** @type {const} */ (["start", "end"]);
  * @returns {Hit|null}
  */
 export function hit(board, pointer) {
-  const reach = pointer.isTouch ? TOUCH_PX : HIT_PX;
-  const line = pointer.isTouch ? TOUCH_PX / 2 : LINE_PX;
+  const reach = pointer.isTouch ? FINGER_PX : HANDLE_PX;
+  const line = pointer.isTouch ? FINGER_PX / 2 : LINE_PX;
   return handleAt(board, pointer.px, reach) ?? lineAt(board, pointer.px, line) ?? clothAt(board, pointer.at);
 }
 

@@ -4,6 +4,7 @@ import { element } from "../dom.js";
 import { placeOf, sideOf } from "./beside.js";
 import { middleOf, moveCorners, moveFold } from "./edits.js";
 import { between, distance, toOuter } from "./geometry.js";
+import { MOVE_CORNER } from "./rules.js";
 import { atLength } from "./snap.js";
 import { laid } from "./tools/place.js";
 import { evaluated, number, parsed, problemOf, unit } from "./units.js";
@@ -130,7 +131,7 @@ export class Numbers {
             const now = drawing.outline.find((other) => other.id === id)?.point ?? corner.point;
             moveCorners(drawing, new Map([[id, withPart(now, axis, metres)]]));
           },
-          "Move vertex",
+          MOVE_CORNER,
         ),
     });
     return { key: id, at: this.board.view.toPx(corner.point), fields: [field(0), field(1)] };

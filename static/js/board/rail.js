@@ -2,14 +2,15 @@
 
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
+import { DRAW_FOLD, DRAW_OUTLINE } from "./rules.js";
 
 /** @import { ToolName } from "./tools/tool.js" */
 
 /** Name, label, key. @type {[ToolName, string, string][]} */
 const TOOLS = [
   ["select", "Select", "V"],
-  ["outline", "Draw outline", "P"],
-  ["fold", "Draw fold", "F"],
+  ["outline", DRAW_OUTLINE, "P"],
+  ["fold", DRAW_FOLD, "F"],
   ["place", "Place", "M"],
   ["measure", "Measure", "T"],
   ["photo", "Photo", "I"],

@@ -17,24 +17,16 @@ import {
   unit as direction,
 } from "./geometry.js";
 import { spacing } from "./draw_grid.js";
+import { FRACTIONS, REACH_PX } from "./rules.js";
 
 /** @import { Point } from "pleat" */
 /** @import { View } from "./view.js" */
 
-/** How near each kind has to be (px), the strongest first. */
-export const REACH_PX = { close: 12, vertex: 10, dropped: 8, fraction: 9, bisector: 8, edge: 8, guides: 6, guide: 6, grid: 4, line: 4 };
 /** @typedef {keyof typeof REACH_PX} Kind */
 const KINDS = /** @type {Kind[]} */ (Object.keys(REACH_PX));
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
-const FRACTIONS = [
-  [1 / 2, "1/2"],
-  [1 / 3, "1/3"],
-  [2 / 3, "2/3"],
-  [1 / 4, "1/4"],
-  [3 / 4, "3/4"],
-];
 const TURN_RAD = Math.PI / 12;
 
 /**
@@ -114,10 +106,10 @@ const CANDIDATES = {
     laid.flatMap(({ at, on }) => (on ? [onto(at, at), onto(at, nearestOn(p, on[0], on[1]))] : [])),
   fraction: (_, { rings }) =>
     rings.flatMap(edgesOf).flatMap(([a, b]) =>
-      FRACTIONS.map(([t, text]) => ({
-        at: between(a, b, Number(t)),
-        name: t === 0.5 ? "midpoint" : `${text} of edge`,
-        key: `${text}${a}${b}`,
+      FRACTIONS.map(([part, whole]) => ({
+        at: between(a, b, part / whole),
+        name: whole === 2 ? "midpoint" : `${part}/${whole} of edge`,
+        key: `${part}/${whole}${a}${b}`,
         isOnCloth: true,
       })),
     ),

@@ -14,6 +14,7 @@ import {
   nearestOnRings,
   plus,
 } from "./geometry.js";
+import { LEAST_CORNERS, MOST_CORNERS, SAME_CORNER_M, SIDES } from "./rules.js";
 
 /** @import { Fold, Point } from "pleat" */
 
@@ -62,7 +63,7 @@ export function ghostOf([a, b], rings) {
   return { moving, landed: moving.map((ring) => ring.map((point) => mirrored(point, a, b))) };
 }
 
-const GIVEN = /^(left over|right over|top down|bottom up)( \d+)?$/;
+const GIVEN = new RegExp(`^(${Object.values(SIDES).join("|")})( \\d+)?$`);
 
 /**
  * What a fold is called once its other side moves: a name that tells the side goes along, any other stays.
@@ -81,11 +82,27 @@ export function nameFlipped({ name, start, end }, others) {
  */
 export function nameOf(start, end, folds) {
   const [x, y] = minus(end, start);
-  const [upright, level] = [y > 0 ? "left over" : "right over", x > 0 ? "top down" : "bottom up"];
+  const [upright, level] = [y > 0 ? SIDES.along_y : SIDES.against_y, x > 0 ? SIDES.along_x : SIDES.against_x];
   const name = Math.abs(x) > Math.abs(y) ? level : upright;
   const names = folds.map((fold) => fold.name);
   for (let number = 1; ; number += 1) {
     const numbered = number > 1 ? `${name} ${number}` : name;
     if (!names.includes(numbered)) return numbered;
   }
+}
+
+/**
+ * What becomes of an unfinished outline where its next corner is put: at its first corner or, as with a double click,
+ * at its last it closes.
+ * @param {Point[]} points its corners so far
+ * @param {Point} next
+ * @returns {"put"|"close"|"taken"|"full"}
+ */
+export function nextCorner(points, next) {
+  const ends = points.length < LEAST_CORNERS ? [] : [points[0], points[points.length - 1]];
+  /** @param {Point} corner */
+  const isThere = (corner) => distance(corner, next) < SAME_CORNER_M;
+  if (ends.some(isThere)) return "close";
+  if (points.some(isThere)) return "taken";
+  return points.length < MOST_CORNERS ? "put" : "full";
 }

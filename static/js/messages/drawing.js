@@ -31,6 +31,7 @@ export const DRAWING = {
     `${label} is ${length(value)}, not between ${length(least)} and ${length(most)}`,
   measure_not_less: (says) => `${measured(says)} must be less than ${than(says)}`,
   measure_too_small: (says) => `${measured(says)} must be at least ${than(says)}`,
+  folds_full: ({ most }) => `there are ${most} folds already, and there may be no more`,
   fewer_folds: ({ asked, legal }) => `it comes after ${asked} folds, but only ${legal} are drawn and legal`,
 };
 

@@ -26,7 +26,7 @@ def test_a_drag_from_edge_to_edge_is_a_fold() -> None:
 
 def test_a_second_fold_like_one_before_is_called_otherwise() -> None:
     document, editor = seat(PLAIN, Mode.DRAW_FOLD)
-    for x in (-0.45, -0.5, -0.55):
+    for x in (-0.45, -0.55, -0.62):
         drag(editor, (x, 0.2), (x, -0.2))
     assert [fold.name for fold in document.state.drawing.folds] == ["top down", "top down 2", "top down 3"]
 
@@ -47,7 +47,7 @@ def test_an_end_near_a_corner_is_tied_to_it() -> None:
 
 def test_an_end_near_the_edge_is_put_onto_it() -> None:
     document, editor = seat(PLAIN, Mode.DRAW_FOLD)
-    drag(editor, (-0.6, 0.2 + 11 * PIXEL_M), (-0.5, -0.2 + 11 * PIXEL_M))
+    drag(editor, (-0.6, 0.2 + 7 * PIXEL_M), (-0.5, -0.2 + 7 * PIXEL_M))
     (fold,) = document.state.drawing.folds
     assert fold.start.point == pytest.approx((0.0, 0.1))
     assert fold.end.point == pytest.approx((0.4, 0.2))

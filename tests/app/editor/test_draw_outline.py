@@ -76,7 +76,8 @@ def test_two_corners_do_not_close() -> None:
     x, y = SQUARE[0]
     click(editor, *SQUARE[:2], (x + 5 * PIXEL_M, y))
     assert document.state.version == 1
-    assert len(editor.aids.handles) == 3
+    assert len(editor.aids.handles) == 2
+    assert editor.says == "There is a corner already."
 
 
 def test_an_outline_that_crosses_itself_is_not_closed_and_nothing_is_lost() -> None:

@@ -9,7 +9,8 @@ import { lengthLabel } from "../draw_handles.js";
 import { dropsOnto, edgeNear, endsOnto } from "../edge_onto_edge.js";
 import { freshId, insertFold } from "../edits.js";
 import { distance, isInside, nearestOnRings } from "../geometry.js";
-import { atLength, REACH_PX } from "../snap.js";
+import { DRAW_FOLD, FIRST_IS_RED, NO_CLOTH, REACH_PX, STROKE_MIN_M } from "../rules.js";
+import { atLength } from "../snap.js";
 import { ghostOf, lineOf, nameOf, reachesCloth } from "../stroke.js";
 import { Tool } from "./tool.js";
 
@@ -20,14 +21,12 @@ import { Tool } from "./tool.js";
 /** @import { Snapped } from "../snap.js" */
 /** @import { Change } from "../../edit_queue.js" */
 
-const LEAST_M = 0.002;
 /** Cloth that is grabbed so near to an edge is grabbed by that edge (px). */
 const BY_EDGE_PX = 20;
 /** Kinds of snaps that mean the point itself, not its edge. */
 const POINTS = new Set(["vertex", "fraction"]);
 const BESIDE = "No fold there: the stroke does not touch the cloth.";
 const UNCLOSED = "The outline is not closed yet: go on with Draw outline (P).";
-const NO_FLAP = "The first fold cannot be red: red takes the flap of the fold before it.";
 
 /**
  * A stroke across the cloth.
@@ -142,8 +141,8 @@ export class FoldTool extends Tool {
   /** Why there is nothing to draw a fold on. */
   noCloth() {
     const { paint, step, tools } = this.board;
-    if (paint.kind === "red" && step === 0) return NO_FLAP;
-    return tools.outline.isBusy ? UNCLOSED : "There is no cloth yet: draw an outline first.";
+    if (paint.kind === "red" && step === 0) return FIRST_IS_RED;
+    return tools.outline.isBusy ? UNCLOSED : NO_CLOTH;
   }
 
   /**
@@ -198,7 +197,7 @@ export class FoldTool extends Tool {
 
   ask() {
     const { stroke, board } = this;
-    if (!stroke || distance(stroke.from, stroke.to) < LEAST_M) return;
+    if (!stroke || distance(stroke.from, stroke.to) < STROKE_MIN_M) return;
     if (this.isBeside(stroke)) {
       this.question.forget();
       this.refuse(BESIDE);
@@ -249,7 +248,7 @@ export class FoldTool extends Tool {
     board.closeTyped();
     board.snapped = null;
     const isBeside = this.isBeside(stroke);
-    if (isBeside || distance(stroke.from, stroke.to) < LEAST_M) {
+    if (isBeside || distance(stroke.from, stroke.to) < STROKE_MIN_M) {
       this.cancel();
       if (isBeside) board.store.refuse(BESIDE);
       return;
@@ -305,7 +304,7 @@ export class FoldTool extends Tool {
     board.paint.turnOver(false);
     /** @type {Change} */
     const insert = (drawing) => insertFold(drawing, Math.min(index, drawing.folds.length), fold);
-    const state = await board.store.edit("Draw fold", insert);
+    const state = await board.store.edit(DRAW_FOLD, insert);
     if (state) board.store.showStep(index + 1);
   }
 
@@ -351,7 +350,7 @@ export class FoldTool extends Tool {
   /** @returns {[Point, Point]|null} */
   get stretch() {
     const { stroke } = this;
-    const isLong = stroke !== null && !stroke.isGrab && distance(stroke.from, stroke.to) > LEAST_M;
+    const isLong = stroke !== null && !stroke.isGrab && distance(stroke.from, stroke.to) > STROKE_MIN_M;
     return isLong ? [stroke.from, stroke.to] : null;
   }
 
@@ -368,7 +367,7 @@ export class FoldTool extends Tool {
       cy,
       r: 4,
     }));
-    if (distance(stroke.from, stroke.to) < LEAST_M) return dots;
+    if (distance(stroke.from, stroke.to) < STROKE_MIN_M) return dots;
     const [a, b] = this.line(stroke);
     /** @type {[Point, Point]} */
     const ends = [board.view.toPx(a), board.view.toPx(b)];

@@ -6,16 +6,18 @@
 import { replaceOutline } from "../edits.js";
 import { distance } from "../geometry.js";
 import { lengthLabel } from "../draw_handles.js";
+import { CORNER_TAKEN, DRAW_OUTLINE, LEAST_CORNERS, TOO_FEW_CORNERS, TOO_MANY_CORNERS } from "../rules.js";
 import { path } from "../sheet.js";
 import { atLength } from "../snap.js";
+import { nextCorner } from "../stroke.js";
 import { Tool } from "./tool.js";
 
 /** @import { Point } from "pleat" */
 /** @import { Pointer } from "../pointer.js" */
 /** @import { Items } from "../sheet.js" */
 
-const LEAST_CORNERS = 3;
-const SAME_M = 0.001;
+/** Why no corner is put there. */
+const REFUSALS = { taken: CORNER_TAKEN, full: TOO_MANY_CORNERS };
 
 export class OutlineTool extends Tool {
   /** @param {import("../board.js").Board} board */
@@ -95,22 +97,23 @@ export class OutlineTool extends Tool {
     const { next, points } = this;
     this.board.closeTyped();
     if (!next) return;
-    if (points.length >= LEAST_CORNERS && distance(next, points[0]) < SAME_M) this.close();
-    else if (!points.some((point) => distance(point, next) < SAME_M)) points.push(next);
-    else if (points.length >= LEAST_CORNERS && distance(next, points[points.length - 1]) < SAME_M) this.close();
+    const becomes = nextCorner(points, next);
+    if (becomes === "close") this.close();
+    else if (becomes === "put") points.push(next);
+    else this.board.store.refuse(REFUSALS[becomes]);
   }
 
   async close() {
     const { points } = this;
     if (points.length < LEAST_CORNERS) {
-      this.board.store.refuse("An outline has at least three corners.");
+      this.board.store.refuse(TOO_FEW_CORNERS);
       return;
     }
     this.points = [];
     this.next = null;
     this.board.choose("select");
     this.board.showDraft((drawing) => replaceOutline(drawing, points));
-    await this.board.store.edit("Draw outline", (drawing) => replaceOutline(drawing, points));
+    await this.board.store.edit(DRAW_OUTLINE, (drawing) => replaceOutline(drawing, points));
     this.board.dropDraft();
   }
 

@@ -6,6 +6,7 @@ import { Gesture } from "../gesture.js";
 import { chordAlong, distance, minus, nearestOnRings, plus } from "../geometry.js";
 import { hit } from "../hit.js";
 import { cornersWithin, marquee } from "../marquee.js";
+import { MOVE_CORNER } from "../rules.js";
 import { Tool } from "./tool.js";
 
 /** @import { Drawing, Point } from "pleat" */
@@ -16,7 +17,7 @@ import { Tool } from "./tool.js";
 /** @import { Frame } from "../marquee.js" */
 
 const CURSORS = { vertex: "grab", end: "grab", middle: "copy", fold: "move", edge: "move", cloth: "default" };
-const LABELS = { vertex: "Move vertex", edge: "Move edge", middle: "Add vertex", end: "Move fold", fold: "Move fold" };
+const LABELS = { vertex: MOVE_CORNER, edge: "Move edge", middle: "Add vertex", end: "Move fold", fold: "Move fold" };
 /** What a press on each kind selects; on cloth and beside it, nothing. */
 const SELECTED = /** @type {const} */ ({ vertex: "vertex", end: "fold", fold: "fold", edge: "edge", middle: "edge" });
 const LEAST_CORNERS = 3;
@@ -248,7 +249,7 @@ export class SelectTool extends Tool {
           drawing,
           new Map(drawing.outline.filter(({ id }) => moved.includes(id)).map(({ id, point }) => [id, plus(point, by)])),
         );
-      store.edit(kind === "vertex" ? "Move vertex" : "Move edge", change, { coalesce });
+      store.edit(kind === "vertex" ? MOVE_CORNER : "Move edge", change, { coalesce });
     } else if (kind === "fold") {
       const [id] = ids;
       const rings = this.board.ringsOf(id);
