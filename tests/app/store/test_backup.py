@@ -1,0 +1,100 @@
+import io
+import tarfile
+import threading
+from pathlib import Path
+
+import pytest
+
+from app.drawing.draft import draft_of
+from app.drawing.garment_drawing import drawing_of
+from app.store.backup import NoBackupError, UsedFolderError, back_up, restore
+from app.store.data_folder import DataFolder
+from app.store.database import Database
+from app.store.document_repository import DocumentRepository
+from app.store.garment_repository import GarmentRepository
+from app.store.job_repository import JobRepository
+from planner.cloth.garment import Garment
+from tests.app.samples import towel
+
+
+def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_works_on(tmp_path: Path) -> None:
+    folder = DataFolder(tmp_path / "data")
+    garment = Garment.from_dict(towel(name="my-towel"))
+    GarmentRepository(folder.garments).save(garment)
+    documents, database = DocumentRepository(folder.documents), Database(folder.database)
+    job = JobRepository(database).add("kind", "me", {"number": 1})
+    ids = [documents.new_id() for _ in range(3)]
+    keepers = {document_id: documents.keeper(document_id) for document_id in ids}
+    draft = draft_of(drawing_of(garment))
+    for keeper in keepers.values():
+        keeper.keep(1, draft)
+    is_over = threading.Event()
+
+    def work() -> None:
+        version = 1
+        while not is_over.wait(0.002):
+            version += 1
+            keepers[ids[0]].keep(version, draft)
+
+    working = threading.Thread(target=work)
+    with folder.held():
+        working.start()
+        try:
+            for number in range(5):
+                back_up(folder, tmp_path / f"{number}.tar.gz")
+        finally:
+            is_over.set()
+            working.join()
+    database.close()
+    for number in range(5):
+        restored = DataFolder(tmp_path / f"restored-{number}")
+        restore(tmp_path / f"{number}.tar.gz", restored)
+        again = DocumentRepository(restored.documents)
+        assert all(again.kept(document_id).draft.history == draft.history for document_id in ids)
+        assert not list(restored.documents.glob("*.broken"))
+        assert GarmentRepository(restored.garments).garment("my-towel") == garment
+        copied = Database(restored.database)
+        assert JobRepository(copied).job(job.id) == job
+        copied.close()
+        assert not (restored.path / "server.json").exists()
+
+
+def test_nothing_is_restored_over_something(tmp_path: Path) -> None:
+    (tmp_path / "data").mkdir()
+    back_up(DataFolder(tmp_path / "data"), tmp_path / "a.tar.gz")
+    restore(tmp_path / "a.tar.gz", DataFolder(tmp_path / "data"))
+    (tmp_path / "data" / "mine").write_text("x")
+    with pytest.raises(UsedFolderError):
+        restore(tmp_path / "a.tar.gz", DataFolder(tmp_path / "data"))
+    assert (tmp_path / "data" / "mine").read_text() == "x"
+
+
+@pytest.mark.parametrize("content", [b"", b"no archive", None])
+def test_what_is_no_backup_is_refused_and_leaves_nothing(tmp_path: Path, content: bytes | None) -> None:
+    source = tmp_path / "a.tar.gz"
+    if content is None:
+        with tarfile.open(source, "w:gz") as archive:
+            archive.addfile(tarfile.TarInfo("pleat.db"), io.BytesIO())
+    else:
+        source.write_bytes(content)
+    with pytest.raises(NoBackupError):
+        restore(source, DataFolder(tmp_path / "data"))
+    assert list(tmp_path.iterdir()) == [source]
+
+
+def test_a_backup_leads_nowhere_outside(tmp_path: Path) -> None:
+    source = tmp_path / "a.tar.gz"
+    with tarfile.open(source, "w:gz") as archive:
+        for name, content in (("pleat-backup.json", b'{"format": 1}'), ("../outside", b"x")):
+            entry = tarfile.TarInfo(name)
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+    with pytest.raises(NoBackupError):
+        restore(source, DataFolder(tmp_path / "below" / "data"))
+    assert not list(tmp_path.rglob("outside"))
+
+
+def test_a_folder_that_is_not_there_is_not_backed_up(tmp_path: Path) -> None:
+    with pytest.raises(NoBackupError):
+        back_up(DataFolder(tmp_path / "nothing"), tmp_path / "a.tar.gz")
+    assert not (tmp_path / "a.tar.gz").exists()
