@@ -18,6 +18,7 @@ class Settings(BaseSettings):
         insecure: whether to let other machines in without the token.
         token_file: a file with the token to ask for; None: beyond loopback one that is made at the first start.
         new_token: whether to make a new token, after which the old one does not hold.
+        log_json: whether the log's lines are JSON objects.
         requests_per_s: how many requests another machine may send in the long run (1/s).
         port: the port; 0 lets the system pick a free one, which replaces it before serving starts.
         data: the folder for the user's garments and documents.
@@ -31,6 +32,7 @@ class Settings(BaseSettings):
     insecure: bool = False
     token_file: Path | None = None
     new_token: bool = False
+    log_json: bool = False
     requests_per_s: float = Field(default=100.0, gt=0.0)
     port: int = Field(default=8000, ge=0, le=65535)
     data: Path = Field(default_factory=lambda: user_data_path("pleat"))

@@ -8,7 +8,7 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.jobs.apart import start_template
+from app.jobs.apart import start_template, template_problem
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
@@ -144,6 +144,17 @@ class Workspace:
                 del self._open[opened.id]
         for opened in unused:
             opened.close()
+
+    def problems(self) -> dict[str, str | None]:
+        """Return what is wrong now with what the server depends on; None where it is well."""
+        disk = self.folder.problem()
+        return {"disk": disk, "database": disk or self.database.problem(), "workers": template_problem()}
+
+    @property
+    def open_count(self) -> int:
+        """The number of open documents."""
+        with self._lock:
+            return len(self._open)
 
     def close(self) -> None:
         """Stop all work and close all documents."""

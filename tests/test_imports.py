@@ -55,6 +55,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "filelock": ("app.store",),
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),
+    "prometheus_client": ("app.api",),
     "pyarrow": ("app.studies",),
     "distributed": ("app.studies",),
     "mujoco": ("app.physics",),

@@ -17,11 +17,20 @@ Point = tuple[float, float]
 Point3 = tuple[float, float, float]
 
 
+class Checks(BaseModel):
+    """What the server depends on: `ok`, or what is wrong. The workers load when the server starts, for some seconds."""
+
+    disk: str
+    database: str
+    workers: str
+
+
 class Health(BaseModel):
     """The server's state and version; `problem` is there only when something is wrong."""
 
     status: Literal["ok", "degraded"]
     version: str
+    checks: Checks
     problem: str | None = None
 
 

@@ -13,6 +13,7 @@ from app.api import (
     garment_routes,
     job_routes,
     live,
+    metrics_routes,
     overlay_routes,
     page_routes,
     plan_routes,
@@ -29,10 +30,12 @@ from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
 from app.api.live_answers import LiveCommand, LiveMessage
 from app.api.methods import HeadAsGet
+from app.api.metrics import Measured, Metrics
 from app.api.prefix import BelowPrefix
 from app.api.problems import Problem, install_problems
 from app.api.token_only import TokenOnly
 from app.job_kinds.kinds import KINDS
+from app.server.request_id import RequestIds
 from app.settings import Settings
 from app.store.access_token import AccessToken
 from app.workspace import Workspace
@@ -64,6 +67,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         lifespan=lifespan,
     )
     app.state.workspace = workspace
+    app.state.metrics = Metrics(workspace)
     for routes in (
         scene_routes,
         garment_routes,
@@ -78,6 +82,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         overlay_routes,
         live,
         stage_routes,
+        metrics_routes,
         page_routes,
     ):
         app.include_router(routes.router)
@@ -85,10 +90,12 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     install_problems(app)
     describe(app, Problem, LiveMessage, LiveCommand)
     app.add_middleware(FailuresAsProblems)
+    app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:
         app.add_middleware(TokenOnly, token=token, port=settings.port)
     app.add_middleware(ClientLimits, requests_per_s=settings.requests_per_s)
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)
     app.add_middleware(BelowPrefix, prefix=settings.root_path)
+    app.add_middleware(RequestIds)
     return app

@@ -33,6 +33,9 @@ def serve(
     new_token: Annotated[
         bool | None, typer.Option("--new-token", help="Make a new token; the old one does not hold any more.")
     ] = None,
+    log_json: Annotated[
+        bool | None, typer.Option("--log-json", help="Write the log as JSON, an object a line.")
+    ] = None,
 ) -> None:
     """Serve the designer until Ctrl-C.
 
@@ -41,7 +44,7 @@ def serve(
     from app.server.serve import serve as serve_settings  # here, because this import takes a second
 
     proxy = {"root_path": root_path, "origin": origin}
-    access = {"insecure": insecure, "token_file": token_file, "new_token": new_token}
+    access = {"insecure": insecure, "token_file": token_file, "new_token": new_token, "log_json": log_json}
     given: dict[str, Any] = {"host": host, "port": port, "data": data, **access, **proxy}
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})

@@ -81,6 +81,12 @@ class _Template:
                 threading.Thread(target=_load_template, args=(self._loading,), name="template", daemon=True).start()
             return self._loading
 
+    def problem(self) -> str | None:
+        """Return why loading failed; None if it did not, or not yet."""
+        with self._lock:
+            failed = self._loading is not None and self._loading.done() and self._loading.exception()
+            return str(failed) if failed else None
+
 
 _template = _Template()
 
@@ -88,6 +94,11 @@ _template = _Template()
 def start_template() -> None:
     """Start the template process, so that the first work does not wait for it."""
     _template.loading()
+
+
+def template_problem() -> str | None:
+    """Return why no process has the planner; None if one has it or is loading it."""
+    return _template.problem()
 
 
 def _load_template(loading: Future[None]) -> None:

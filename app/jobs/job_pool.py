@@ -98,6 +98,7 @@ class JobPool:
         self._lock = threading.Lock()
         self._is_closed = False
         self._mean_s = 0.0
+        self._ended = 0
 
     def start(self, work: Callable[[ShouldStop], Answer]) -> Job[Answer]:
         """Queue a piece of work; raise `BusyError` if the queue is full.
@@ -118,6 +119,12 @@ class JobPool:
         job.future.add_done_callback(lambda _: self._forget(job))
         self._jobs.put(job)
         return job
+
+    def load(self) -> tuple[int, int, int]:
+        """Return how many jobs wait, how many run, and how many have run so far."""
+        with self._lock:
+            waiting = self._waiting()
+            return waiting, len(self._open) - waiting, self._ended
 
     def require_room(self) -> None:
         """Raise `BusyError` if the queue is full."""
@@ -173,4 +180,5 @@ class JobPool:
             began_s = time.monotonic()
             job.run()
             with self._lock:
+                self._ended += 1
                 self._mean_s += _NEWS_SHARE * (time.monotonic() - began_s - self._mean_s)

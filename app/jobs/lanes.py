@@ -39,6 +39,11 @@ class Lanes:
 
         self._pools = (self.quick, self.files, self.searches, self.jobs, self.live)
 
+    def load(self) -> dict[str, tuple[int, int, int]]:
+        """Return by lane how many jobs wait, how many run, and how many have run so far."""
+        names = ("quick", "files", "searches", "jobs", "live")
+        return {name: pool.load() for name, pool in zip(names, self._pools, strict=True)}
+
     def stop(self) -> None:
         """Stop all work."""
         for pool in self._pools:

@@ -1,9 +1,12 @@
-"""The server's log: lines with time, level and source on standard error.
+"""The server's log: lines with time, level and source on standard error, as text or as JSON.
+
+What is logged while a request is answered has the request's id.
 
 A separate thread writes them. A stopped terminal, or a pipe that nobody reads, then blocks that thread and not the
 server; lines that do not fit into the queue are dropped.
 """
 
+import json
 import logging
 import os
 import queue
@@ -12,6 +15,8 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from logging.handlers import QueueHandler
+
+from app.server.request_id import REQUEST_ID
 
 LINES_MAX = 1000
 """Largest number of lines waiting to be written."""
@@ -26,11 +31,13 @@ Lines = queue.Queue[logging.LogRecord | None]
 
 
 @contextmanager
-def logging_to(descriptor: int) -> Iterator[None]:
+def logging_to(descriptor: int, *, as_json: bool = False) -> Iterator[None]:
     """Write the log, requests included, to an open file during this context."""
     lines: Lines = queue.Queue(LINES_MAX)
     root, handler = logging.getLogger(), _DroppingHandler(lines)
-    writer = threading.Thread(target=_write, args=(lines, descriptor), name="log", daemon=True)
+    writer = threading.Thread(
+        target=_write, args=(lines, descriptor, _JsonLine() if as_json else _TextLine()), name="log", daemon=True
+    )
     writer.start()
     root.addHandler(handler)
     for name, level in _LEVELS.items():
@@ -50,7 +57,13 @@ def standard_error() -> int:
 
 
 class _DroppingHandler(QueueHandler):
-    """Queues lines while there is room."""
+    """Queues lines while there is room, each with the id of its request."""
+
+    def prepare(self, record: logging.LogRecord) -> logging.LogRecord:
+        """Return the record as it is written, from the context of the request."""
+        prepared: logging.LogRecord = super().prepare(record)
+        prepared.request = REQUEST_ID.get()
+        return prepared
 
     def enqueue(self, record: logging.LogRecord) -> None:
         """Queue a line without ever waiting for room, since the caller may be the event loop."""
@@ -58,9 +71,35 @@ class _DroppingHandler(QueueHandler):
             self.queue.put_nowait(record)
 
 
-def _write(lines: Lines, descriptor: int) -> None:
+class _TextLine(logging.Formatter):
+    """A line with time, level, source, message and the request's id."""
+
+    def __init__(self) -> None:
+        super().__init__(_FORMAT, _TIME_FORMAT)
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Return the line."""
+        request = getattr(record, "request", "")
+        return super().format(record) + (f" request={request}" if request else "")
+
+
+class _JsonLine(_TextLine):
+    """The same as a JSON object."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Return the line."""
+        line = {
+            "time": self.formatTime(record, _TIME_FORMAT),
+            "level": record.levelname,
+            "source": record.name,
+            "message": record.getMessage(),
+        }
+        request = getattr(record, "request", "")
+        return json.dumps({**line, "request": request} if request else line)
+
+
+def _write(lines: Lines, descriptor: int, formatter: logging.Formatter) -> None:
     """Write lines until None arrives, bypassing Python's buffer: its lock must be free when the interpreter ends."""
-    formatter = logging.Formatter(_FORMAT, _TIME_FORMAT)
     while (record := lines.get()) is not None:
         with suppress(OSError):
             os.write(descriptor, (formatter.format(record) + "\n").encode("utf-8", "backslashreplace"))

@@ -70,7 +70,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
     with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
         token, made = _token(settings, address)
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
-        with logging_to(standard_error()):
+        with logging_to(standard_error(), as_json=settings.log_json):
             app = create_app(bound, token)
 
             def announce_everywhere() -> None:

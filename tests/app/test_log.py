@@ -1,3 +1,4 @@
+import json
 import logging
 import os
 import re
@@ -5,6 +6,7 @@ import re
 import pytest
 
 from app.server.log import LINES_MAX, logging_to
+from app.server.request_id import REQUEST_ID
 
 
 def test_a_line_has_time_level_and_source() -> None:
@@ -29,3 +31,27 @@ def test_a_pipe_that_nobody_reads_holds_up_nobody(lines: int) -> None:
             logging.getLogger("app.workspace").warning("x" * 1000)
     os.close(read)
     os.close(write)
+
+
+def test_a_line_within_a_request_has_its_id_as_text_and_as_json() -> None:
+    lines = {}
+    for as_json in (False, True):
+        read, write = os.pipe()
+        before = REQUEST_ID.set("a-b.c")
+        with logging_to(write, as_json=as_json):
+            try:
+                raise ValueError("bad\nluck")
+            except ValueError:
+                logging.getLogger("app.workspace").exception("it failed")
+        REQUEST_ID.reset(before)
+        os.close(write)
+        with os.fdopen(read, encoding="utf-8") as file:
+            lines[as_json] = file.read()
+    assert lines[False].endswith("request=a-b.c\n")
+    told = json.loads(lines[True])
+    assert {name: told[name] for name in ("level", "source", "request")} == {
+        "level": "ERROR",
+        "source": "app.workspace",
+        "request": "a-b.c",
+    }
+    assert told["message"].startswith("it failed\nTraceback") and "bad\nluck" in told["message"]
