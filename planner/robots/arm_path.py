@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.joint_chain import cheapest_chain
 from planner.robots.path_arm import PathArm
-from planner.robots.tool_path import IsFree, NoPath, ToolPath, joints_along
+from planner.robots.tool_path import LEAP_RAD, IsFree, NoPath, ToolPath, joints_along
 
-STRIDE = 3
-"""Poses of the path for each link of the chain."""
+_JUMP_RAD = 0.8
+"""Largest movement of a joint from link to link of a chain (rad; m where it slides)."""
 
 _SMOOTHINGS = 6
 """Passes of the filter that rounds the corners of the chain."""
@@ -31,11 +31,13 @@ class ArmSearch:
     """The search for one arm's path.
 
     Attributes:
+        jump: the movement of a joint from which a link is a jump (rad; m where it slides).
         links: the poses at which the chain has a link, shape (l,).
         samples: joints that bring the tool there (rad; m where they slide), shape (l, m, joints).
         costs: the samples' costs, shape (l, m); infinite where there is no sample or it was rejected.
         speeds: the joints' top speeds (rad/s; m/s), shape (joints,).
         periods: what the joints may be off without any difference (rad), shape (joints,).
+        stride: poses of the path from one link of the arm's own chain to the next.
         spans: the longest duration wanted for each link (s), shape (l - 1,).
         core: the first of the poses that matter, and the one after their last.
         chain: the sample taken at each link, shape (l,); the cheapest chain of those not rejected.
@@ -61,24 +63,31 @@ class ArmSearch:
         self._floor_m = floor_m
         self._is_free = is_free
         self.core = path.core
-        count = len(path.positions)
-        self.speeds, self.periods = speeds, arm.periods
-        self.links = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
-        self.samples, self.costs = np.empty((len(self.links), 0, len(speeds))), np.empty((len(self.links), 0))
-        self.chain = np.empty(0, dtype=np.int64)
-        self.spans = np.add.reduceat(np.append(path.spans_s, 0.0), self.links)[:-1]
-        self._is_asked = np.zeros(len(self.links), dtype=bool)
+        self.speeds, self.periods, self.stride = speeds, arm.periods, arm.stride
+        self.jump, self.links = 0.0, np.empty(0, dtype=np.int64)
+        self.samples, self.costs = np.empty((0, 0, len(speeds))), np.empty((0, 0))
+        self.chain, self.spans = np.empty(0, dtype=np.int64), np.empty(0)
+        self._is_asked = np.empty(0, dtype=bool)
         self.has_dropped = False
 
-    def found(self) -> FloatArray | NoPath:
+    def found(self, stride: int | None = None) -> FloatArray | NoPath:
         """Return the calmest joints that keep the tool on the path , shape (n, joints), or that there are none.
 
         Joints that turn without end are unwound.
+
+        Args:
+            stride: poses of the path from one link of the chain to the next; None: as the arm has it.
         """
+        count = len(self._path.positions)
+        stride = stride or self.stride
+        self.jump = min(_JUMP_RAD, stride * LEAP_RAD)
+        self.links = np.unique(np.append(np.arange(0, count, stride), count - 1))
+        self.spans = np.add.reduceat(np.append(self._path.spans_s, 0.0), self.links)[:-1]
+        self._is_asked = np.zeros(len(self.links), dtype=bool)
         places, axes = self._path.positions[self.links], self._path.rotations[self.links]
         self.samples, self.costs = self._arm.samples(places, axes, self._torso_m, self._floor_m)
         for number in range(_TRIES_MAX):
-            self.chain = cheapest_chain(self.samples, self.costs, self.speeds, self.periods, self.spans)
+            self.chain = cheapest_chain(self.samples, self.costs, self.speeds, self.periods, self.jump, self.spans)
             if not len(self.chain):
                 break
             guides = self.guides(self.chain)
@@ -123,7 +132,7 @@ class ArmSearch:
         blocked = self.links[inside[np.isinf(self.costs[inside]).all(axis=1)]] - self.core[0]
         part = slice(inside[0], inside[-1] + 1)
         spans = self.spans[part][:-1]
-        chain = cheapest_chain(self.samples[part], self.costs[part], self.speeds, self.periods, spans)
+        chain = cheapest_chain(self.samples[part], self.costs[part], self.speeds, self.periods, self.jump, spans)
         return NoPath(blocked, is_core=not (len(chain) or self.has_dropped))
 
     def _strike(self, chain: NDArray[np.int64], bad: NDArray[np.int64], number: int) -> None:

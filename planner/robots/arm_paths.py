@@ -6,7 +6,7 @@ chains found collide, the pairs of those poses are checked, at a few of the pose
 Of three arms and more that collide, one pair after the other is led apart.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Protocol
 
@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm_path import ArmSearch, links_beside, links_inside
+from planner.robots.card import RobotCard
 from planner.robots.joint_chain_pair import cheapest_chain_pair
-from planner.robots.tool_path import NoPath
+from planner.robots.path_arm import PathArm
+from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 _TRIES_MAX = 24
 """Pairs of chains tried before the search gives up."""
@@ -43,6 +45,30 @@ class Together(Protocol):
         ...
 
 
+def arm_searches(
+    arms: Sequence[PathArm],
+    card: RobotCard,
+    paths: Mapping[int, ToolPath],
+    torso_m: float,
+    floor_m: float,
+    are_free: Mapping[int, IsFree],
+) -> dict[int, ArmSearch]:
+    """Return the search for the path of each arm that has one, for `arm_paths`.
+
+    Args:
+        arms: the robot's arms.
+        card: the robot's card.
+        paths: each arm's tool path, in rising order of the arms.
+        torso_m: how far the lift is raised (m).
+        floor_m: the height over which elbows should preferably stay, base frame (m).
+        are_free: for each of them the check of which joints are collision-free, whatever the others do.
+    """
+    return {
+        arm: ArmSearch(arms[arm], np.array(card.arms[arm].speeds_rad_s), path, float(torso_m), floor_m, are_free[arm])
+        for arm, path in paths.items()
+    }
+
+
 def arm_paths(searches: Mapping[int, ArmSearch], together: Together) -> FloatArray | NoPath:
     """Return the calmest joints that keep all tools on their paths, which have equally many poses.
 
@@ -54,7 +80,8 @@ def arm_paths(searches: Mapping[int, ArmSearch], together: Together) -> FloatArr
         Joints (rad), one arm after the other, shape (n, joints), those that turn without end unwound; or that there
         are none.
     """
-    alone = {arm: search.found() for arm, search in searches.items()}
+    stride = min(search.stride for search in searches.values())  # chains are searched in pairs, link by link
+    alone = {arm: search.found(stride) for arm, search in searches.items()}
     joints = {arm: found for arm, found in alone.items() if not isinstance(found, NoPath)}
     if len(joints) < len(alone):
         return min((found for found in alone.values() if isinstance(found, NoPath)), key=lambda none: len(none.blocked))
@@ -109,7 +136,8 @@ class _PairSearch:
         count = samples.shape[1]
         costs = np.stack([_widened(arm.costs[part], (count, self._size), np.inf) for arm in self._arms])
         spans = np.ascontiguousarray(self._spans[:, part][:, : count - 1])
-        return cheapest_chain_pair(samples, costs, self._is_allowed[part], self._speeds, self._periods, spans)
+        allowed, jump = self._is_allowed[part], self._arms[0].jump
+        return cheapest_chain_pair(samples, costs, allowed, self._speeds, self._periods, jump, spans)
 
     def _followed(self, guides: list[FloatArray]) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return both arms' joints along the whole path, shape (n, joints), and the poses at which they are invalid."""

@@ -1,12 +1,14 @@
 """A robot as its card and its URDF describe it, ready for planning."""
 
 import math
+from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from planner.errors import RequestError, SceneError
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import RobotCard
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import AskedArms
@@ -15,6 +17,7 @@ from planner.robots.described_robot import DescribedRobot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, mapped_arm
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
 from planner.robots.mapped_reach import MappedReach
+from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
 
 _MEMORIES_KEPT = 4
 """Lift heights and comfort radii for which it is kept where the arms reach."""
@@ -73,9 +76,37 @@ class CardRobot:
         arms = self._arms
         return mapped_arms([arm.chain for arm in arms], [arm.known for arm in arms])
 
+    def arm_path_near(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
+    ) -> FloatArray | None:
+        """Return joints that keep an arm's tool on a path, near to known ones, shape (n, joints) (see `near_path`)."""
+        return near_path(self._arms[arm], path, float(torso_m), is_free, known)
+
+    def arm_paths(
+        self,
+        paths: Mapping[int, ToolPath],
+        torso_m: float,
+        floor_m: float,
+        are_free: Mapping[int, IsFree],
+        together: Together,
+    ) -> FloatArray | NoPath:
+        """Return the calmest joints that keep arms' tools on their paths, or that there are none (see `arm_paths`)."""
+        return arm_paths(arm_searches(self._arms, self._card, paths, torso_m, floor_m, are_free), together)
+
+    def free_postures(
+        self,
+        arm: int,
+        position: FloatArray,
+        rotation: FloatArray,
+        torso_m: float,
+        is_free: Callable[[FloatArray], BoolArray],
+    ) -> FloatArray:
+        """Return samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
+        return free_postures(self._arms[arm], position, rotation, float(torso_m), is_free)
+
     def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
         """Return the tool's positions in the base frame for rows of joints, shape (n, joints) -> (n, 3), m."""
-        return self._arms[arm].tool_poses(joints, float(torso_m))[0]
+        return self._arms[arm].tool_places(joints, float(torso_m))
 
     def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame at some joints."""

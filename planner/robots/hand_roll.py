@@ -22,14 +22,14 @@ def gives_roll(chain: Chain) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def turn_to_roll(chain: Chain, rotation: FloatArray, joints: FloatArray, scratch: Scratch) -> bool:
-    """Set the last joint to the roll of a tool pose; return whether its limits allow that, else it is at the nearer.
+def turn_to_roll(chain: Chain, rotation: FloatArray, more: float, joints: FloatArray, scratch: Scratch) -> bool:
+    """Set the last joint to the roll of a tool pose and an angle more; return whether its limits allow that.
 
-    An arm that has another heading than the pose is rolled as if the pose had been turned about the vertical; pointing
-    straight down, where headings mean nothing, as if it had been tilted the shortest way.
+    Where they do not, the joint is set to the nearer limit. For arms that have another heading than the pose see
+    `roll_left`.
     """
     forward(chain, joints, scratch)
-    roll = _roll_left(rotation, chain.rows == PITCH, scratch.frame)
+    roll = roll_left(rotation, chain.rows == PITCH, scratch.frame) + more
     last, low, high = len(joints) - 1, chain.low[-1], chain.high[-1]
     middle = 0.5 * (low + high)
     wanted = joints[last] + (roll if chain.tool_rotation[2, 0] > 0.0 else -roll)
@@ -39,8 +39,12 @@ def turn_to_roll(chain: Chain, rotation: FloatArray, joints: FloatArray, scratch
 
 
 @njit(cache=True, nogil=True)
-def _roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> float:
-    """Return by how much a hand must roll about its own approach axis to have the roll of a rotation (rad)."""
+def roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> float:
+    """Return by how much a hand must roll about its own approach axis to have the roll of a rotation (rad).
+
+    With a heading of its own a hand has the roll that the rotation has once it is turned about the vertical; pointing
+    straight down, where headings mean nothing, once it is tilted the shortest way.
+    """
     ahead, wanted, closing = frame[:, 0], rotation[:, 0], rotation[:, 1]
     across = np.cross(wanted, ahead)
     cosine = wanted[0] * ahead[0] + wanted[1] * ahead[1] + wanted[2] * ahead[2]

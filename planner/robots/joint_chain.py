@@ -4,7 +4,7 @@ At every pose of a tool path the arm has many solutions: of seven joints, a curv
 to the one before, pose after pose, is short-sighted: the arm runs into a joint's limit, or through the table, and must
 jump. So the solutions are sampled at every pose, and dynamic programming finds the cheapest chain through the samples.
 A link costs the squared time that the slowest joints need for it; a sample costs more the nearer a joint is to its
-limit and the lower the elbow hangs. No link is longer than `JUMP_RAD`.
+limit and the lower the elbow hangs. Links that would be jumps are none.
 
 The samples come from the closed form (`planner.robots.closed_form_samples`) or from a map of postures
 (`planner.robots.posture_samples`).
@@ -17,9 +17,6 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-
-JUMP_RAD = 0.8
-"""Largest movement of a joint between neighbouring poses of a chain (rad; m where it slides)."""
 
 LIMIT_COST, NEAR_LIMIT = 0.05, 0.15
 """Cost of a sample with a joint at its limit, and the slack from which it costs nothing."""
@@ -38,6 +35,7 @@ def link_costs(
     after: FloatArray,
     speeds: FloatArray,
     periods: FloatArray,
+    jump: float,
     span: float,
     costs: FloatArray,
 ) -> None:
@@ -52,6 +50,7 @@ def link_costs(
         after: the other sample (rad), shape (k,).
         speeds: the joints' top speeds (rad/s), shape (k,).
         periods: what a joint may be off without any difference (rad), 0 where there is no such; shape (k,).
+        jump: the movement of a joint from which a link is a jump (rad; m where it slides).
         span: the longest duration wanted (s).
         costs: overwritten with the costs, shape (2, m); its second row is scratch space.
     """
@@ -65,14 +64,14 @@ def link_costs(
             turn = abs(turn - whole * np.floor(turn * (1.0 / math.tau) + 0.5))
             needed = turn * slowness
             slowest[a] = max(slowest[a], needed)
-            cost[a] += needed * needed if turn <= JUMP_RAD else math.inf
+            cost[a] += needed * needed if turn <= jump else math.inf
     for a in range(count):
         cost[a] += _LATE_COST * max(slowest[a] - span, 0.0)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def cheapest_chain(
-    joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, spans: FloatArray
+    joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, jump: float, spans: FloatArray
 ) -> NDArray[np.int64]:
     """Return the cheapest way through samples, one from each pose.
 
@@ -83,6 +82,7 @@ def cheapest_chain(
         costs: the samples' costs, shape (n, m); infinite where a sample must not be taken.
         speeds: the joints' top speeds (rad/s), shape (k,).
         periods: what each joint may be off without any difference, see `link_costs`.
+        jump: the movement of a joint from which a link is a jump.
         spans: the longest duration wanted for each link (s), shape (n - 1,); infinite where time does not matter.
 
     Returns:
@@ -100,7 +100,7 @@ def cheapest_chain(
         best[:] = np.inf
         for b in range(size):
             if costs[i, b] < np.inf:
-                link_costs(columns, found, joints[i, b], speeds, periods, spans[i - 1], links)
+                link_costs(columns, found, joints[i, b], speeds, periods, jump, spans[i - 1], links)
                 for number in range(found):
                     a = able[number]
                     total = so_far[a] + costs[i, b] + links[0, number]

@@ -21,6 +21,7 @@ def cheapest_chain_pair(
     is_allowed: BoolArray,
     speeds: FloatArray,
     periods: FloatArray,
+    jump: float,
     spans: FloatArray,
 ) -> NDArray[np.int64]:
     """Return the cheapest way through pairs of samples, one pair at each pose.
@@ -31,6 +32,7 @@ def cheapest_chain_pair(
         is_allowed: which samples may be taken together, shape (n, m, m).
         speeds: the joints' top speeds (rad/s), shape (2, k).
         periods: what each joint may be off without any difference, shape (2, k); see `link_costs`.
+        jump: the movement of a joint from which a link is a jump.
         spans: the longest duration wanted for each link (s), shape (2, n - 1); infinite where time does not matter.
 
     Returns:
@@ -43,7 +45,7 @@ def cheapest_chain_pair(
         if i > 0:
             for arm in range(2):
                 part = slice(i - 1, i + 1)
-                links = _links(joints[arm, part], costs[arm, part], speeds[arm], periods[arm], spans[arm, i - 1])
+                links = _links(joints[arm, part], costs[arm, part], speeds[arm], periods[arm], jump, spans[arm, i - 1])
                 totals = _linked(totals, links, parents[arm, i]).T.copy()
         for a in range(size):
             for b in range(size):
@@ -62,13 +64,15 @@ def cheapest_chain_pair(
 
 
 @njit(cache=True, nogil=True)
-def _links(joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, span: float) -> FloatArray:
+def _links(
+    joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, jump: float, span: float
+) -> FloatArray:
     """Return the costs of the links from an arm's samples at a pose to those at the next, shape (m, m)."""
     size = costs.shape[1]
     links, columns, found = np.full((size, size), np.inf), joints[0].T.copy(), np.empty((2, size))
     for after in range(size):
         if costs[1, after] < np.inf:
-            link_costs(columns, size, joints[1, after], speeds, periods, span, found)
+            link_costs(columns, size, joints[1, after], speeds, periods, jump, span, found)
             for before in range(size):
                 links[before, after] = found[0, before] if costs[0, before] < np.inf else np.inf
     return links

@@ -29,6 +29,11 @@ _BELOW_M, _ABOVE_M = 0.1, 0.8
 _WIDE_RAD = 2 * math.tau - 0.01
 """A joint with this range may wind up along a chain: wherever it began, some whole turns bring it within its limits."""
 
+_STRIDE_MAX, _LENGTH_OF_STRIDE_M = 3, 0.25
+"""Most poses of a path from link to link of a chain, and the length of an arm for each (m): nearer to its shoulder
+joints turn farther for a centimetre.
+"""
+
 
 class MappedArm:
     """An arm with the map of its postures. It does not change, so all users may share one instance.
@@ -60,6 +65,11 @@ class MappedArm:
     def length_m(self) -> float:
         """How far from its root it can reach at most (m)."""
         return length_of(self._chain)
+
+    @property
+    def stride(self) -> int:
+        """Poses of a path from one link of a chain to the next."""
+        return min(max(int(self.length_m / _LENGTH_OF_STRIDE_M), 1), _STRIDE_MAX)
 
     @property
     def asks_pitch_only(self) -> bool:

@@ -17,6 +17,11 @@ class PathArm(Protocol):
         """A whole turn for each joint that a chain of samples may wind up, 0 for the others (rad), shape (joints,)."""
         ...
 
+    @property
+    def stride(self) -> int:
+        """Poses of a path, a centimetre apart, from one link of a chain to the next: fewer for a small arm."""
+        ...
+
     def samples(
         self, positions: FloatArray, rotations: FloatArray, torso_m: float, floor_m: float
     ) -> tuple[FloatArray, FloatArray]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robots.chain import AXIS, PITCH, WHOLE, Chain, Scratch, forward, scratch_for
-from planner.robots.hand_roll import gives_roll, turn_to_roll
+from planner.robots.hand_roll import gives_roll, roll_left, turn_to_roll
 from planner.robots.joint_chain import ELBOW_CLEAR_M, ELBOW_COST, LIMIT_COST, NEAR_LIMIT
 from planner.robots.newton import set_rows, set_step, solve
 from planner.robots.posture_map import PostureMap, approach_of, cell_of, decode
@@ -32,7 +32,13 @@ _STRIDE, _STRIDE_MIN = 0.3, 0.05
 _TRIED = 0.3
 """A start is not tried where another one has led to joints so near to it (rad, m)."""
 
-_ROUNDS = 3
+_ROLLS, _ROLL_STEP = 3, math.pi / 6.0
+"""Samples to either side of the roll that is wanted, where it is not asked, and what they differ by (rad)."""
+
+_ROLL_COST = 0.1
+"""Cost of a roll by its squared distance from the one that is wanted, where it is not asked."""
+
+_ROUNDS = 2
 """Times an arm is brought back to its place after its last joint has turned: the tool may be beside that axis."""
 
 
@@ -77,14 +83,16 @@ def posture_samples(
         _collect(chain, known, periods, points[i], rolled, samples, scratch)
         for number in range(samples.taken[0]):
             forward(chain, joints[i, number], scratch)
-            costs[i, number] = _cost(chain, periods, joints[i, number], scratch.places, floor)
+            costs[i, number] = _cost(chain, periods, joints[i, number], rotations[i], floor, scratch)
         most = max(most, samples.taken[0])
     return joints[:, :most].copy(), costs[:, :most].copy()
 
 
 @njit(cache=True, nogil=True)
-def _cost(chain: Chain, periods: FloatArray, joints: FloatArray, places: FloatArray, floor: float) -> float:
-    """Return what a sample costs: near a limit, or with a joint between shoulder and hand low."""
+def _cost(
+    chain: Chain, periods: FloatArray, joints: FloatArray, rotation: FloatArray, floor: float, scratch: Scratch
+) -> float:
+    """Return what a sample costs: near a limit, with a joint between shoulder and hand low, or rolled otherwise."""
     slack, count = np.inf, len(joints)
     for k in range(count):
         if periods[k] == 0.0:
@@ -92,9 +100,13 @@ def _cost(chain: Chain, periods: FloatArray, joints: FloatArray, places: FloatAr
             slack = min(slack, room / min(NEAR_LIMIT, 0.1 * (chain.high[k] - chain.low[k])))
     tight, lowest = max(1.0 - slack, 0.0), np.inf
     for k in range(2, count - 1):
-        lowest = min(lowest, places[k, 2])
+        lowest = min(lowest, scratch.places[k, 2])
     low = max(floor + ELBOW_CLEAR_M - lowest, 0.0)
     cost: float = LIMIT_COST * tight * tight + ELBOW_COST * low * low
+    if chain.rows == PITCH:
+        off = roll_left(rotation, True, scratch.frame)
+        off -= math.pi * math.floor(off / math.pi + 0.5)
+        cost += _ROLL_COST * off * off
     return cost
 
 
@@ -111,6 +123,7 @@ def _collect(
     """Collect the samples of a pose from the postures in its cell and in those beside it."""
     grid, count = known.grid, len(periods)
     approach, start, joints = approach_of(grid, rolled[0, :, 0]), np.empty(count), np.empty(count)
+    rolls = _ROLLS if chain.rows == PITCH and gives_roll(chain) else 0
     tried = Samples(np.empty((SAMPLES_MAX, count)), np.empty(0), np.zeros(1, dtype=np.int64))
     place = np.empty(3)
     for beside in range(7):
@@ -130,29 +143,32 @@ def _collect(
             tried.joints[tried.taken[0]] = start
             tried.taken[0] += 1
             for half in range(2):
-                joints[:] = start
-                first = samples.taken[0]
-                if _take_pose(chain, point, rolled[half], joints, scratch) and _add(chain, periods, joints, samples):
-                    _spread(chain, periods, point, rolled[half], first, samples, scratch)
+                for roll in range(-rolls, rolls + 1):
+                    joints[:] = start
+                    first = samples.taken[0]
+                    if _take_pose(chain, point, rolled[half], roll * _ROLL_STEP, joints, scratch) and _add(
+                        chain, periods, joints, samples
+                    ):
+                        _spread(chain, periods, point, rolled[half], first, samples, scratch)
 
 
 @njit(cache=True, nogil=True)
-def _take_pose(chain: Chain, point: FloatArray, rotation: FloatArray, joints: FloatArray, scratch: Scratch) -> bool:
-    """Bring joints to a pose, roll included where they can; return whether they take it."""
-    if chain.rows == PITCH:
-        if not gives_roll(chain):
-            return True
-        fits = turn_to_roll(chain, rotation, joints, scratch)
-        for _ in range(_ROUNDS):
-            if not solve(chain, point, rotation, PITCH, joints, scratch):
-                return False
-            fits = turn_to_roll(chain, rotation, joints, scratch)
-        return (fits or chain.high[-1] - chain.low[-1] < math.pi) and solve(
-            chain, point, rotation, PITCH, joints, scratch
-        )
-    if chain.rows == AXIS and not turn_to_roll(chain, rotation, joints, scratch) and len(joints) <= WHOLE:
-        return False
-    return solve(chain, point, rotation, WHOLE, joints, scratch)
+def _take_pose(
+    chain: Chain, point: FloatArray, rotation: FloatArray, more: float, joints: FloatArray, scratch: Scratch
+) -> bool:
+    """Bring joints to a pose, rolled by an angle more where the roll is not asked; return whether they take it."""
+    if chain.rows != PITCH:
+        if chain.rows == AXIS and not turn_to_roll(chain, rotation, more, joints, scratch) and len(joints) <= WHOLE:
+            return False
+        return solve(chain, point, rotation, WHOLE, joints, scratch)
+    if not gives_roll(chain):
+        return True
+    for _ in range(_ROUNDS):
+        if not turn_to_roll(chain, rotation, more, joints, scratch):
+            return False
+        if not solve(chain, point, rotation, PITCH, joints, scratch):
+            return False
+    return True
 
 
 @njit(cache=True, nogil=True)

@@ -10,8 +10,7 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm import read_arm
-from planner.robots.arm_path import ArmSearch
-from planner.robots.arm_paths import Together, arm_paths
+from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import RobotCard
 from planner.robots.collision.collisions import OPENING_M, Collisions
 from planner.robots.collision.pr2_parts import pr2_parts
@@ -156,12 +155,7 @@ class Pr2:
         Returns:
             Joints within their limits (rad), one arm after the other, shape (n, joints); rolls are unwound.
         """
-        found = {arm: self._search(arm, path, torso_m, floor_m, are_free[arm]) for arm, path in paths.items()}
-        return arm_paths(found, together)
-
-    def _search(self, arm: int, path: ToolPath, torso_m: float, floor_m: float, is_free: IsFree) -> ArmSearch:
-        speeds = np.array(self._card.arms[arm].speeds_rad_s)
-        return ArmSearch(self._arms[arm], speeds, path, float(torso_m), floor_m, is_free)
+        return arm_paths(arm_searches(self._arms, self._card, paths, torso_m, floor_m, are_free), together)
 
     def free_postures(
         self,

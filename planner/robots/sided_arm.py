@@ -63,6 +63,11 @@ class SidedArm:
         return self.mirrored_places(tool_places(self.shape, self.mirrored_joints(joints)) + self.shoulder(torso_m))
 
     @property
+    def stride(self) -> int:
+        """Poses of a path from one link of a chain to the next."""
+        return 3
+
+    @property
     def periods(self) -> FloatArray:
         """A whole turn for forearm and wrist roll (rad), 0 for the other joints, shape (7,)."""
         return _PERIODS

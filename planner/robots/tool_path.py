@@ -18,7 +18,7 @@ IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
 With the flag set only joints that are certainly free count, which is faster.
 """
 
-_LEAP_RAD = 0.4
+LEAP_RAD = 0.4
 """Movement of a joint between neighbouring poses from which it counts as a jump (rad; m where it slides)."""
 
 
@@ -103,7 +103,7 @@ def joints_along(
 ) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return the joints near guides at every pose of a path, and the poses where they are invalid."""
     joints, is_found = arm.along(path.positions, path.rotations, torso_m, guides)
-    leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > _LEAP_RAD
+    leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)
     if not is_bad.any():
         is_bad = ~is_free(np.arange(len(joints)), joints, False)

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
 from planner.geometry.shortfall import Shortfall, never
 from planner.geometry.table import Table
-from planner.robots.arm_path import ArmSearch
-from planner.robots.arm_paths import Together, arm_paths
+from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import ArmCard, RobotCard
 from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.collisions import Collisions
@@ -151,12 +150,10 @@ class RemadeRobot:
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        raised_m, searches = self.raised(torso_m), {}
-        for number, path in paths.items():
-            arm, speeds = self.arms[number], np.array(self.card.arms[number].speeds_rad_s)
-            idle, seen = IdleArm(arm, self.pr2._arms[arm.of]), self._seen(arm, path)
-            searches[number] = ArmSearch(idle, speeds, seen, raised_m, floor_m, are_free[number])
-        return arm_paths(searches, together)
+        arms = [IdleArm(arm, self.pr2._arms[arm.of]) for arm in self.arms]
+        seen = {number: self._seen(self.arms[number], path) for number, path in paths.items()}
+        raised_m = self.raised(torso_m)
+        return arm_paths(arm_searches(arms, self.card, seen, raised_m, floor_m, are_free), together)
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
@@ -199,6 +196,10 @@ class IdleArm:
     @property
     def periods(self) -> FloatArray:
         return self._arm.own(self._real.periods)
+
+    @property
+    def stride(self) -> int:
+        return self._real.stride
 
     def samples(
         self, positions: FloatArray, rotations: FloatArray, torso_m: float, floor_m: float

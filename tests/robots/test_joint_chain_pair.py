@@ -11,12 +11,13 @@ from planner.robots.joint_chain_pair import cheapest_chain_pair
 
 POSES, SAMPLES = 6, 5
 SPEEDS = np.linspace(1.0, 2.0, 14).reshape(2, 7)
+JUMP = 0.8
 PERIODS = np.where(np.isin(np.arange(14).reshape(2, 7), [4, 6, 11, 13]), math.tau, 0.0)
 
 
 def _link_cost(before: np.ndarray, after: np.ndarray, speeds: np.ndarray, span: float) -> float:
     costs = np.empty((2, 1))
-    link_costs(before[:, None].copy(), 1, after, speeds, PERIODS[0], span, costs)
+    link_costs(before[:, None].copy(), 1, after, speeds, PERIODS[0], JUMP, span, costs)
     return costs[0, 0]
 
 
@@ -31,7 +32,7 @@ class Question:
         self.spans = np.where(rng.random((2, POSES - 1)) < 0.5, np.inf, 0.3)
 
     def found(self) -> np.ndarray:
-        return cheapest_chain_pair(self.joints, self.costs, self.is_allowed, SPEEDS, PERIODS, self.spans)
+        return cheapest_chain_pair(self.joints, self.costs, self.is_allowed, SPEEDS, PERIODS, JUMP, self.spans)
 
     def cost_of(self, chains: np.ndarray) -> float:
         return sum(
@@ -94,7 +95,7 @@ def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
     for seed in range(12):
         question = Question(seed, 1.1)
         alone = [
-            cheapest_chain(question.joints[k], question.costs[k], SPEEDS[k], PERIODS[k], question.spans[k])
+            cheapest_chain(question.joints[k], question.costs[k], SPEEDS[k], PERIODS[k], JUMP, question.spans[k])
             for k in (0, 1)
         ]
         if all(map(len, alone)):
