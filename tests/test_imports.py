@@ -56,7 +56,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),
     "prometheus_client": ("app.api",),
-    "pyarrow": ("app.studies",),
+    "pyarrow": ("app.studies", "app.files"),
     "distributed": ("app.studies",),
     "mujoco": ("app.physics",),
     "fastapi": ("app.api",),

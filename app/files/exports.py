@@ -9,6 +9,7 @@ from app.files.fold_format import fold_format
 from app.files.gltf_animation import animation_glb
 from app.files.grasp_poses import poses_json, poses_yaml
 from app.files.instruction_sheet import instruction_sheet
+from app.files.lerobot_dataset import lerobot_folder
 from app.files.plan_table import plan_table
 from app.files.recording import recording
 from app.files.ros_bag import mcap_file, rosbag2_folder
@@ -169,6 +170,16 @@ EXPORTS = (
         "model/gltf-binary",
         no_plan,
         lambda state, _, should_stop: animation_glb(plan_in(state), should_stop),
+    ),
+    Export(
+        "lerobot",
+        "Episode (LeRobot)",
+        "States and actions at 30 frames a second as a LeRobot 3.0 dataset, for learning from demonstrations.",
+        "-lerobot.zip",
+        "application/zip",
+        no_plan,
+        lambda state, *_: lerobot_folder(plan_in(state)),
+        is_folder=True,
     ),
 )
 """All exports, in the order shown."""

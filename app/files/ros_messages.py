@@ -151,7 +151,7 @@ def _about(plan: Plan, limits: MotionLimits, steps: list[SmoothStep]) -> dict[st
         "garment": plan.garment.name,
         "robot": plan.task.robot,
         "clock": "smooth motion: bounded accelerations, each step from rest to rest; plan_*_s is the plan's own time",
-        "duration_s": steps[-1].start_s + steps[-1].duration_s if steps else 0.0,
+        "duration_s": steps[-1].end_s if steps else 0.0,
         "plan_duration_s": plan.cost_s,
         "deviation": max((step.deviation for step in steps), default=0.0),
         "speeds": dict(zip(limits.names, limits.speeds.tolist(), strict=True)),

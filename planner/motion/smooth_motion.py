@@ -66,6 +66,11 @@ class SmoothStep:
     _run: Any
     _stretch: float
 
+    @property
+    def end_s(self) -> float:
+        """When it ends on that clock (s)."""
+        return self.start_s + self.duration_s
+
     def at(self, times_s: FloatArray, order: int = 0) -> FloatArray:
         """Return what moves at times since the step's start, or its first or second derivative by time.
 
@@ -99,19 +104,19 @@ def smooth_steps(plan: Plan, limits: MotionLimits) -> Iterator[SmoothStep]:
     for number, step in enumerate(plan.steps):
         smooth = _smooth(number, start_s, step, plan.trajectory, limits)
         yield smooth
-        start_s += smooth.duration_s
+        start_s = smooth.end_s
 
 
 def _smooth(number: int, start_s: float, step: PlanStep, path: Trajectory, limits: MotionLimits) -> SmoothStep:
     knots = _cut(_keyframes(number, step, path), STRAIGHT_S, 1)
     fine = _cut(knots, _FINE_S, 2)
-    curve = _monotone(knots, _values(path, knots))(fine)
+    curve = _monotone(knots, planned_values(path, knots))(fine)
     rest = np.append(np.zeros(curve.shape[1]), 1.0)
     whole = SplineInterpolator(fine, np.column_stack([curve, fine]), ((1, rest), (1, rest)))
     run, stretch = _quickest(whole, fine, limits)
     arms = len(path.arms.names)
     looked = _cut(knots, _FINE_S / 2, 4)
-    deviation = np.abs(whole(looked)[:, :arms] - _values(path, looked)[:, :arms]).max()
+    deviation = np.abs(whole(looked)[:, :arms] - planned_values(path, looked)[:, :arms]).max()
     return SmoothStep(number, start_s, float(run.duration) * stretch, float(deviation), run, stretch)
 
 
@@ -132,7 +137,7 @@ def _cut(times: FloatArray, longest_s: float, least: int) -> FloatArray:
     return np.append(np.concatenate(parts), times[-1])
 
 
-def _values(path: Trajectory, times_s: FloatArray) -> FloatArray:
+def planned_values(path: Trajectory, times_s: FloatArray) -> FloatArray:
     """Return joints, grippers and base at times of the plan, shape (n, names)."""
     arms = np.array([path.arms.at(t) for t in times_s.tolist()])
     fingers = np.array([[track.position_at(t) for track in path.grippers] for t in times_s.tolist()])

@@ -25,6 +25,7 @@ FILES = [
     "poses.json",
     "poses.yaml",
     "glb",
+    "lerobot",
 ]
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'

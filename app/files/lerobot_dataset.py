@@ -1,0 +1,153 @@
+"""Writes a plan's motion as a LeRobot dataset of one episode (format 3.0), for learning from demonstrations.
+
+A frame's state is where arms, fingers and base are, its action where they are to be at the next frame, as a leader arm
+would ask. The motion is the smooth one that a controller is sent. There are no cameras.
+"""
+
+import io
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from app.files.folder_file import zipped
+from planner.errors import UnsolvedPlanError
+from planner.geometry.pose import FloatArray
+from planner.motion.motion_limits import BASE_NAMES, MotionLimits
+from planner.motion.smooth_motion import planned_values, smooth_steps
+from planner.robots.card import RobotCard
+from planner.robots.load_robot import load_robot
+from planner.task.plan import Plan
+
+FPS = 30
+"""Frames a second."""
+
+_FORMAT = "v3.0"
+_FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+_FIRST = _FILE.format(chunk_index=0, file_index=0)
+_QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
+
+
+def lerobot_folder(plan: Plan) -> bytes:
+    """Return a solved plan as a zipped LeRobot dataset; raises `UnsolvedPlanError`."""
+    card = load_robot(plan.task.robot).card
+    names, states = _states(plan, card)
+    count = len(states)
+    numbers = np.arange(count)
+    columns: dict[str, np.ndarray[Any, Any]] = {
+        "observation.state": states.astype(np.float32),
+        "action": np.vstack([states[1:], states[-1:]]).astype(np.float32),
+        "timestamp": (numbers / FPS).astype(np.float32),
+        "frame_index": numbers,
+        "episode_index": np.zeros(count, np.int64),
+        "index": numbers,
+        "task_index": np.zeros(count, np.int64),
+    }
+    task = f"fold: {plan.garment.title or plan.garment.name}"
+    stats = {name: _stats(values) for name, values in columns.items()}
+    return zipped(
+        {
+            "meta/info.json": _json(_info(plan, names, columns)),
+            "meta/stats.json": _json(stats),
+            "meta/tasks.parquet": _tasks(task),
+            f"meta/episodes/{_FIRST}": _parquet(pa.Table.from_pylist([_episode(task, count, stats)])),
+            f"data/{_FIRST}": _parquet(pa.table({name: _column(values) for name, values in columns.items()})),
+        }
+    )
+
+
+def _states(plan: Plan, card: RobotCard) -> tuple[list[str], FloatArray]:
+    """Return what moves, and where it is at each frame, shape (frames, names); a plan without steps has one frame."""
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    limits = MotionLimits.of(card, plan.scene)
+    shown = [n for n, name in enumerate(limits.names) if not (card.is_fixed and name in BASE_NAMES)]
+    steps = list(smooth_steps(plan, limits))
+    ends_s = [*(step.start_s for step in steps[1:]), math.inf]
+    frames_s = np.arange(int(steps[-1].end_s * FPS) + 2) / FPS if steps else np.zeros(0)
+    parts = [
+        step.at(frames_s[(frames_s >= step.start_s) & (frames_s < end_s)] - step.start_s)
+        for step, end_s in zip(steps, ends_s, strict=False)
+    ]
+    states = np.concatenate(parts) if parts else planned_values(plan.trajectory, np.zeros(1))
+    return [limits.names[n] for n in shown], states[:, shown]
+
+
+def _info(plan: Plan, names: list[str], columns: dict[str, np.ndarray[Any, Any]]) -> dict[str, Any]:
+    count = len(columns["index"])
+    return {
+        "codebase_version": _FORMAT,
+        "robot_type": plan.task.robot,
+        "total_episodes": 1,
+        "total_frames": count,
+        "total_tasks": 1,
+        "chunks_size": 1000,
+        "data_files_size_in_mb": 100,
+        "video_files_size_in_mb": 200,
+        "fps": FPS,
+        "splits": {"train": "0:1"},
+        "data_path": f"data/{_FILE}",
+        "video_path": None,
+        "features": {
+            name: {
+                "dtype": str(values.dtype),
+                "shape": list(values.shape[1:]) or [1],
+                "names": names if values.ndim > 1 else None,
+            }
+            for name, values in columns.items()
+        },
+    }
+
+
+def _episode(task: str, count: int, stats: dict[str, dict[str, list[float]]]) -> dict[str, Any]:
+    """Return the row of the only episode: where its frames are, and their statistics."""
+    return {
+        "episode_index": 0,
+        "tasks": [task],
+        "length": count,
+        "data/chunk_index": 0,
+        "data/file_index": 0,
+        "dataset_from_index": 0,
+        "dataset_to_index": count,
+        "meta/episodes/chunk_index": 0,
+        "meta/episodes/file_index": 0,
+        **{f"stats/{name}/{kind}": row for name, told in stats.items() for kind, row in told.items()},
+    }
+
+
+def _stats(values: np.ndarray[Any, Any]) -> dict[str, list[float]]:
+    """Return the statistics of a feature, each a list with a number for each of its parts."""
+    rows = values.reshape(len(values), -1).astype(float)
+    told = {"min": rows.min(axis=0), "max": rows.max(axis=0), "mean": rows.mean(axis=0), "std": rows.std(axis=0)}
+    told |= {name: np.quantile(rows, share, axis=0) for name, share in _QUANTILES.items()}
+    return {**{name: row.tolist() for name, row in told.items()}, "count": [len(rows)]}
+
+
+def _tasks(task: str) -> bytes:
+    """Return the table of tasks, in which a task's words are the index, as pandas writes it."""
+    table = pa.table({"task_index": pa.array([0], pa.int64()), "task": pa.array([task])})
+    columns = [
+        {"name": name, "field_name": name, "pandas_type": kind, "numpy_type": stored, "metadata": None}
+        for name, kind, stored in (("task_index", "int64", "int64"), ("task", "unicode", "object"))
+    ]
+    index = {"index_columns": ["task"], "column_indexes": [], "columns": columns, "pandas_version": "2.0.0"}
+    return _parquet(table.replace_schema_metadata({"pandas": json.dumps(index)}))
+
+
+def _column(values: np.ndarray[Any, Any]) -> Any:  # noqa: ANN401
+    if values.ndim == 1:
+        return pa.array(values)
+    return pa.FixedSizeListArray.from_arrays(pa.array(values.reshape(-1)), values.shape[1])
+
+
+def _parquet(table: Any) -> bytes:  # noqa: ANN401
+    written = io.BytesIO()
+    pq.write_table(table, written)
+    return written.getvalue()
+
+
+def _json(told: dict[str, Any]) -> bytes:
+    return (json.dumps(told, indent=1) + "\n").encode("ascii")
