@@ -48,6 +48,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "viser": ("app.ui",),
     "svgpathtools": ("app.files",),
     "rosbags": ("app.files",),
+    "matplotlib": ("app.files",),
     "pygltflib": ("app.files",),
     "ruamel": ("app.files",),
     "toppra": ("planner.motion",),

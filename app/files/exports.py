@@ -1,4 +1,8 @@
-"""All exports of a document: the kinds of file, and how each is made."""
+"""All exports of a document: the kinds of file, and how each is made.
+
+What needs a library that takes long to load imports it when the file is made: toppra alone takes 0.7 s, and no command
+but `export` should wait for that.
+"""
 
 import json
 from typing import Any
@@ -6,14 +10,10 @@ from typing import Any
 from app.document_state import DocumentState
 from app.files.export import Export, as_drawn, garment_in, no_answer, no_outline, no_plan, not_legal, plan_in
 from app.files.fold_format import fold_format
-from app.files.gltf_animation import animation_glb
 from app.files.grasp_poses import poses_json, poses_yaml
 from app.files.instruction_sheet import instruction_sheet
-from app.files.lerobot_dataset import lerobot_folder
 from app.files.plan_table import plan_table
 from app.files.recording import recording
-from app.files.ros_bag import mcap_file, rosbag2_folder
-from app.files.sheet_pdf import page_pdf
 from app.files.sheet_svg import page_svg
 from app.files.svg_drawing import svg_drawing
 from app.jobs.job_pool import ShouldStop
@@ -50,6 +50,36 @@ def _plan_csv(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
     return recording(plan_in(state), rate_hz, should_stop, is_dark=state.is_dark)
+
+
+def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.sheet_pdf import page_pdf
+
+    return page_pdf(instruction_sheet(plan_in(state)))
+
+
+def _mcap(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.ros_bag import mcap_file
+
+    return mcap_file(plan_in(state))
+
+
+def _rosbag2(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.ros_bag import rosbag2_folder
+
+    return rosbag2_folder(plan_in(state))
+
+
+def _glb(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
+    from app.files.gltf_animation import animation_glb
+
+    return animation_glb(plan_in(state), should_stop)
+
+
+def _lerobot(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.lerobot_dataset import lerobot_folder
+
+    return lerobot_folder(plan_in(state))
 
 
 EXPORTS = (
@@ -105,7 +135,7 @@ EXPORTS = (
         "-steps.pdf",
         "application/pdf",
         no_plan,
-        lambda state, *_: page_pdf(instruction_sheet(plan_in(state))),
+        _sheet_pdf,
     ),
     Export(
         "sheet.svg",
@@ -132,7 +162,7 @@ EXPORTS = (
         ".mcap",
         "application/octet-stream",
         no_plan,
-        lambda state, *_: mcap_file(plan_in(state)),
+        _mcap,
     ),
     Export(
         "rosbag2",
@@ -141,7 +171,7 @@ EXPORTS = (
         "-rosbag2.zip",
         "application/zip",
         no_plan,
-        lambda state, *_: rosbag2_folder(plan_in(state)),
+        _rosbag2,
         is_folder=True,
     ),
     Export(
@@ -169,7 +199,7 @@ EXPORTS = (
         ".glb",
         "model/gltf-binary",
         no_plan,
-        lambda state, _, should_stop: animation_glb(plan_in(state), should_stop),
+        _glb,
     ),
     Export(
         "lerobot",
@@ -178,7 +208,7 @@ EXPORTS = (
         "-lerobot.zip",
         "application/zip",
         no_plan,
-        lambda state, *_: lerobot_folder(plan_in(state)),
+        _lerobot,
         is_folder=True,
     ),
 )

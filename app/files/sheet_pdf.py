@@ -1,98 +1,113 @@
-"""Writes a page as PDF 1.4: one page of paths and words, in the fonts that every reader has.
+"""Writes a page as PDF, with its fonts inside.
 
-Those fonts have the letters of Western Europe; other letters become question marks.
+The letters are those of DejaVu Sans: Latin, Greek, Cyrillic and more. Others are taken from a font of the system, where
+there is one that has them; a letter that no font has becomes an empty square.
 """
 
-from itertools import accumulate
+import io
+from functools import cache
+from typing import Any
+
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.ft2font import FT2Font
+from matplotlib.patches import Circle, Polygon
+from matplotlib.text import Text
+from matplotlib.transforms import Affine2D, Transform
 
 from app.files.sheet_page import Disc, Outline, Page, Shape, Words
 
-_FONTS = ("Helvetica", "Helvetica-Bold")
-_ROUND = 0.5523
-"""How far the control points of a quarter circle are from its ends, in radii."""
+_FAMILY = "DejaVu Sans"
+_OTHERS = (
+    "Noto Sans CJK SC",
+    "Noto Sans CJK JP",
+    "WenQuanYi Zen Hei",
+    "Hiragino Sans",
+    "Microsoft YaHei",
+    "Malgun Gothic",
+    "Arial Unicode MS",
+)
+"""Fonts of several systems with the letters that the first one lacks."""
 
-_LETTER = 0.5
-"""Width of an average letter of Helvetica, in its sizes, by which words are put in the middle."""
+_AS_HELVETICA = 0.88
+"""The size at which DejaVu Sans is as wide as Helvetica, for which the sheet is laid out."""
+
+_NO_LETTER = "\N{WHITE SQUARE}"
+_PT = 72.0
 
 
 def page_pdf(page: Page) -> bytes:
     """Return the page as a PDF document."""
-    content = "\n".join(["1 J 1 j", *(_drawn(shape, page.height) for shape in page.shapes)]).encode(
-        "latin-1", "replace"
-    )
-    fonts = " ".join(f"/F{number} {number + 5} 0 R" for number in range(len(_FONTS)))
-    objects = [
-        b"<< /Type /Catalog /Pages 2 0 R >>",
-        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-        f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {page.width:g} {page.height:g}] /Contents 4 0 R "
-        f"/Resources << /Font << {fonts} >> >> >>".encode("ascii"),
-        b"<< /Length %d >>\nstream\n%b\nendstream" % (len(content), content),
-        *(
-            f"<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>".encode("ascii")
-            for name in _FONTS
-        ),
-        f"<< /Title ({_escaped(page.title)}) /Producer (Pleat) >>".encode("latin-1", "replace"),
-    ]
-    return _document(objects)
+    figure = Figure((page.width / _PT, page.height / _PT))
+    from_top = Affine2D().scale(1.0 / _PT, -1.0 / _PT).translate(0.0, page.height / _PT) + figure.dpi_scale_trans
+    for number, shape in enumerate(page.shapes):
+        artist = _drawn(shape, from_top)
+        artist.set_zorder(number)
+        figure.add_artist(artist)
+    written = io.BytesIO()
+    about = {"Title": _printable(page.title), "Producer": "Pleat", "Creator": "Pleat", "CreationDate": None}
+    FigureCanvasPdf(figure).print_pdf(written, metadata=about)
+    return written.getvalue()
 
 
-def _document(objects: list[bytes]) -> bytes:
-    """Return a document of numbered objects: the first is its catalogue, the last tells about it."""
-    head = b"%PDF-1.4\n"
-    parts = [b"%d 0 obj\n%b\nendobj\n" % (number, body) for number, body in enumerate(objects, 1)]
-    places = list(accumulate((len(part) for part in parts), initial=len(head)))
-    table = b"".join(b"%010d 00000 n \n" % place for place in places[:-1])
-    count = len(objects) + 1
-    trailer = b"trailer\n<< /Size %d /Root 1 0 R /Info %d 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (
-        count,
-        len(objects),
-        places[-1],
-    )
-    return head + b"".join(parts) + b"xref\n0 %d\n0000000000 65535 f \n" % count + table + trailer
-
-
-def _drawn(shape: Shape, height: float) -> str:
+def _drawn(shape: Shape, from_top: Transform) -> Artist:
     match shape:
         case Outline(points, fill, stroke, width, dash):
-            (x, y), *rest = [(x, height - y) for x, y in points]
-            way = " ".join([f"{x:.2f} {y:.2f} m", *(f"{x:.2f} {y:.2f} l" for x, y in rest)])
-            dashes = " ".join(f"{length:g}" for length in dash)
-            return f"{_colours(fill, stroke)} {width:g} w [{dashes}] 0 d {way} {_painted(fill, stroke)}"
-        case Disc((x, y), radius, fill, stroke):
-            return f"{_colours(fill, stroke)} 1 w [] 0 d {_circle(x, height - y, radius)} {_painted(fill, stroke)}"
+            style: Any = (0, dash) if dash else "solid"
+            return Polygon(
+                points,
+                closed=bool(fill),
+                facecolor=_colour(fill),
+                edgecolor=_colour(stroke),
+                linewidth=width,
+                linestyle=style,
+                joinstyle="round",
+                transform=from_top,
+            )
+        case Disc(middle, radius, fill, stroke):
+            return Circle(
+                middle, radius, facecolor=_colour(fill), edgecolor=_colour(stroke), linewidth=1.0, transform=from_top
+            )
         case Words((x, y), text, size, is_bold, anchor):
-            left = x - len(text) * _LETTER * size / 2 if anchor == "middle" else x
-            font = f"/F{int(is_bold)} {size:g} Tf"
-            return f"BT 0 g {font} {left:.2f} {height - y:.2f} Td ({_escaped(text)}) Tj ET"
+            weight = "bold" if is_bold else "normal"
+            return Text(
+                x,
+                y,
+                _shown(text, weight),
+                fontproperties=FontProperties(family=list(_families()), size=_AS_HELVETICA * size, weight=weight),
+                horizontalalignment="center" if anchor == "middle" else "left",
+                verticalalignment="baseline",
+                parse_math=False,
+                transform=from_top,
+            )
 
 
-def _circle(x: float, y: float, r: float) -> str:
-    c = _ROUND * r
-    return (
-        f"{x + r:.2f} {y:.2f} m "
-        f"{x + r:.2f} {y + c:.2f} {x + c:.2f} {y + r:.2f} {x:.2f} {y + r:.2f} c "
-        f"{x - c:.2f} {y + r:.2f} {x - r:.2f} {y + c:.2f} {x - r:.2f} {y:.2f} c "
-        f"{x - r:.2f} {y - c:.2f} {x - c:.2f} {y - r:.2f} {x:.2f} {y - r:.2f} c "
-        f"{x + c:.2f} {y - r:.2f} {x + r:.2f} {y - c:.2f} {x + r:.2f} {y:.2f} c"
+def _colour(colour: str) -> str:
+    return f"#{colour}" if colour else "none"
+
+
+@cache
+def _families() -> tuple[str, ...]:
+    """Return the fonts that are here, the first one first."""
+    installed = set(fontManager.get_font_names())
+    return (_FAMILY, *(name for name in _OTHERS if name in installed))
+
+
+@cache
+def _fonts(weight: str) -> tuple[FT2Font, ...]:
+    found = (fontManager.findfont(FontProperties(family=[name], weight=weight)) for name in _families())
+    return tuple(get_font(path) for path in found)
+
+
+def _shown(text: str, weight: str) -> str:
+    """Return a text whose letters all have a font."""
+    fonts = _fonts(weight)
+    return "".join(
+        char if any(font.get_char_index(ord(char)) for font in fonts) else _NO_LETTER for char in _printable(text)
     )
 
 
-def _colours(fill: str, stroke: str) -> str:
-    inside = f"{_rgb(fill)} rg" if fill else ""
-    return f"{inside} {_rgb(stroke)} RG" if stroke else inside
-
-
-def _rgb(colour: str) -> str:
-    return " ".join(f"{int(colour[at : at + 2], 16) / 255:.3f}" for at in (0, 2, 4))
-
-
-def _painted(fill: str, stroke: str) -> str:
-    """Return the operator that paints a path: filled and closed, lined, or both."""
-    if fill:
-        return "b" if stroke else "f"
-    return "S"
-
-
-def _escaped(text: str) -> str:
-    plain = "".join(char if char.isprintable() else " " for char in text)
-    return plain.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
+def _printable(text: str) -> str:
+    return "".join(char if char.isprintable() else " " for char in text)

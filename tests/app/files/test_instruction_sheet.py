@@ -1,9 +1,11 @@
 """The instruction sheet has a numbered picture for each step, all on the page, and is a whole SVG or PDF file."""
 
+import io
 import re
 from xml.etree import ElementTree
 
 import pytest
+from pypdf import PdfReader
 
 from app.files.instruction_sheet import HEIGHT, WIDTH, instruction_sheet
 from app.files.sheet_page import Disc, Outline, Page, Words
@@ -47,21 +49,39 @@ def test_the_svg_file_has_all_that_is_on_the_page(page: Page):
     assert drawn == [sum(isinstance(shape, kind) for shape in page.shapes) for kind in (Outline, Disc, Words)]
 
 
-def test_the_pdf_file_says_truly_where_its_objects_are(page: Page):
-    data = page_pdf(page)
-    table = int(re.search(rb"startxref\n(\d+)\n%%EOF\n$", data)[1])  # type: ignore[index]
-    assert data[table:].startswith(b"xref\n0 ")
-    places = [int(row) for row in re.findall(rb"(\d{10}) 00000 n", data[table:])]
-    for number, place in enumerate(places, 1):
-        assert data[place:].startswith(b"%d 0 obj\n" % number)
-    length, content = re.search(rb"/Length (\d+) >>\nstream\n(.*)\nendstream", data, re.DOTALL).groups()  # type: ignore[union-attr]
-    assert int(length) == len(content)
-    assert content.count(b" Tj ET") == sum(isinstance(shape, Words) for shape in page.shapes)
+def test_another_reader_finds_the_page_and_its_words_in_the_pdf_file(page: Page):
+    reader = PdfReader(io.BytesIO(page_pdf(page)), strict=True)
+    (read,) = reader.pages
+    assert (read.mediabox.width, read.mediabox.height) == (WIDTH, HEIGHT)
+    assert reader.metadata is not None and reader.metadata.title == page.title
+    words = read.extract_text().replace("\n", " ")
+    for shape in page.shapes:
+        assert not isinstance(shape, Words) or shape.text in words
 
 
-def test_letters_that_mean_something_to_pdf_or_are_not_in_its_fonts_do_no_harm():
-    data = page_pdf(Page(10.0, 10.0, "a) (b\\ \u4e2d", (Words((1.0, 1.0), "a) (b\\ \u4e2d"),)))
-    assert rb"(a\) \(b\\ ?) Tj" in data
+def test_shapes_are_where_the_page_has_them():
+    triangle = Outline(((1.0, 2.0), (5.0, 2.0), (1.0, 8.0)), fill="ff0000", stroke="")
+    (read,) = PdfReader(io.BytesIO(page_pdf(Page(10.0, 10.0, "t", (triangle,))))).pages
+    drawn = read.get_contents().get_data().decode("latin-1")  # type: ignore[union-attr]
+    ends = [tuple(map(float, end)) for end in re.findall(r"^([\d.]+) ([\d.]+) [ml]$", drawn, re.MULTILINE)]
+    assert set(ends) >= {(1.0, 8.0), (5.0, 8.0), (1.0, 2.0)}
+    assert "1 0 0 rg" in drawn
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["a) (b\\ $x$", "Za\u017c\u00f3\u0142\u0107", "\u0424\u0443\u0442\u0431\u043e\u043b\u043a\u0430 \u0395\u03bb"],
+)
+def test_letters_of_many_scripts_and_those_that_mean_something_to_pdf_are_kept(words: str):
+    reader = PdfReader(io.BytesIO(page_pdf(Page(200.0, 20.0, words, (Words((1.0, 10.0), words),)))))
+    assert reader.pages[0].extract_text() == words
+    assert reader.metadata is not None and reader.metadata.title == words
+
+
+def test_a_letter_that_no_font_has_becomes_an_empty_square():
+    hieroglyph = "\U00013000"
+    reader = PdfReader(io.BytesIO(page_pdf(Page(20.0, 20.0, "t", (Words((1.0, 10.0), f"a{hieroglyph}b"),)))))
+    assert reader.pages[0].extract_text() == "a\N{WHITE SQUARE}b"
 
 
 def test_without_a_plan_there_is_no_sheet():
