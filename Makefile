@@ -112,7 +112,7 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 # where it has been done.
 $(KERNELS): $(READY) $(shell find planner -name '*.py')
 	@echo "Compiling the kernels"
-	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels()"
+	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels(); compile_kernels('so101-pair')"
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)

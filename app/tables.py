@@ -1,10 +1,11 @@
 """The tables that the command line prints."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rich.table import Table
 
+from app.comparison import Comparison
 from app.step_words import step_words
 from planner.cloth.garment import Garment
 from planner.explain.garment_check import FoldCheck, GarmentCheck
@@ -72,14 +73,14 @@ def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
     return table
 
 
-def robots_table(cards: Sequence[CardFile], planned: Collection[str]) -> Table:
-    """Return robots as a table; plans are made for those whose names are in `planned`."""
+def robots_table(cards: Sequence[CardFile]) -> Table:
+    """Return robots as a table."""
     table = _table(f"{len(cards)} robots")
-    for name in ("name", "title", "arms", "joints", "base", "plans"):
+    for name in ("name", "title", "arms", "joints", "base"):
         table.add_column(name)
     for card in cards:
         arms, joints = ", ".join(arm.name for arm in card.arms), ", ".join(str(len(arm.joints)) for arm in card.arms)
-        table.add_row(card.name, card.title, arms, joints, card.base.kind, "yes" if card.name in planned else "not yet")
+        table.add_row(card.name, card.title, arms, joints, card.base.kind)
     return table
 
 
@@ -93,6 +94,23 @@ def robot_check_table(card: CardFile, reach: TableReach) -> Table:
     table.add_row("any", "", "", f"{reach.any_arm:.0%}")
     if len(card.arms) > 1:
         table.add_row("two at once", "", "", f"{reach.two_arms:.0%}")
+    return table
+
+
+def comparison_table(found: Sequence[Comparison]) -> Table:
+    """Return who can fold a garment as a table: for each robot how long it takes, with what margin, or what helps."""
+    table = _table(f"{found[0].plan.garment.title}: who can fold it" if found else "")
+    for name, is_number in (("robot", False), ("folds it", False), ("cost [s]", True), ("margin [mm]", True)):
+        table.add_column(name, justify="right" if is_number else "left")
+    table.add_column("why not, and what it would take")
+    for one in found:
+        folds, plan = one.plan.garment.folds, one.plan
+        told = [sentence(reason.says, folds, reason.fold) for reason in plan.reasons[:1]]
+        told += [] if one.help is None else [f"{sentence(one.help.says, folds)}: {one.help.cost_s:.1f} s"]
+        cost = "" if plan.cost_s is None else f"{plan.cost_s:.2f}"
+        margin = "" if one.margin_m is None else f"{1000.0 * one.margin_m:.0f}"
+        answer = {"solved": "yes", "infeasible": "no"}.get(plan.status, "not known")
+        table.add_row(one.robot, answer, cost, margin, "; ".join(told))
     return table
 
 

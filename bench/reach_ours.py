@@ -12,7 +12,7 @@ from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.description import read_model
 from planner.robots.kernel import reachable_batch
-from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
 from planner.robots.reach import Pr2Reach
 from planner.robots.sided_arm import SidedArm
 
@@ -76,7 +76,7 @@ def _asked_again(queries: Queries) -> Answering:
 
 def _joints(queries: Queries, answers: BoolArray) -> Joints:
     """Return the joints that Pleat finds for its answers; nan where it says yes and then finds none."""
-    robot = load_robot("pr2")
+    robot = Pr2()
     found = []
     for point, rotation, answer in zip(queries.points, queries.rotations, answers, strict=True):
         near = robot.joints_near(0, point, rotation, TORSO_M, robot.home(0)) if answer else None

@@ -22,6 +22,7 @@ from planner.planning.found_plan import FoundPlan
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
+from planner.planning.robot_task import task_for
 from planner.planning.warm_up import compile_kernels
 from planner.task.plan import Plan
 from planner.task.scene import Scene
@@ -39,7 +40,7 @@ def make_plan(
 
     Args:
         what: the task, or a garment; the task for a garment is made from the other arguments.
-        scene: the scene for a garment; None for the default scene.
+        scene: the scene for a garment; None for the one that suits the robot.
         should_stop: polled during the search; the search ends as out of budget when it returns true.
         options: the options of `Task.of`, for a garment.
 
@@ -51,7 +52,7 @@ def make_plan(
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: an option is out of range.
     """
-    task = what if isinstance(what, Task) else Task.of(what, scene, **options)
+    task = what if isinstance(what, Task) else task_for(what, scene, **options)
     return find_plan(task, should_stop=should_stop).plan
 
 
@@ -83,7 +84,7 @@ def find_plan(
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
-    compile_kernels()
+    compile_kernels(task.robot)
     problem, limits = Problem.of(task), task.limits
     budget = Budget.of(limits.work_limit_s, limits.time_limit_s, should_stop)
     explainer = Explanation() if with_reasons else None
@@ -117,5 +118,5 @@ def quick_plan(
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
-    compile_kernels()
+    compile_kernels(task.robot)
     return quickly_planned(Problem.of(task), like, should_stop or (lambda: False))

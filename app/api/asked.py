@@ -14,9 +14,11 @@ from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
+from planner.planning.robot_task import task_for
+from planner.robots.described_robot import shipped_robots
 from planner.task.grip import BaseStop
 from planner.task.scene import Scene
-from planner.task.task import Task
+from planner.task.task import Task, TaskOptions
 from planner.task.world_state import WorldState
 
 SHORTEST_S = 0.01
@@ -63,11 +65,9 @@ class TimeLimit:
 
 def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Task:
     """Return the task of a plan request, for a search that begins now; raises an error for the first wrong field."""
-    task = Task.of(
-        asked_garment(within, wanted.garment),
-        wanted.scene,
+    require_name(wanted.robot)
+    options = TaskOptions(
         placement=wanted.placement,
-        start_station=wanted.start_station,
         robot=wanted.robot,
         comfort_radius_m=wanted.comfort_radius_m,
         heuristic=wanted.heuristic,
@@ -75,6 +75,9 @@ def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Ta
         work_limit_s=wanted.work_limit_s,
         max_expanded=wanted.max_expanded,
     )
+    if wanted.start_station is not None:
+        options["start_station"] = wanted.start_station
+    task = task_for(asked_garment(within, wanted.garment), wanted.scene, **options)
     return task if wanted.start is None else replace(task, start=_asked_start(task, wanted.start))
 
 
@@ -82,6 +85,12 @@ def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimi
     """Return the task whose garment a request wants to have planned wherever it can lie."""
     garment = asked_garment(within, wanted.garment)
     return Task.of(garment, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
+
+
+def require_name(robot: str) -> None:
+    """Raise `RequestError` for a robot that is given by anything but the name of one."""
+    if robot not in shipped_robots():
+        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(shipped_robots())}")
 
 
 def _asked_start(task: Task, wanted: StartField) -> WorldState:

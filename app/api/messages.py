@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 from annotated_types import Interval
-from pydantic import Field, PlainValidator, TypeAdapter
+from pydantic import Field, PlainValidator, TypeAdapter, model_validator
 from pydantic_core import PydanticCustomError
 
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
+from planner.planning.robot_task import with_robots_scene
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, Limits
@@ -63,9 +64,15 @@ class PlanRequest(Limits):
     start: StartField | None = None
     placement: GivenPose | None = None
     scene: Scene | None = None
-    start_station: str = "front"
+    start_station: str | None = None
     robot: str = DEFAULT_ROBOT
     work_limit_s: TimeLimit | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_scene(cls, data: Any) -> Any:  # noqa: ANN401
+        """Fill up a scene that is given in part by that of the robot."""
+        return with_robots_scene(data)
 
 
 class PlacesRequest(StrictModel):

@@ -27,8 +27,9 @@ from planner import Plan, Scene, Task, Timeline, make_plan, suggestions
 from planner.cloth.garment import Garment
 from planner.cloth.garment_files import read_json
 from planner.errors import SceneError
+from planner.planning.robot_task import default_scene, scene_filled_up, task_for
 from planner.task.plan_files import read_plan, write_plan
-from planner.task.task import TIME_LIMIT_S, TaskOptions
+from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, TaskOptions
 from planner.words.catalogue import sentence
 
 _SLOWDOWN_MAX = 6.0
@@ -56,6 +57,9 @@ def plan(
         HeuristicName | None, typer.Option(help="What the search knows of what is left.", show_default="arm_time")
     ] = None,
     time_limit_s: Annotated[float | None, typer.Option(help="How long to search (s).", show_default="10")] = None,
+    robot: Annotated[
+        str | None, typer.Option(help="The robot: its name, or the file of its card.", show_default=DEFAULT_ROBOT)
+    ] = None,
     from_plan: Annotated[
         Path | None, typer.Option("--from", metavar="PLAN", help="A plan file: start where it is after a step.")
     ] = None,
@@ -78,7 +82,9 @@ def plan(
         options["heuristic"] = heuristic.value
     if time_limit_s is not None:
         options["time_limit_s"] = time_limit_s
-    where = None if scene is None else _read_scene(scene)
+    if robot is not None:
+        options["robot"] = robot
+    where = None if scene is None else _read_scene(scene, robot or DEFAULT_ROBOT)
     task = _task(load_source(garment), where, options, garment)
     if from_plan is not None:
         task = _going_on(task, from_plan, after_step, has_scene=scene is not None)
@@ -126,10 +132,12 @@ def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, nam
     """Return the task of a garment, or that of a plan with the given options changed."""
     with blaming(name):
         if isinstance(source, Garment):
-            return Task.of(source, scene, **options)
+            return task_for(source, scene, **options)
+        if options.get("robot", source.task.robot) != source.task.robot:
+            return task_for(source.task.garment, scene, **options)
         task = source.task if scene is None else source.task.in_scene(scene)
         fresh = Task.of(task.garment, task.scene, **options)
-        limits = {field: getattr(fresh.limits, field) for field in options if field != "start_station"}
+        limits = {field: getattr(fresh.limits, field) for field in options if field not in ("start_station", "robot")}
         moved = replace(task.start, base=fresh.start.base) if "start_station" in options else task.start
         return replace(task, start=moved, limits=replace(task.limits, **limits))
 
@@ -142,12 +150,12 @@ def _going_on(task: Task, path: Path, after_step: int | None, *, has_scene: bool
         return replace(task if has_scene else task.in_scene(before.scene), start=start)
 
 
-def _read_scene(path: Path) -> Scene:
+def _read_scene(path: Path, robot: str) -> Scene:
     with blaming(path):
         data = read_json(path)
         if not isinstance(data, dict):
             raise SceneError("", "a scene file holds one JSON object")
-        return Scene.from_dict(data)
+        return Scene.from_dict(scene_filled_up(data, default_scene(robot).to_dict()))
 
 
 def _print_suggestions(answer: Plan) -> None:

@@ -8,7 +8,6 @@ from rich.progress import Progress
 from app.cli.program import STANDARD_OUTPUT, JsonOption, blaming, cli, errors, output, write_json
 from app.tables import robot_check_table, robots_table
 from planner.robots.described_robot import read_robot, robot_entry, shipped_card, shipped_robots
-from planner.robots.load_robot import ROBOTS
 from planner.robots.table_reach import table_reach
 
 robot = typer.Typer(help="Look at the card of a robot.", no_args_is_help=True)
@@ -17,11 +16,11 @@ cli.add_typer(robot, name="robot")
 
 @cli.command()
 def robots(json_to: JsonOption = None) -> None:
-    """Print the robots that are shipped, and for which of them plans are made."""
+    """Print the robots that are shipped."""
     cards = [shipped_card(name) for name in shipped_robots()]
     write_json([robot_entry(card) for card in cards], json_to)
     if json_to != STANDARD_OUTPUT:
-        output.print(robots_table(cards, set(ROBOTS)))
+        output.print(robots_table(cards))
 
 
 @robot.command()

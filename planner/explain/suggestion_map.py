@@ -90,7 +90,7 @@ def placement_map(
     """
     if not STEP_M[0] <= step_m <= STEP_M[1]:
         raise RequestError("step_m", f"{step_m} is not between {STEP_M[0]:g} and {STEP_M[1]:g}")
-    compile_kernels()
+    compile_kernels(task.robot)
     budget = TrialBudget(Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop))
     here = task.start.placement
     moves = Room.of(task.garment, here, task.scene.table).moves(step_m)

@@ -66,7 +66,7 @@ def suggestions(
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
-    compile_kernels()
+    compile_kernels(task.robot)
     whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     budget = TrialBudget(whole)
     known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)

@@ -91,7 +91,7 @@ class Problem:
         task, context, machine = self.task, self.context, self.robot
         comfort = context.reach.comfort_m if comfort_m is None else comfort_m
         moved = replace(task, garment=garment or task.garment).at(placement or task.start.placement).within(comfort)
-        changed = moved if scene is None else moved.in_scene(_without_nameless(scene))
+        changed = moved if scene is None else moved.in_scene(_as_given(scene, task.scene))
         sequence = context.sequence if garment is None else replayed(garment)
         wanted, start = _searched(changed, sequence, machine)
         is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m)
@@ -158,9 +158,13 @@ def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[S
     return scene, State(start.done, (0.0, 0.0), station, back_off, _held(start, machine), dragged)
 
 
-def _without_nameless(scene: Scene) -> Scene:
-    """Return a scene without the nameless station, which stands for a base at none."""
-    return replace(scene, stations=tuple((name, pose) for name, pose in scene.stations if name))
+def _as_given(scene: Scene, given: Scene) -> Scene:
+    """Return a scene that was derived from the search's without the nameless station, for a base at none.
+
+    The base that does not move has that one alone; it gets the stations of the task's scene back.
+    """
+    named = tuple((name, pose) for name, pose in scene.stations if name)
+    return replace(scene, stations=named or given.stations)
 
 
 def _stand(task: Task) -> tuple[int | None, int]:

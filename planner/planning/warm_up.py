@@ -14,9 +14,10 @@ from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
+from planner.planning.robot_task import task_for
 from planner.primitives.base_legs import travel
 from planner.robots.tool_path import ToolPath
-from planner.task.task import Task
+from planner.task.task import DEFAULT_ROBOT
 
 _NAPKIN = {
     "name": "napkin",
@@ -46,18 +47,19 @@ class _InTheWay:
 
 
 @cache
-def compile_kernels() -> None:
-    """Compile the kernels, or load them from the cache, once per process; planning calls it too.
+def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
+    """Compile the kernels for a robot, or load them from the cache, once per process; planning calls it too.
 
     A napkin is planned and played, the reach is asked why places are out of reach, and the arms are led past each
     other: together these use every kernel. Objects that exist by then, above all modules, are hidden from the garbage
     collector.
     """
     gc.freeze()  # modules are no garbage, and scanning them stops the process for some hundredths of a second
-    problem = Problem.of(Task.of(Garment.from_dict(_NAPKIN), comfort_radius_m=0.0))
+    problem = Problem.of(task_for(Garment.from_dict(_NAPKIN), robot=name, comfort_radius_m=0.0))
     endless = Budget.of(math.inf, math.inf)
     found = PlanSearch(problem, "arm_time", endless, problem.task.limits.max_expanded).plan()
-    Timeline.of(found.plan).at(0.0)
+    if found.plan.is_solved:
+        Timeline.of(found.plan).at(0.0)
     reach = problem.context.reach
     for point in (_FAR, _EDGE):
         reach.shortfall(0, point, np.array([0]))

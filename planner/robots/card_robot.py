@@ -8,8 +8,11 @@ import numpy as np
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import RobotCard
+from planner.robots.collision.collisions import OPENING_M, Collisions
+from planner.robots.collision.described_parts import described_parts
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import AskedArms
 from planner.robots.described_card import robot_card
@@ -75,6 +78,12 @@ class CardRobot:
     def _numbers(self) -> MappedArms:
         arms = self._arms
         return mapped_arms([arm.chain for arm in arms], [arm.known for arm in arms])
+
+    def collisions(
+        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
+    ) -> Collisions:
+        """Return the collision checks at a table, with the lift raised; see `Collisions`."""
+        return Collisions(described_parts(self._described), table, torso_m, opening_m, margin_m)
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray

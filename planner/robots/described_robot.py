@@ -92,7 +92,7 @@ def shipped_card(name: str) -> CardFile:
     """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
     if name not in shipped_robots():
         raise UnknownRobotError(name)
-    return _card(_CARDS / f"{name}.json")
+    return read_card(_CARDS / f"{name}.json")
 
 
 def robot_entry(card: CardFile) -> dict[str, Any]:
@@ -126,10 +126,11 @@ def _shipped(name: str) -> DescribedRobot:
 
 
 def _read(path: Path) -> DescribedRobot:
-    return DescribedRobot.of(_card(path), path.parent)
+    return DescribedRobot.of(read_card(path), path.parent)
 
 
-def _card(path: Path) -> CardFile:
+def read_card(path: Path) -> CardFile:
+    """Return the card in a file; raises `RobotError`."""
     try:
         if path.stat().st_size > CARD_BYTES_MAX:
             raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")

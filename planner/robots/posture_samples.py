@@ -71,11 +71,12 @@ def posture_samples(
         floor: the height over which elbows should preferably stay, seen from the root.
 
     Returns:
-        The joints, shape (k, m, n), and the samples' costs, shape (k, m): infinite where there is no sample.
+        The joints, shape (k, m, n), and the samples' costs, shape (k, m): infinite where there is no sample; at least
+        one a pose.
     """
     count = len(chain.low)
     joints, costs = np.zeros((len(points), SAMPLES_MAX, count)), np.full((len(points), SAMPLES_MAX), np.inf)
-    scratch, most, rolled = scratch_for(count), 0, np.empty((2, 3, 3))
+    scratch, most, rolled = scratch_for(count), 1, np.empty((2, 3, 3))
     for i in range(len(points)):
         samples = Samples(joints[i], costs[i], np.zeros(1, dtype=np.int64))
         rolled[0] = rotations[i]

@@ -36,11 +36,23 @@ def composed_urdf(card: CardFile, folder: Path) -> str:
     SubElement(whole, "link", name=BASE_LINK)
     for mount in card.mounts:
         _join(whole, deepcopy(body), BASE_LINK, mount)
+    _drop_prefixed(whole)
     for tag in ("link", "joint"):
         ((twice, times),) = Counter(one.get("name") for one in whole.iterfind(tag)).most_common(1) or (("", 0),)
         if times > 1:
             raise RobotError("mounts", f"two {tag}s are called {twice!r}: mounts and tools need names of their own")
     return tostring(whole, encoding="unicode")
+
+
+def _drop_prefixed(element: Element) -> None:
+    """Drop elements and attributes with prefixes that nothing declares: they are another program's, and no XML."""
+    for name in [name for name in element.attrib if ":" in name]:
+        del element.attrib[name]
+    for child in list(element):
+        if ":" in child.tag:
+            element.remove(child)
+        else:
+            _drop_prefixed(child)
 
 
 def _join(whole: Element, part: Element, parent: str, mount: Mount) -> None:

@@ -100,8 +100,8 @@ def test_the_arms_are_mirror_images():
 
 
 def test_an_unknown_robot_is_refused():
-    with pytest.raises(RequestError, match="baxter"):
-        load_robot("baxter")
+    with pytest.raises(RequestError, match="nobody"):
+        load_robot("nobody")
 
 
 def test_a_missing_description_is_named(monkeypatch):

@@ -1,0 +1,45 @@
+"""``pleat compare``: which robots can fold a garment."""
+
+from typing import Annotated
+
+import typer
+
+from app.cli.program import (
+    STANDARD_OUTPUT,
+    JsonOption,
+    SourceArgument,
+    blaming,
+    cli,
+    failure,
+    garment_of,
+    output,
+    write_json,
+)
+from app.comparison import compared
+from app.tables import comparison_table
+from planner.robots.described_robot import shipped_robots
+from planner.task.task import Limits
+
+
+@cli.command()
+def compare(
+    garment: SourceArgument,
+    robots: Annotated[
+        str | None, typer.Option(metavar="A,B,C", help="The robots: names, or files of cards.", show_default="all")
+    ] = None,
+    time_limit_s: Annotated[float, typer.Option(help="How long to search for each (s).")] = 10.0,
+    json_to: JsonOption = None,
+) -> None:
+    """Plan a garment for several robots, each at its own table: who can fold it, how long it takes, what it would take.
+
+    The first time a robot is planned for, maps of what its arms reach are made, which takes up to half a minute an arm.
+    """
+    names = [name.strip() for name in robots.split(",")] if robots else list(shipped_robots())
+    if not all(names):
+        raise failure("--robots: has an empty name")
+    source = garment_of(garment)
+    with blaming(garment):
+        found = list(compared(source, names, Limits(time_limit_s=time_limit_s)))
+    write_json([one.to_dict() for one in found], json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(comparison_table(found))

@@ -1,0 +1,88 @@
+"""Who can fold this: one garment planned for several robots, each at its own table."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from planner.cloth.garment import Garment
+from planner.explain.suggestion import Suggestion
+from planner.explain.suggestions import suggestions
+from planner.planning.robot_task import task_for
+from planner.plans import make_plan
+from planner.task.plan import Plan
+from planner.task.task import COMFORT_MAX_M, Limits, Task
+
+_MARGIN_STEPS = 4
+"""Halvings with which the tightest margin is found: to some millimetres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """What a robot makes of a garment.
+
+    Attributes:
+        robot: the robot's name.
+        plan: its plan, or why there is none.
+        margin_m: the tightest margin: the largest comfort radius for which there still is a plan, rounded down (m);
+            None without a plan.
+        help: the first change found that would give a plan; None where there is one, or none was found.
+    """
+
+    robot: str
+    plan: Plan
+    margin_m: float | None
+    help: Suggestion | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as JSON, without the plan's steps."""
+        plan = self.plan
+        return {
+            "robot": self.robot,
+            "status": plan.status,
+            "cost_s": plan.cost_s,
+            "bound_s": plan.statistics.bound_s,
+            "margin_m": self.margin_m,
+            "reasons": [reason.to_dict() for reason in plan.reasons],
+            "help": None if self.help is None else self.help.to_dict(),
+        }
+
+
+def compared(
+    garment: Garment,
+    robots: Sequence[str],
+    limits: Limits | None = None,
+    should_stop: Callable[[], bool] | None = None,
+) -> Iterator[Comparison]:
+    """Plan a garment for each robot, at the table and the place that suit it.
+
+    Args:
+        garment: the garment.
+        robots: the robots, by name or by the path of a card.
+        limits: the limits of each plan; as much time again may go into the margin, or into a change that helps.
+        should_stop: polled while planning; once it returns true, nothing more comes.
+
+    Raises:
+        FoldError: a fold is not legal.
+        RequestError: there is no such robot.
+    """
+    within = limits or Limits()
+    tasks = [replace(task_for(garment, robot=robot), limits=within) for robot in robots]
+    for robot, task in zip(robots, tasks, strict=True):
+        if should_stop is not None and should_stop():
+            return
+        plan = make_plan(task, should_stop=should_stop)
+        margin_m = _margin_m(task, should_stop) if plan.is_solved else None
+        change = None if plan.is_solved else next(suggestions(task, plan=plan, should_stop=should_stop), None)
+        yield Comparison(robot, plan, margin_m, change)
+
+
+def _margin_m(task: Task, should_stop: Callable[[], bool] | None) -> float:
+    """Return the largest comfort radius, at least the task's, for which there is a plan (m), rounded down."""
+    share = replace(task.limits, time_limit_s=max(task.limits.time_limit_s / _MARGIN_STEPS, 0.01))
+    had, lacking = task.limits.comfort_radius_m, COMFORT_MAX_M
+    for _ in range(_MARGIN_STEPS):
+        middle = 0.5 * (had + lacking)
+        tried = replace(task, limits=share).within(middle)
+        is_solved = make_plan(tried, should_stop=should_stop).is_solved
+        had, lacking = (middle, lacking) if is_solved else (had, middle)
+    return had

@@ -1,0 +1,93 @@
+"""The task of a robot that is asked without a scene, or with a part of one: what is left out is what its card says."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, Unpack
+
+import numpy as np
+
+from planner.cloth.garment import Garment
+from planner.errors import FoldingError
+from planner.geometry.pose import Pose2
+from planner.robots.card_file import CardFile
+from planner.robots.load_robot import robot_card_file
+from planner.task.scene import Scene
+from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
+
+
+def default_scene(robot: str = DEFAULT_ROBOT) -> Scene:
+    """Return the scene that suits a robot; raises `UnknownRobotError` or `RobotError` where there is none."""
+    return Scene() if robot == DEFAULT_ROBOT else _scene(robot_card_file(robot))
+
+
+def _scene(card: CardFile) -> Scene:
+    base, suits = card.base, card.scene
+    whole = Scene(
+        table=suits.table,
+        stations=suits.stations,
+        torso_m=suits.torso_m,
+        base_speed_m_s=base.speed_m_s,
+        base_turn_rad_s=base.turn_rad_s,
+    )
+    return replace(whole, back_off_max_m=0.0) if base.kind == "fixed" else whole
+
+
+def with_robots_scene(request: Any) -> Any:  # noqa: ANN401
+    """Return a request's JSON with a scene that is given in part filled up by that of the robot it names.
+
+    A request for the default robot, and one that is wrong in these fields, is returned as it is.
+    """
+    if not isinstance(request, dict):
+        return request
+    robot, scene = request.get("robot", DEFAULT_ROBOT), request.get("scene")
+    if not isinstance(robot, str) or not isinstance(scene, dict) or robot == DEFAULT_ROBOT:
+        return request
+    try:
+        filled = default_scene(robot).to_dict()
+    except FoldingError:
+        return request
+    return {**request, "scene": scene_filled_up(scene, filled)}
+
+
+def scene_filled_up(scene: Mapping[str, Any], whole: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a scene's JSON with the fields that it leaves out, or that are null, taken from another one."""
+    given = {name: value for name, value in scene.items() if value is not None}
+    table = given.get("table")
+    if isinstance(table, dict):
+        given["table"] = {**whole["table"], **{name: value for name, value in table.items() if value is not None}}
+    return {**whole, **given}
+
+
+def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
+    """Return where an article lies at the start for a robot, table frame.
+
+    It is the garment's own placement for the default robot, for whose table garments are made. For another robot the
+    middle of the bounding box lies where the card says, turned as the garment's own placement and the card say.
+    """
+    if robot == DEFAULT_ROBOT:
+        return garment.placement
+    suits = robot_card_file(robot).scene.placement
+    x0, y0, x1, y1 = garment.pattern.bounds
+    turned = Pose2(0.0, 0.0, garment.placement.yaw_rad + suits.yaw_rad)
+    x_m, y_m = turned.to_outer(np.array([0.5 * (x0 + x1), 0.5 * (y0 + y1)])).tolist()
+    return turned.moved(suits.x_m - x_m, suits.y_m - y_m)
+
+
+def task_for(garment: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Task:
+    """Return the task of folding a garment; what is left out suits the robot.
+
+    Args:
+        garment: the garment.
+        scene: the scene; None for the one that suits the robot.
+        options: those of `Task.of`. A robot whose scene has no station of the default name starts at the first one.
+
+    Raises:
+        RequestError: there is no such station or robot, or a limit is out of range.
+    """
+    robot = options.get("robot", DEFAULT_ROBOT)
+    where = scene or default_scene(robot)
+    if options.get("placement") is None and options.get("start") is None:
+        options["placement"] = default_placement(garment, robot)
+    if "start_station" not in options and robot != DEFAULT_ROBOT:
+        options["start_station"] = where.stations[0][0]
+    return Task.of(garment, where, **options)

@@ -1,0 +1,67 @@
+"""Plans for robots that a card and a URDF describe: joints that take the tools where the steps say, step by step."""
+
+import json
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from planner import Plan, make_plan
+from planner.motion.timeline import Timeline
+from planner.planning.plan_check import require_replay
+from planner.robots.described_robot import read_robot
+from planner.robots.load_robot import load_robot
+from tests.builders import fold, garment
+
+NAME = "so101-pair"
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)], fold((0.1, 0.16), (0.1, 0.0)))
+    return make_plan(napkin, robot=NAME, time_limit_s=60.0)
+
+
+def test_two_small_arms_fold_a_napkin_where_they_stand(plan: Plan):
+    assert plan.is_solved
+    assert {step.kind for step in plan.steps} == {"fold"}
+    assert {step.after.base.station for step in plan.steps} == {None}
+
+
+def test_a_plan_reads_back_and_replays(plan: Plan):
+    again = Plan.from_dict(json.loads(json.dumps(plan.to_dict())))
+    assert again == plan
+    require_replay(again)
+
+
+def test_samples_have_every_actuated_joint_of_the_urdf_within_its_limits(plan: Plan):
+    model = pin.buildModelFromXML(read_robot(NAME).urdf)
+    for sample in Timeline.of(plan).samples(5.0):
+        joints = sample.to_dict()["joints"]
+        assert set(joints) == set(model.names[1:])
+        for name, value in joints.items():
+            index = model.joints[model.getJointId(name)].idx_q
+            assert model.lowerPositionLimit[index] - 1e-9 <= value <= model.upperPositionLimit[index] + 1e-9
+
+
+def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan):
+    """Another kinematics says where the joints bring the tool; arms of five joints are asked position and pitch."""
+    robot = load_robot(NAME)
+    model = pin.buildModelFromXML(read_robot(NAME).urdf)
+    data, step = model.createData(), plan.steps[0]
+    base, height_m = step.after.base.pose, plan.scene.table.height_m
+    played = Timeline.of(plan)
+    for grip in step.grips:
+        arm = next(one for one in read_robot(NAME).arms if one.card.name == grip.arm)
+        nearest = np.inf
+        for t in np.linspace(0.0, plan.cost_s, 1801):
+            q = pin.neutral(model)
+            for name, value in played.at(float(t)).to_dict()["joints"].items():
+                q[model.joints[model.getJointId(name)].idx_q] = value
+            pin.framesForwardKinematics(model, data, q)
+            frame = data.oMf[model.getFrameId(arm.card.tool.link)]
+            tool = frame.act(np.array(arm.card.tool.offset_m))
+            at = base.to_outer(tool) - np.array([0.0, 0.0, height_m])
+            nearest = min(nearest, float(np.linalg.norm(at - grip.pick)))
+        assert nearest < 1e-4
+    assert [arm.name for arm in robot.card.arms] == ["left", "right"]
