@@ -101,7 +101,13 @@ def map_places(_: Tell, task: Task, step_m: float) -> PlacementMap:
 
 
 def read_file(
-    _: Tell, filename: str, data: bytes, units: str | None, scale: float, creases: Creases | None
+    _: Tell,
+    filename: str,
+    data: bytes,
+    units: str | None,
+    scale: float,
+    creases: Creases | None,
+    measured: str | None,
 ) -> Imported:
     """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases)
+    return import_file(filename, data, units, scale, creases, measured)

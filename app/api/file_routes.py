@@ -41,6 +41,14 @@ Scale = Annotated[float, Query(allow_inf_nan=False)]
 Lines = Annotated[
     Creases | None, Query(description="the cloth that fold lines are drawn on: as the folds before leave it, or flat")
 ]
+Measured = Annotated[
+    str | None,
+    Query(
+        max_length=60,
+        description="what gives the scale of a picture: a4, letter, marker:50mm, or a length of the garment, as "
+        "0.60m:longest, 24in:width, 70cm:height; without it a sheet of A4 or Letter is looked for",
+    ),
+]
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
 
 
@@ -49,15 +57,17 @@ class ImportAnswer(BaseModel):
 
     `creases` says on which cloth the fold lines of a drawing were read; null if that makes no difference. `sizes`
     gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
-    for a note without numbers.
+    for a note without numbers. `seen` says of a picture where the garment lies in it, what gave the scale, and how sure
+    that is, as `pleat see` does; null for other files.
     """
 
-    format: Literal["json", "svg", "dxf"]
+    format: Literal["json", "svg", "dxf", "png", "jpeg"]
     garment: GarmentAnswer
     notes: list[str]
     says: list[Says | None]
     creases: Creases | None
     sizes: dict[str, tuple[float, float]] | None
+    seen: dict[str, Any] | None
 
 
 class FileEntry(BaseModel):
@@ -79,18 +89,24 @@ class FileEntry(BaseModel):
     responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)},
 )
 async def post_import(
-    request: Request, filename: FileName, units: Units = None, scale: Scale = 1.0, creases: Lines = None
+    request: Request,
+    filename: FileName,
+    units: Units = None,
+    scale: Scale = 1.0,
+    creases: Lines = None,
+    measured: Measured = None,
 ) -> Response:
-    """Import a garment from a file in the body: a garment or plan file, SVG or DXF, by the ending of its name.
+    """Import a garment from a file in the body: a garment or plan file, SVG, DXF, PNG or JPEG, by its name's ending.
 
     A plan file gives its garment, placed as at the plan's start.
 
     If the file has no unit of length, or an impossible one, the problem is about the field `units` and has `sizes`:
     the size of the garment in each unit. Unless `creases` says otherwise, fold lines are read on the cloth, flat or
-    folded, on which more of them are legal.
+    folded, on which more of them are legal. If nothing in a picture gives its scale, the problem is about the field
+    `measured`.
     """
     data = await read_bytes(request, largest(filename))
-    work = partial(_read, filename, data, units, scale, creases)
+    work = partial(_read, filename, data, units, scale, creases, measured)
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
@@ -131,9 +147,15 @@ async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate
 
 
 def _read(
-    filename: str, data: bytes, units: str | None, scale: float, creases: Creases | None, should_stop: ShouldStop
+    filename: str,
+    data: bytes,
+    units: str | None,
+    scale: float,
+    creases: Creases | None,
+    measured: str | None,
+    should_stop: ShouldStop,
 ) -> Imported:
-    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases)
+    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases, measured)
 
 
 def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
@@ -148,4 +170,5 @@ def _imported(imported: Imported) -> dict[str, Any]:
         "says": [note.to_dict() for note in imported.notes],
         "creases": imported.creases,
         "sizes": imported.sizes,
+        "seen": imported.seen,
     }

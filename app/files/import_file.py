@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import PurePath
+from typing import Any
 
 from app.files.crease_reading import Creases
 from app.files.dxf_sketch import read_dxf
@@ -12,6 +13,9 @@ from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
 from app.files.sketch_size import UNITS_M, Sizes
 from app.files.svg_sketch import read_svg
+from app.vision.picture import LARGEST_PICTURE
+from app.vision.seen_garment import see
+from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from planner.cloth.garment import Garment
 from planner.message import Message
 from planner.task.plan_files import ENDING
@@ -27,6 +31,7 @@ SCALES = (1e-3, 1e3)
 
 _SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": read_dxf}
 _JSON = "json"
+_PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +39,12 @@ class Imported:
     """The content of an imported file.
 
     Attributes:
-        format: "json", "svg" or "dxf".
+        format: "json", "svg", "dxf", "png" or "jpeg".
         garment: the garment.
         notes: remarks on the import, in sentences.
         creases: the cloth on which the fold lines were read; None if it makes no difference.
-        sizes: the size that a drawing would have in other units; None for a garment file.
+        sizes: the size that a drawing would have in other units; None for a garment file or a picture.
+        seen: how sure a garment in a picture is, as JSON; None for other files.
     """
 
     format: str
@@ -46,15 +52,23 @@ class Imported:
     notes: tuple[Message, ...]
     creases: Creases | None = None
     sizes: Sizes | None = None
+    seen: dict[str, Any] | None = None
 
 
 def largest(filename: str) -> int:
     """Return the largest size of a file with this name (bytes)."""
+    if _ending(filename) in _PICTURES:
+        return LARGEST_PICTURE
     return LARGEST_PLAN_FILE if filename.lower().endswith(ENDING) else LARGEST_FILE
 
 
 def import_file(
-    filename: str, data: bytes, units: str | None = None, scale: float = 1.0, creases: Creases | None = None
+    filename: str,
+    data: bytes,
+    units: str | None = None,
+    scale: float = 1.0,
+    creases: Creases | None = None,
+    measured: str | None = None,
 ) -> Imported:
     """Return the garment in a file.
 
@@ -64,23 +78,47 @@ def import_file(
         units: the drawing's unit, one of `UNITS_M`; None to take it from the file.
         scale: the factor by which to enlarge everything.
         creases: the cloth on which the drawing's fold lines are; None for the reading that makes more of them legal.
+        measured: what gives the scale of a picture, as `app.vision.scale_said` reads it; None to look for a sheet.
 
     Raises:
-        ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units`` or ``scale``.
+        ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale`` or
+            ``measured``.
         UnitsNeededError: the drawing's unit is unknown, or the one in the file is impossible.
         GarmentError: the garment is invalid; the field is that of a garment file.
         RequestError: the file claims to be a plan but is invalid; the field is that of a plan file.
     """
     path = PurePath(filename.replace("\\", "/"))
-    ending = path.suffix[1:].lower()
+    ending = _ending(filename)
     if units is not None and units not in UNITS_M:
         raise ImportedFileError("units", f"{units[:40]!r} is none of {', '.join(UNITS_M)}")
     if not SCALES[0] <= scale <= SCALES[1]:
         raise ImportedFileError("scale", f"{scale} is not between {SCALES[0]:g} and {SCALES[1]:g}")
     if ending == _JSON:
         return Imported(_JSON, *read_garment_json(data))
+    if ending in _PICTURES:
+        return _picture(_PICTURES[ending], path.stem, data, measured)
     if ending not in _SKETCHES:
-        endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES))
+        endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES, *_PICTURES))
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
     found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases)
     return Imported(ending, found.garment, found.notes, found.creases, found.sizes)
+
+
+def _ending(filename: str) -> str:
+    return PurePath(filename.replace("\\", "/")).suffix[1:].lower()
+
+
+def _picture(kind: str, name: str, data: bytes, measured: str | None) -> Imported:
+    """Return the garment in a picture."""
+    try:
+        found = see(data, name, measured)
+    except PictureError as error:
+        field = "measured" if error.field == "scale" else error.field
+        raise ImportedFileError(field, error.says or error.message) from None
+    except ScaleNeededError as error:
+        raise ImportedFileError("measured", Message("scale_needed", str(error))) from None
+    except NothingToldError as error:
+        raise ImportedFileError("file", error.says) from None
+    doubt = () if found.sure.unknown is None else (found.sure.unknown,)
+    told = {key: value for key, value in found.to_dict().items() if key not in ("garment", "notes")}
+    return Imported(kind, found.garment, (*doubt, *found.notes), seen=told)

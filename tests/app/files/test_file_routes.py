@@ -90,7 +90,9 @@ async def test_without_units_the_problem_says_how_large_it_would_be(client: http
     ("query", "field"),
     [
         ({}, "filename"),
-        ({"filename": "towel.png"}, "filename"),
+        ({"filename": "towel.gif"}, "filename"),
+        ({"filename": "towel.png"}, "file"),
+        ({"filename": "towel.jpg", "measured": "wide"}, "measured"),
         ({"filename": "towel"}, "filename"),
         ({"filename": ""}, "filename"),
         ({"filename": "x" * 301}, "filename"),

@@ -1,0 +1,80 @@
+"""``pleat see``: the garment in a picture."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.cli.program import NO_PLAN, STANDARD_OUTPUT, JsonOption, blaming, cli, errors, failure, output, write_json
+from app.vision.picture import LARGEST_PICTURE
+from app.vision.seen_garment import Seen
+from app.vision.seen_garment import see as see_garment
+from app.vision.vision_errors import NothingToldError, ScaleNeededError
+
+
+@cli.command()
+def see(
+    image: Annotated[Path, typer.Argument(metavar="IMAGE", help="A PNG or JPEG of a garment on a table.")],
+    scale: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SCALE",
+            help="What gives the scale: a4, letter, marker:50mm (an ArUco marker's black square), or a length of the "
+            "garment: 0.60m:longest, 24in:width, 70cm:height. Without it a sheet of A4 or Letter is looked for.",
+        ),
+    ] = None,
+    json_to: JsonOption = None,
+) -> None:
+    """Read a garment from a picture: its outline, where it lies, how sure that is.
+
+    Exit status: 0 read; 2 bad input, or no scale; 3 nothing can be told from the picture.
+    """
+    with telling(image):
+        found = see_garment(picture_file(image), image.stem, scale)
+    write_json(found.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(_told(found))
+    if found.sure.unknown is not None:
+        errors.print(f"{image}: not sure: {found.sure.unknown.text}")
+
+
+def picture_file(path: Path) -> bytes:
+    """Return a picture's content; exit the program if it cannot be read."""
+    try:
+        if path.stat().st_size > LARGEST_PICTURE:
+            raise failure(f"{path}: has {path.stat().st_size} bytes, more than {LARGEST_PICTURE}")
+        return path.read_bytes()
+    except OSError as error:
+        raise failure(f"{path}: {error.strerror}") from None
+
+
+@contextmanager
+def telling(source: Path) -> Iterator[None]:
+    """Exit the program where a picture is bad input, or nothing can be told from it."""
+    with blaming(source):
+        try:
+            yield
+        except NothingToldError as error:
+            errors.print(f"{source}: {error}")
+            raise typer.Exit(NO_PLAN) from None
+        except ScaleNeededError as error:
+            raise failure(f"{source}: --scale: {error}") from None
+
+
+def _told(found: Seen) -> str:
+    """Return what was read, in a few lines."""
+    width, height = (max(axis) - min(axis) for axis in zip(*found.garment.outline, strict=True))
+    place, sure = found.placement, found.sure
+    return "\n".join(
+        [
+            f"{found.garment.title}: {width:.3f} m by {height:.3f} m, {len(found.garment.outline)} corners, "
+            f"{len(found.garment.folds)} folds; the scale from the {found.scale_from}",
+            f"it lies in the frame of the {found.frame} at ({place.x_m:.3f}, {place.y_m:.3f}) m, "
+            f"turned by {place.yaw_rad:.3f} rad",
+            f"{sure.share:.0%} of the outline within {sure.within_m:.3f} m; two ways to find it agree on "
+            f"{sure.agreement:.0%}",
+            *(note.text for note in found.notes),
+        ]
+    )

@@ -1,0 +1,114 @@
+"""From a picture to the outline of what lies on the table, in metres."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.vision.picture import Image
+from app.vision.scale_said import LengthSaid, MarkerSaid, ScaleSaid, SheetSaid
+from app.vision.segment import LEAST_AGREEMENT, MOST_AT_BORDER, Segmented, segment
+from app.vision.sheet import find_marker, find_sheets, like_best
+from app.vision.table_plane import Plane
+from app.vision.vision_errors import NothingToldError, ScaleNeededError
+from planner.geometry.pose import FloatArray
+from planner.geometry.region import Region
+from planner.message import Message
+
+_LEAST_CONTRAST = 3.0
+"""The least strength of the edge round the cloth (of 255)."""
+
+_WORST_SIZE_ERROR = 0.08
+
+_WHICH_SHEET = Message.plain("the sheet may be A4 or Letter, and was taken for A4: say which")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OnTable:
+    """An outline seen.
+
+    Attributes:
+        contour: points along it, in order, shape (n, 2), m, in `frame`.
+        frame: "sheet", "marker" or "picture": where the origin is. That of a picture is its middle; x runs right, y up.
+        scale_from: "a4", "letter", "marker" or "length".
+        seen: how it was found in the picture.
+        size_error: by which share its size may be wrong; None where it was not taken from the picture.
+        doubt: why it may be wrong; None where there is no reason.
+    """
+
+    contour: FloatArray
+    frame: str
+    scale_from: str
+    seen: Segmented
+    size_error: float | None
+    doubt: Message | None
+
+
+def outline_on_table(image: Image, said: ScaleSaid | None) -> OnTable:
+    """Return the outline of the cloth in a picture.
+
+    Args:
+        image: blue, green, red.
+        said: what gives the scale; None to look for a sheet of A4 or Letter.
+
+    Raises:
+        NothingToldError: there is no cloth to be seen, or not what was said to give the scale.
+        ScaleNeededError: nothing was said, and there is no sheet.
+    """
+    if isinstance(said, LengthSaid):
+        seen = segment(image)
+        contour = _by_length(seen.contour, said, image.shape)
+        return OnTable(contour, "picture", "length", seen, None, why_in_doubt(seen, None))
+    planes, is_either = _planes(image, said)
+    for plane in planes:
+        seen = segment(image, plane.covers(image.shape))
+        if plane.is_above(seen.contour):
+            error = plane.size_error(seen.contour)
+            frame = "marker" if isinstance(said, MarkerSaid) else "sheet"
+            doubt = why_in_doubt(seen, error) or (_WHICH_SHEET if is_either else None)
+            return OnTable(plane.on_table(seen.contour), frame, plane.by, seen, error, doubt)
+    raise NothingToldError(Message.plain("the sheet or marker found cannot lie on the table that the cloth lies on"))
+
+
+def why_in_doubt(seen: Segmented, size_error: float | None) -> Message | None:
+    """Return why an outline may be wrong; None where there is no reason."""
+    if seen.at_border > MOST_AT_BORDER:
+        text = f"the cloth is cut off: {seen.at_border:.0%} of its outline is at the picture's border"
+        return Message("cut_off", text, {"share": seen.at_border})
+    if seen.agreement < LEAST_AGREEMENT:
+        text = f"two ways to find the cloth agree on {seen.agreement:.0%} only, less than {LEAST_AGREEMENT:.0%}"
+        return Message("ways_disagree", text, {"agreement": seen.agreement, "least": LEAST_AGREEMENT})
+    if seen.contrast < _LEAST_CONTRAST:
+        text = f"the cloth hardly stands out from the table: its edge has a strength of {seen.contrast:.1f} of 255"
+        return Message("faint_edge", text, {"contrast": seen.contrast})
+    if size_error is not None and size_error > _WORST_SIZE_ERROR:
+        text = f"its size may be wrong by {size_error:.0%}: the sheet or marker is small or seen at a slant"
+        return Message("size_uncertain", text, {"share": size_error})
+    return None
+
+
+def _planes(image: Image, said: ScaleSaid | None) -> tuple[tuple[Plane, ...], bool]:
+    """Return the planes that the picture may show, the likeliest first, and whether the sheet may be A4 or Letter."""
+    if isinstance(said, MarkerSaid):
+        marker = find_marker(image, said.side_m)
+        if marker is None:
+            raise NothingToldError(Message.plain("there is no ArUco or AprilTag marker in the picture"))
+        return (marker,), False
+    names = (said.name,) if isinstance(said, SheetSaid) else ("a4", "letter")
+    sheets = find_sheets(image, names)
+    if not sheets and said is None:
+        raise ScaleNeededError
+    if not sheets:
+        raise NothingToldError(Message.plain(f"there is no sheet of {names[0]} paper to be seen in the picture"))
+    alike = sorted(like_best(sheets), key=lambda plane: plane.by)  # A4 where both fit: most of the world has it
+    return (*alike, *(sheet for sheet in sheets if all(sheet is not one for one in alike))), len(alike) > 1
+
+
+def _by_length(pixels: FloatArray, said: LengthSaid, shape: tuple[int, ...]) -> FloatArray:
+    """Return pixels as metres by a length of the figure; the origin in the picture's middle, y up."""
+    extent = np.ptp(pixels, axis=0)
+    hull = Region.polygon(pixels).hull
+    longest = float(np.sqrt(((hull[:, None] - hull) ** 2).sum(axis=2).max()))
+    spans = {"longest": longest, "width": float(extent[0]), "height": float(extent[1])}
+    height, width = shape[:2]
+    upright = (pixels - np.array([width / 2.0, height / 2.0])) * np.array([1.0, -1.0])
+    return np.asarray(upright * said.length_m / spans[said.across])

@@ -1,0 +1,148 @@
+"""A garment seen in a picture: its outline, where it lies, and how sure that is."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from app.files.sketch_garment import plain_name
+from app.vision.on_table import OnTable, outline_on_table
+from app.vision.picture import read_picture
+from app.vision.scale_said import read_scale
+from app.vision.stack_fit import pose_json, unknown_json
+from app.vision.straighten import Straightened, straighten
+from app.vision.symmetry import find_mirror, symmetric
+from app.vision.vision_errors import NothingToldError
+from planner.cloth.garment import Garment
+from planner.errors import GarmentError
+from planner.geometry.pose import FloatArray, Pose2
+from planner.message import Message
+
+
+@dataclass(frozen=True, slots=True)
+class Sure:
+    """How sure a garment is that was seen.
+
+    Attributes:
+        share: the share of the outline's points within `within_m` of the garment's outline.
+        within_m: how near that is (m).
+        agreement: the overlap of two ways to find the cloth that know little of each other.
+        size_error: by which share the size may be wrong, at about 95 of 100; None where a length was typed.
+        unknown: why the garment may be wrong; None where there is no reason.
+    """
+
+    share: float
+    within_m: float
+    agreement: float
+    size_error: float | None
+    unknown: Message | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON; ``value`` is the product of share and agreement."""
+        return {
+            "value": self.share * self.agreement,
+            "share_within": self.share,
+            "within_m": self.within_m,
+            "agreement": self.agreement,
+            "size_error": self.size_error,
+            **unknown_json(self.unknown),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A garment seen.
+
+    Attributes:
+        garment: the garment, upright in its own frame.
+        placement: the article frame where it lies in `frame`.
+        frame: "sheet", "marker" or "picture"; see `OnTable.frame`.
+        scale_from: what gave the scale.
+        sure: how sure it is.
+        notes: remarks on how it was read.
+    """
+
+    garment: Garment
+    placement: Pose2
+    frame: str
+    scale_from: str
+    sure: Sure
+    notes: tuple[Message, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON."""
+        return {
+            "garment": self.garment.to_dict(),
+            "placement": pose_json(self.placement),
+            "frame": self.frame,
+            "scale_from": self.scale_from,
+            "sure": self.sure.to_dict(),
+            "notes": [note.text for note in self.notes],
+        }
+
+
+def see(data: bytes, name: str, scale: str | None) -> Seen:
+    """Return the garment that a picture shows.
+
+    Args:
+        data: a PNG or JPEG.
+        name: the garment's title.
+        scale: what gives the scale, as `read_scale` takes it; None to look for a sheet of paper.
+
+    Raises:
+        PictureError: the file is no picture that can be read, or the scale is not one.
+        NothingToldError: there is nothing to be told from it.
+        ScaleNeededError: nothing says how large it is.
+    """
+    said = None if scale is None else read_scale(scale)
+    return _drawn(outline_on_table(read_picture(data), said), name)
+
+
+def _drawn(seen: OnTable, title: str) -> Seen:
+    """Return the garment with straight edges, symmetric where it nearly is, upright."""
+    straight = straighten(seen.contour)
+    notes = [
+        Message("corners_seen", f"the outline has {len(straight.corners)} corners", {"corners": len(straight.corners)})
+    ]
+    corners, axis_rad = straight.corners, math.pi / 2
+    mirror = find_mirror(corners)
+    made = None if mirror is None else symmetric(corners, mirror)
+    if mirror is None:
+        notes.append(Message.plain("the outline is not symmetric, and was left as it was seen"))
+    elif made is None:
+        axis_rad = mirror.angle_rad
+        notes.append(Message.plain("the outline is nearly symmetric, but its corners do not pair up; left as it is"))
+    else:
+        corners, axis_rad = made, mirror.angle_rad
+        text = f"the outline was made symmetric; its halves differed by {mirror.off_m:.4f} m in the mean"
+        notes.append(Message("made_symmetric", text, {"off_m": mirror.off_m}))
+    outline, placement = _upright(corners, axis_rad)
+    sure = Sure(straight.share, straight.within_m, seen.seen.agreement, seen.size_error, _doubt(seen, straight))
+    try:
+        garment = Garment.from_dict({"name": plain_name(title), "title": title, "outline": outline.tolist()})
+    except GarmentError as error:
+        text = f"what stands out from the table has no outline that a garment may have: {error.message}"
+        raise NothingToldError(seen.doubt or Message.plain(text)) from None
+    return Seen(garment, placement, seen.frame, seen.scale_from, sure, tuple(notes))
+
+
+_LEAST_SHARE = 0.85
+
+
+def _doubt(seen: OnTable, straight: Straightened) -> Message | None:
+    if seen.doubt is None and straight.share < _LEAST_SHARE:
+        text = f"straight edges fit only {straight.share:.0%} of the outline to {straight.within_m:.3f} m"
+        return Message("edges_do_not_fit", text, {"share": straight.share, "within_m": straight.within_m})
+    return seen.doubt
+
+
+def _upright(corners: FloatArray, axis_rad: float) -> tuple[FloatArray, Pose2]:
+    """Return corners in an article frame whose y is a line of symmetry, as near to up as it goes, and its placement.
+
+    The frame's origin is at the lower left of the corners.
+    """
+    turn = axis_rad - math.pi / 2
+    turn -= math.pi * round(turn / math.pi)
+    inner = Pose2(0.0, 0.0, turn).to_inner(corners)
+    low = inner.min(axis=0)
+    x, y = Pose2(0.0, 0.0, turn).to_outer(low)
+    return inner - low, Pose2(float(x), float(y), turn)

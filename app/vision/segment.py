@@ -1,0 +1,142 @@
+"""Find the cloth in a picture of a table of unknown colour and texture.
+
+Two ways that know little of each other: where the picture is unlike its border (a threshold), and GrabCut, which finds
+the cut along edges between the colours within and without. How far they agree says how sure the outline is. It is then
+drawn to the strongest edge near it, so that a soft shadow beside the cloth does not count as cloth.
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.vision.background import border_of, unlikeness
+from app.vision.picture import Image
+from app.vision.snap import snapped
+from app.vision.vision_errors import NothingToldError
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.message import Message
+
+Mask = NDArray[np.uint8]
+
+WORKED_WIDTH = 640
+"""The longer side of the picture in which cloth is looked for (pixels)."""
+
+LEAST_SHARE, MOST_SHARE = 0.004, 0.85
+"""Range of the share of a picture that cloth may cover."""
+
+MOST_AT_BORDER = 0.02
+"""Where more of the outline than this share is at the picture's border, the cloth is cut off."""
+
+LEAST_AGREEMENT = 0.80
+"""Where the two ways overlap less, nothing is told."""
+
+_STANDS_OUT = 2.2
+_ROUNDS = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Segmented:
+    """The cloth's outline in a picture.
+
+    Attributes:
+        contour: points along the outline, a pixel or two apart, shape (n, 2), pixels; clockwise as seen.
+        agreement: the overlap of the two ways to find it: what both cover of what at least one does.
+        contrast: how strong the edge along it is (of 255), the median.
+        at_border: the share of the outline at the picture's border.
+    """
+
+    contour: FloatArray
+    agreement: float
+    contrast: float
+    at_border: float
+
+
+def segment(image: Image, outside: BoolArray | None = None) -> Segmented:
+    """Return the outline of the largest piece of cloth.
+
+    Args:
+        image: blue, green, red.
+        outside: which pixels are known not to be cloth; None for none.
+
+    Raises:
+        NothingToldError: nothing stands out from the table.
+    """
+    share = min(1.0, WORKED_WIDTH / max(image.shape[:2]))
+    small = np.asarray(cv2.resize(image, None, fx=share, fy=share, interpolation=cv2.INTER_AREA), np.uint8)
+    other = np.zeros(image.shape[:2], bool) if outside is None else outside
+    away = cv2.resize(other.astype(np.uint8), small.shape[1::-1], interpolation=cv2.INTER_NEAREST) > 0
+    stands_out = _by_threshold(small, away)
+    first = _largest(stands_out, 90)
+    second = _by_grab_cut(small, away, first, stands_out)
+    both = _overlap(first, second)
+    found = second if _is_possible(second) else first
+    if not _is_possible(found):
+        raise NothingToldError(Message.plain("nothing in the picture stands out from the table as a piece of cloth"))
+    outline = (_outline(found) + 0.5) / share - 0.5
+    line, contrast = snapped(image, outline, reach=2.0 / share + 3.0)
+    height, width = image.shape[:2]
+    edge = 2.5 / share
+    at = (line < edge).any(axis=1) | (line[:, 0] > width - edge) | (line[:, 1] > height - edge)
+    return Segmented(line, both, contrast, float(at.mean()))
+
+
+def _by_threshold(image: Image, outside: BoolArray) -> Mask:
+    """Return where the picture is unlike its border."""
+    unlike = unlikeness(image, outside)
+    unlike[outside] = 0.0
+    capped = np.asarray(np.minimum(unlike * 12.0, 255.0), np.uint8)
+    level, _ = cv2.threshold(capped, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
+    return np.asarray(capped > max(min(level, 6.0 * 12.0), _STANDS_OUT * 12.0), np.uint8)
+
+
+def _by_grab_cut(image: Image, outside: BoolArray, first: Mask, stands_out: Mask) -> Mask:
+    """Return what GrabCut makes of a first guess; nothing where the guess is empty.
+
+    What is deep within the guess counts as cloth for certain only where it stands out by itself: a slit does not.
+    """
+    if not _is_possible(first):
+        return np.zeros_like(first)
+    reach = max(3, round(0.03 * max(image.shape[:2])))
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
+    inner = cv2.erode(first, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    labels = np.full(first.shape, cv2.GC_BGD, np.uint8)
+    labels[cv2.dilate(first, disc) > 0] = cv2.GC_PR_BGD
+    labels[first > 0] = cv2.GC_PR_FGD
+    labels[(inner > 0) & (stands_out > 0)] = cv2.GC_FGD
+    thin = border_of(image.shape)
+    labels[(thin & (first == 0)) | outside] = cv2.GC_BGD
+    if not (labels == cv2.GC_FGD).any():
+        labels[first > 0] = cv2.GC_FGD
+    lab = np.asarray(cv2.cvtColor(cv2.GaussianBlur(image, (0, 0), 0.8), cv2.COLOR_BGR2Lab), np.uint8)
+    cv2.setRNGSeed(7)
+    cv2.grabCut(lab, labels, (0, 0, 1, 1), np.zeros((1, 65)), np.zeros((1, 65)), _ROUNDS, cv2.GC_INIT_WITH_MASK)
+    return _largest(((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.uint8), 200)
+
+
+def _largest(mask: Mask, gaps: int) -> Mask:
+    """Return the largest piece of a mask without holes and threads, gaps under 1/`gaps` of its width closed."""
+    size = max(mask.shape)
+    near = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (max(3, size // gaps) | 1,) * 2)
+    thread = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (max(3, size // 110) | 1,) * 2)
+    opened = cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_CLOSE, near), cv2.MORPH_OPEN, thread)
+    contours, _ = cv2.findContours(opened, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    filled = np.zeros_like(mask)
+    if contours:
+        cv2.drawContours(filled, [max(contours, key=cv2.contourArea)], -1, 1, cv2.FILLED)
+    return filled
+
+
+def _overlap(one: Mask, other: Mask) -> float:
+    union = int((one | other).sum())
+    return int((one & other).sum()) / union if union else 0.0
+
+
+def _is_possible(mask: Mask) -> bool:
+    return LEAST_SHARE <= float(mask.mean()) <= MOST_SHARE
+
+
+def _outline(mask: Mask) -> FloatArray:
+    contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    return np.asarray(max(contours, key=cv2.contourArea)[:, 0], np.float64)

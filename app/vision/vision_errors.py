@@ -1,0 +1,33 @@
+"""Errors of a picture that shows no garment that could be told."""
+
+from planner.errors import FieldError, FoldingError
+from planner.message import Message
+
+
+class PictureError(FieldError):
+    """Bad input: the file is no picture that can be read, or what was said beside it is wrong.
+
+    The field is ``file``, ``scale``, ``like`` or ``state_of``.
+    """
+
+
+class NothingToldError(FoldingError):
+    """The picture is good, but what it shows cannot be told.
+
+    Attributes:
+        says: why, as data.
+    """
+
+    def __init__(self, says: Message) -> None:
+        super().__init__(says.text)
+        self.says = says
+
+
+class ScaleNeededError(FoldingError):
+    """Nothing in the picture says how large the garment is."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "nothing in the picture says how large the garment is: lay a sheet of A4 or Letter beside it, or give a "
+            "length, as in 0.60m:longest"
+        )

@@ -1,0 +1,129 @@
+import struct
+
+import cv2
+import numpy as np
+import pytest
+
+from app.vision.picture import read_picture
+from app.vision.scale_said import LengthSaid, MarkerSaid, SheetSaid, read_scale
+from app.vision.seen_garment import Seen, see
+from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
+from bench.table_photo import Look, Photo, photo
+from planner import load_garment
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
+
+BLUE_ON_WOOD = Look((110.0, 150.0, 190.0), (150.0, 70.0, 40.0), tilt_rad=0.25)
+WHITE_ON_LIGHT_WOOD = Look((165.0, 195.0, 215.0), (245.0, 246.0, 247.0), wrinkles=0.1, tilt_rad=0.1)
+DARK_ON_DARK = Look((45.0, 50.0, 55.0), (75.0, 40.0, 35.0), wood=0.2, noise=3.0)
+PATTERNED = Look((80.0, 110.0, 90.0), (60.0, 60.0, 190.0), pattern="checks", tilt_rad=0.3)
+
+
+def ring(name: str = "t-shirt", yaw_rad: float = 0.4) -> FloatArray:
+    outline = np.array(load_garment(name).outline)
+    return Pose2(0.0, 0.0, yaw_rad).to_outer(outline - (outline.min(axis=0) + outline.max(axis=0)) / 2.0)
+
+
+def picture(look: Look, name: str = "t-shirt", **beside: object) -> Photo:
+    return photo([ring(name)], look, 5, **beside)  # type: ignore[arg-type]
+
+
+def size(seen: Seen) -> float:
+    return Region.polygon(seen.garment.outline).length
+
+
+@pytest.mark.parametrize("look", [BLUE_ON_WOOD, WHITE_ON_LIGHT_WOOD, DARK_ON_DARK, PATTERNED])
+def test_a_t_shirt_beside_a_sheet_is_seen_with_its_corners_and_its_size(look: Look):
+    seen = see(picture(look, sheet=(0.62, -0.3, 0.4)).jpeg, "shirt", "a4")
+    assert seen.sure.unknown is None, seen.sure
+    assert 9 <= len(seen.garment.outline) <= 11
+    assert size(seen) == pytest.approx(Region.polygon(ring()).length, rel=0.03)
+    assert seen.scale_from == "a4" and seen.frame == "sheet"
+
+
+def test_a_marker_gives_the_scale_and_the_frame_too():
+    seen = see(picture(BLUE_ON_WOOD, "jeans", marker=(0.5, 0.2, 0.6, 0.15)).jpeg, "jeans", "marker:150mm")
+    assert size(seen) == pytest.approx(Region.polygon(ring("jeans")).length, rel=0.04)
+    middle = Pose2(0.5, 0.2, 0.6).to_inner(ring("jeans")).mean(axis=0)
+    lies = seen.placement.to_outer(np.array(seen.garment.outline)).mean(axis=0)
+    assert lies == pytest.approx(middle, abs=0.03)
+
+
+def test_one_length_gives_the_scale_of_a_picture_from_straight_above():
+    straight = Look((110.0, 150.0, 190.0), (150.0, 70.0, 40.0), tilt_rad=0.0)
+    seen = see(picture(straight, "hand-towel").jpeg, "towel", "0.9m:longest")
+    corners = np.array(seen.garment.outline)
+    assert np.hypot(*(corners[:, None] - corners).transpose(2, 0, 1)).max() == pytest.approx(0.9, rel=0.02)
+    assert len(corners) == 4
+
+
+def test_without_anything_of_known_size_the_scale_is_asked_for():
+    with pytest.raises(ScaleNeededError, match="A4 or Letter"):
+        see(picture(BLUE_ON_WOOD).jpeg, "shirt", None)
+
+
+def test_an_empty_table_shows_no_garment():
+    with pytest.raises(NothingToldError):
+        see(photo([], BLUE_ON_WOOD, 3).jpeg, "nothing", "0.5m")
+
+
+def test_a_garment_that_runs_out_of_the_picture_is_doubted():
+    whole = picture(BLUE_ON_WOOD).image
+    _, cut = cv2.imencode(".png", whole[:640])
+    assert see(cut.tobytes(), "half", "0.5m").sure.unknown.code == "cut_off"
+
+
+@pytest.mark.parametrize(
+    ("said", "read"),
+    [
+        ("a4", SheetSaid("a4")),
+        ("Letter", SheetSaid("letter")),
+        ("marker:50mm", MarkerSaid(0.05)),
+        ("0.60m", LengthSaid(0.6, "longest")),
+        ("24in:width", LengthSaid(24 * 0.0254, "width")),
+        ("500 mm:height", LengthSaid(0.5, "height")),
+    ],
+)
+def test_a_scale_is_read(said: str, read: object):
+    assert read_scale(said) == read
+
+
+@pytest.mark.parametrize("said", ["", "0.6", "a5", "0m", "1e9m", "marker:2m", "nanm", "-1m", "0.6m:depth", "٣m"])
+def test_a_scale_that_is_none_is_refused(said: str):
+    with pytest.raises(PictureError) as refused:
+        read_scale(said)
+    assert refused.value.field == "scale"
+
+
+JPEG = cv2.imencode(".jpg", np.full((200, 300, 3), 90, np.uint8))[1].tobytes()
+PNG = cv2.imencode(".png", np.full((200, 300, 3), 90, np.uint8))[1].tobytes()
+HUGE = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + b"IHDR" + struct.pack(">II", 60_000, 60_000) + PNG[24:]
+
+
+@pytest.mark.parametrize(
+    ("data", "why"),
+    [
+        (b"", "empty"),
+        (b"\0\0\0\x18ftypheic" + b"\0" * 50, "HEIC"),
+        (b"RIFF\0\0\0\0WEBP" + b"\0" * 50, "WebP"),
+        (b"GIF89a" + b"\0" * 50, "GIF"),
+        (b"<svg/>", "no kind that is known"),
+        (JPEG[: len(JPEG) // 2], "damaged or cut off"),
+        (PNG[: len(PNG) // 2], "damaged or cut off"),
+        (PNG[:20], "damaged"),
+        (JPEG[:12], "damaged or cut off"),
+        (HUGE, "60000 by 60000 pixels"),
+        (cv2.imencode(".png", np.zeros((20, 20, 3), np.uint8))[1].tobytes(), "20 by 20 pixels"),
+    ],
+)
+def test_a_file_that_is_no_picture_is_refused_by_what_is_wrong(data: bytes, why: str):
+    with pytest.raises(PictureError, match=why) as refused:
+        read_picture(data)
+    assert refused.value.field == "file"
+
+
+def test_a_jpeg_is_turned_upright_as_its_exif_says():
+    exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"
+    turned = JPEG[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + JPEG[2:]
+    assert read_picture(JPEG).shape[:2] == (200, 300)
+    assert read_picture(turned).shape[:2] == (300, 200)
