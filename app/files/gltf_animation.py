@@ -7,7 +7,7 @@ animated scale shows one at a time.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 
@@ -66,7 +66,7 @@ _BOX_TRIANGLES = (4 * np.arange(6)[:, None, None] + np.array([[0, 1, 2], [0, 2, 
 def _robot(writer: GltfWriter, world: int, plan: Plan, path: Trajectory, card: RobotCard) -> None:
     root = _base(writer, world, path, -plan.scene.table.height_m)
     nodes: dict[str, int] = {"": root}
-    materials: dict[Rgb, int] = {}
+    meshes: dict[Hashable, int] = {}
     tracks = _tracks(path)
     times = {name: writer.numbers(at, is_bounded=True) for name, (at, _) in tracks.items()}
     still = card.still_values(path.torso_m) | path.resting
@@ -75,7 +75,7 @@ def _robot(writer: GltfWriter, world: int, plan: Plan, path: Trajectory, card: R
         at_rest = link.pose_at(float(tracks[joint][1][0]) if joint in tracks else still.get(joint, 0.0))
         above = nodes[link.node.rpartition("/")[0]]
         node = nodes[link.node] = writer.node(link.name, above, at_rest.position, at_rest.wxyz)
-        _visuals(writer, node, link, materials)
+        _visuals(writer, node, link, meshes)
         if joint in tracks:
             _move(writer, node, link, times[joint], tracks[joint][1])
 
@@ -103,19 +103,20 @@ def _base(writer: GltfWriter, world: int, path: Trajectory, floor_m: float) -> i
     return root
 
 
-def _visuals(writer: GltfWriter, node: int, link: Link, materials: dict[Rgb, int]) -> None:
+def _visuals(writer: GltfWriter, node: int, link: Link, meshes: dict[Hashable, int]) -> None:
+    """Add a link's visuals; those that look alike, as both arms' do, share one mesh."""
     colour = link_colour(link.name, LIGHT)
     for number, visual in enumerate(link.visuals):
-        if colour not in materials:
-            materials[colour] = writer.material(f"robot {len(materials)}", colour)
-        part = writer.part(
-            writer.numbers(visual.vertices, is_bounded=True),
-            writer.indices(visual.triangles),
-            materials[colour],
-            writer.numbers(_normals(visual)),
-        )
-        name, pose = f"{link.name} visual {number}", visual.pose
-        writer.node(name, node, pose.position, pose.wxyz, mesh=writer.mesh([part]))
+        key = (colour, visual.vertices.tobytes(), visual.triangles.tobytes())
+        if key not in meshes:
+            meshes[key] = _mesh(writer, visual, colour)
+        writer.node(f"{link.name} visual {number}", node, visual.pose.position, visual.pose.wxyz, mesh=meshes[key])
+
+
+def _mesh(writer: GltfWriter, visual: Visual, colour: Rgb) -> int:
+    positions = writer.numbers(visual.vertices, is_bounded=True)
+    material, normals = writer.material("robot", colour), writer.numbers(_normals(visual))
+    return writer.mesh([writer.part(positions, writer.indices(visual.triangles), material, normals)])
 
 
 def _normals(visual: Visual) -> FloatArray:

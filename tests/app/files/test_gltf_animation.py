@@ -128,5 +128,11 @@ def test_keyframes_turn_the_short_way(player: Player):
             assert all(first @ second > 0.0 for first, second in pairwise(turns))
 
 
+def test_arms_that_look_alike_share_their_meshes(player: Player):
+    nodes = {node.name: node for node in player.gltf.nodes}
+    left, right = nodes["l_forearm_link visual 0"], nodes["r_forearm_link visual 0"]
+    assert left.mesh is not None and left.mesh == right.mesh
+
+
 def test_a_film_that_is_stopped_is_empty():
     assert animation_glb(PLAN, lambda: True) == b""
