@@ -1,5 +1,6 @@
 """The task of a robot that is asked without a scene, or with a part of one: what is left out is what its card says."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Unpack
@@ -9,10 +10,14 @@ import numpy as np
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError
 from planner.geometry.pose import Pose2
+from planner.geometry.table import Table
 from planner.robots.card_file import CardFile
 from planner.robots.load_robot import robot_card_file
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
+
+_DECIMALS = 6
+"""Overhangs that are equal to a micrometre count as equal."""
 
 
 def default_scene(robot: str = DEFAULT_ROBOT) -> Scene:
@@ -62,15 +67,30 @@ def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
     """Return where an article lies at the start for a robot, table frame.
 
     It is the garment's own placement for the default robot, for whose table garments are made. For another robot the
-    middle of the bounding box lies where the card says, turned as the garment's own placement and the card say.
+    middle of the bounding box lies where the card says, turned as the garment's own placement and the card say, or by
+    quarter turns from there if less of it hangs over the table's edges then.
     """
     if robot == DEFAULT_ROBOT:
         return garment.placement
-    suits = robot_card_file(robot).scene.placement
+    suits = robot_card_file(robot).scene
+    usual_rad = garment.placement.yaw_rad + suits.placement.yaw_rad
+    turned = (_middle_at(garment, suits.placement, usual_rad + turn * math.pi / 2) for turn in (0, 1, -1, 2))
+    return min(turned, key=lambda placed: round(_overhang_m(garment, placed, suits.table), _DECIMALS))
+
+
+def _middle_at(garment: Garment, place: Pose2, yaw_rad: float) -> Pose2:
+    """Return the placement with the middle of the bounding box at a place and a given yaw."""
     x0, y0, x1, y1 = garment.pattern.bounds
-    turned = Pose2(0.0, 0.0, garment.placement.yaw_rad + suits.yaw_rad)
+    turned = Pose2(0.0, 0.0, yaw_rad)
     x_m, y_m = turned.to_outer(np.array([0.5 * (x0 + x1), 0.5 * (y0 + y1)])).tolist()
-    return turned.moved(suits.x_m - x_m, suits.y_m - y_m)
+    return turned.moved(place.x_m - x_m, place.y_m - y_m)
+
+
+def _overhang_m(garment: Garment, placed: Pose2, table: Table) -> float:
+    """Return how far the outline reaches beyond the table's edges (m), the sum of both directions."""
+    corners = np.abs(placed.to_outer(np.array(garment.outline))).max(axis=0)
+    beyond = np.maximum(corners - np.array([table.depth_m / 2, table.width_m / 2]), 0.0)
+    return float(beyond.sum())
 
 
 def task_for(garment: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Task:

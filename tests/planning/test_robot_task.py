@@ -8,6 +8,7 @@ import pytest
 from planner import Scene, load_garment
 from planner.errors import RequestError
 from planner.planning.robot_task import default_placement, default_scene, task_for, with_robots_scene
+from tests.builders import garment
 
 
 def test_the_default_robot_has_the_default_scene():
@@ -32,6 +33,12 @@ def test_an_article_lies_in_the_middle_of_another_robots_table_turned_as_drawn()
     corners = placed.to_outer(np.array(shirt.outline))
     np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, [0.0, 0.0], atol=1e-12)
     assert placed.yaw_rad == shirt.placement.yaw_rad
+
+
+def test_an_article_that_is_longer_than_the_table_is_deep_lies_across_it():
+    tie = garment([(0.0, 0.0), (0.1, 0.0), (0.1, 0.95), (0.0, 0.95)])
+    corners = default_placement(tie, "ur5e-pair").to_outer(np.array(tie.outline))
+    assert np.ptp(corners[:, 1]) == pytest.approx(0.95)
 
 
 def test_an_article_lies_for_the_default_robot_where_its_file_says():
