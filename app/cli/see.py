@@ -7,7 +7,19 @@ from typing import Annotated
 
 import typer
 
-from app.cli.program import NO_PLAN, STANDARD_OUTPUT, JsonOption, blaming, cli, errors, failure, output, write_json
+from app.cli.program import (
+    NO_PLAN,
+    STANDARD_OUTPUT,
+    JsonOption,
+    blaming,
+    cli,
+    errors,
+    failure,
+    garment_of,
+    output,
+    write_json,
+)
+from app.templates.catalogue import find_template
 from app.vision.picture import LARGEST_PICTURE
 from app.vision.seen_garment import Seen
 from app.vision.seen_garment import see as see_garment
@@ -25,14 +37,23 @@ def see(
             "garment: 0.60m:longest, 24in:width, 70cm:height. Without it a sheet of A4 or Letter is looked for.",
         ),
     ] = None,
+    like: Annotated[
+        str | None,
+        typer.Option(
+            metavar="GARMENT|TEMPLATE",
+            help="What it is like: a template's measures, or a garment's width and height, are fitted, and its folds "
+            "brought along.",
+        ),
+    ] = None,
     json_to: JsonOption = None,
 ) -> None:
     """Read a garment from a picture: its outline, where it lies, how sure that is.
 
     Exit status: 0 read; 2 bad input, or no scale; 3 nothing can be told from the picture.
     """
+    kind = None if like is None else find_template(like) or garment_of(like)
     with telling(image):
-        found = see_garment(picture_file(image), image.stem, scale)
+        found = see_garment(picture_file(image), image.stem, scale, kind)
     write_json(found.to_dict(), json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(_told(found))

@@ -1,20 +1,24 @@
 """A garment seen in a picture: its outline, where it lies, and how sure that is."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from app.files.sketch_garment import plain_name
+from app.vision.like import Like, liken
 from app.vision.on_table import OnTable, outline_on_table
 from app.vision.picture import read_picture
 from app.vision.scale_said import read_scale
 from app.vision.stack_fit import pose_json, unknown_json
-from app.vision.straighten import Straightened, straighten
+from app.vision.straighten import Straightened, near_m, straighten
 from app.vision.symmetry import find_mirror, symmetric
 from app.vision.vision_errors import NothingToldError
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
 from planner.message import Message
 
 
@@ -80,13 +84,15 @@ class Seen:
         }
 
 
-def see(data: bytes, name: str, scale: str | None) -> Seen:
+def see(data: bytes, name: str, scale: str | None, like: Like | None = None) -> Seen:
     """Return the garment that a picture shows.
 
     Args:
         data: a PNG or JPEG.
         name: the garment's title.
         scale: what gives the scale, as `read_scale` takes it; None to look for a sheet of paper.
+        like: what the garment is like: its measures are fitted, and its folds brought along; None to take the outline
+            as it is seen.
 
     Raises:
         PictureError: the file is no picture that can be read, or the scale is not one.
@@ -94,7 +100,8 @@ def see(data: bytes, name: str, scale: str | None) -> Seen:
         ScaleNeededError: nothing says how large it is.
     """
     said = None if scale is None else read_scale(scale)
-    return _drawn(outline_on_table(read_picture(data), said), name)
+    seen = outline_on_table(read_picture(data), said)
+    return _drawn(seen, name) if like is None else _likened(seen, name, like)
 
 
 def _drawn(seen: OnTable, title: str) -> Seen:
@@ -123,6 +130,21 @@ def _drawn(seen: OnTable, title: str) -> Seen:
         text = f"what stands out from the table has no outline that a garment may have: {error.message}"
         raise NothingToldError(seen.doubt or Message.plain(text)) from None
     return Seen(garment, placement, seen.frame, seen.scale_from, sure, tuple(notes))
+
+
+def _likened(seen: OnTable, title: str, like: Like) -> Seen:
+    """Return a known kind of garment that fits the outline seen."""
+    found = liken(seen.contour, like)
+    within_m = near_m(Region.polygon(seen.contour).length)
+    share = float((np.abs(found.distances) <= within_m).mean())
+    doubt = seen.doubt
+    if doubt is None and share < _LEAST_SHARE:
+        text = f"only {share:.0%} of the outline lie within {within_m:.3f} m of what it should be like"
+        doubt = Message("likeness_does_not_fit", text, {"share": share, "within_m": within_m})
+    sure = Sure(share, within_m, seen.seen.agreement, seen.size_error, doubt)
+    garment = replace(found.garment, name=plain_name(title), title=title)
+    note = Message.plain(f"the outline is that of {like.title}, fitted to what was seen; its folds were taken along")
+    return Seen(garment, found.placement, seen.frame, seen.scale_from, sure, (note,))
 
 
 _LEAST_SHARE = 0.85

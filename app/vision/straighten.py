@@ -37,7 +37,7 @@ def straighten(contour: FloatArray) -> Straightened:
     """Return the figure with the fewest straight edges that fits an outline seen, points in order, shape (n, 2), m."""
     ring = contour if _area(contour) > 0 else contour[::-1]
     length = Region.polygon(ring).length
-    within_m = _NEAR[0] + _NEAR[1] * length
+    within_m = near_m(length)
     best: Straightened | None = None
     for share in TOLERANCES:
         corners = _lined_up(ring, _corners(ring, share * length), length)
@@ -50,6 +50,11 @@ def straighten(contour: FloatArray) -> Straightened:
         if best.share >= _GOOD_SHARE:
             break
     return Straightened(ring[_corners(ring, 0.01 * length)], within_m, 0.0) if best is None else best
+
+
+def near_m(length: float) -> float:
+    """Return how near to the outline of a figure of some length a point counts as on it (m)."""
+    return _NEAR[0] + _NEAR[1] * length
 
 
 def _corners(ring: FloatArray, tolerance_m: float) -> FloatArray:

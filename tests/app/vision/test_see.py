@@ -4,6 +4,9 @@ import cv2
 import numpy as np
 import pytest
 
+from app.templates.catalogue import find_template
+from app.vision.like import Like, liken
+from app.vision.outline_edges import OutlineEdges
 from app.vision.picture import read_picture
 from app.vision.scale_said import LengthSaid, MarkerSaid, SheetSaid, read_scale
 from app.vision.seen_garment import Seen, see
@@ -55,6 +58,16 @@ def test_one_length_gives_the_scale_of_a_picture_from_straight_above():
     corners = np.array(seen.garment.outline)
     assert np.hypot(*(corners[:, None] - corners).transpose(2, 0, 1)).max() == pytest.approx(0.9, rel=0.02)
     assert len(corners) == 4
+
+
+@pytest.mark.parametrize(("name", "like"), [("t-shirt", find_template("t-shirt")), ("jeans", load_garment("jeans"))])
+def test_what_is_like_a_known_garment_has_its_corners_and_its_folds(name: str, like: Like):
+    contour = 1.15 * Pose2(0.1, 0.2, 2.0).to_outer(OutlineEdges.of(load_garment(name).pattern).spaced(500))
+    found = liken(contour, like)
+    assert len(found.garment.outline) == len(load_garment(name).outline)
+    assert len(found.garment.folds) == len(load_garment(name).folds)
+    assert found.garment.pattern.length == pytest.approx(1.15 * load_garment(name).pattern.length, rel=0.01)
+    assert np.abs(found.distances).max() < 0.005
 
 
 def test_without_anything_of_known_size_the_scale_is_asked_for():
