@@ -165,9 +165,11 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
         if arm.speeds is None and not 0.0 < model.velocityLimit[joint.idx_v] < np.inf:
             raise RobotError("speeds", f"the URDF gives joint {name!r} no speed, so the card must")
     _joint(model, arm.gripper.drive.joint, "gripper.drive.joint")
-    if not model.existFrame(arm.tool.link):
+    named = [frame for frame in model.frames if frame.name == arm.tool.link]
+    if not named:
         raise RobotError("tool.link", f"the URDF has no link or frame {arm.tool.link!r}")
-    frame = model.frames[model.getFrameId(arm.tool.link)]
+    # A joint may be called as its link is.
+    frame = next((frame for frame in named if frame.type == pin.FrameType.BODY), named[0])
     if frame.parentJoint != model.getJointId(arm.joints[-1]):
         carrier = model.names[frame.parentJoint]
         raise RobotError("tool.link", f"{arm.tool.link!r} is carried by {carrier!r}, not by {arm.joints[-1]!r}")

@@ -100,7 +100,8 @@ class Hulls:
             drive, share = arm.gripper.drive, opening_m / arm.gripper.opening_max_m
             assert not isinstance(drive, ParallelogramDrive)
             value = drive.closed + share * (drive.opened - drive.closed)
-            values |= {drive.joint: value} | dict(_mimicking(self.robot.urdf, drive.joint, value))
+            moved = {drive.joint: value} | dict(_mimicking(self.robot.urdf, drive.joint, value))
+            values |= {name: at for name, at in moved.items() if self.model.existJointName(name)}
         return values
 
     def touching(self, values: Mapping[str, float], base: Pose2) -> np.ndarray:

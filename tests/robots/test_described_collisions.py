@@ -95,9 +95,10 @@ BENCH = """<robot name="slides">
 ROD = '<box size="0.35 0.06 0.06"/>'
 
 
-def bench(folder: Path, rod: str = ROD) -> DescribedRobot:
+def bench(folder: Path, rod: str = ROD, bend: str = "bend") -> DescribedRobot:
     """Return three of these arms, .6 m apart, 1 m high and .6 m before the table's middle; the last only bends."""
-    (folder / "slides.urdf").write_text(BENCH.format(rod=rod))
+    text = BENCH.format(rod=rod).replace('joint name="bend"', f'joint name="{bend}"')
+    (folder / "slides.urdf").write_text(text)
     arms = [
         {
             "name": name,
@@ -109,7 +110,7 @@ def bench(folder: Path, rod: str = ROD) -> DescribedRobot:
                 **{"opening_max_m": 0.08, "finger_length_m": 0.05, "finger_width_m": 0.06, "finger_thickness_m": 0.01},
             },
         }
-        for name, joints in (("port", ("slide", "bend")), ("middle", ("slide", "bend")), ("lee", ("bend",)))
+        for name, joints in (("port", ("slide", bend)), ("middle", ("slide", bend)), ("lee", (bend,)))
     ]
     card = {
         "pleat_robot": 1,
@@ -149,6 +150,11 @@ def test_arms_of_different_joints_meet_where_their_sliders_do(tmp_path):
     last = np.array([[0.0, 0.0, 0.52, 0.0, 0.0]])
     assert asked.arms_apart((0, 1), last[:, :4]).tolist() == [True]
     assert asked.arms_apart((1, 2), last[:, 2:]).tolist() == [False]
+
+
+def test_a_joint_may_be_called_as_its_link_is(tmp_path):
+    robot = bench(tmp_path, bend="rod")
+    assert described_parts(robot, tmp_path).names[:3] == ("port slider", "port rod", "port fingers")
 
 
 def test_postures_of_two_arms_are_apart_as_they_are_pair_by_pair(tmp_path):

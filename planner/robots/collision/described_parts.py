@@ -25,7 +25,7 @@ from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
 from planner.robots.described_robot import DescribedRobot
 
-_FORMAT = 1
+_FORMAT = 2
 """Version of the cache; raise it whenever parts or pairs are made or stored differently."""
 
 

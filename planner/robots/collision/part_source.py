@@ -73,10 +73,11 @@ def _parts(robot: DescribedRobot, skeleton: Skeleton, carrier: Carrier, shapes: 
         return
     clouds = [skeleton.points(shape) for shape in shapes]
     for cluster in clusters(clouds, OF_BODY_MAX if carrier.arm == BODY else OF_JOINT_MAX):
-        of_cluster = [shapes[number] for number in cluster.members]
+        of_cluster = [shapes[number] for number in cluster]
+        points = hull_corners(np.vstack([clouds[number] for number in cluster]))
         name = _name(robot, carrier, of_cluster[0].link)
-        is_tip = carrier.arm != BODY and _reaches_tool(robot, carrier, cluster.points)
-        hull = rounded_hull(cluster.points, TIPS_ROUNDING_MAX_M if is_tip else _rounding_m(cluster.points))
+        is_tip = carrier.arm != BODY and _reaches_tool(robot, carrier, points)
+        hull = rounded_hull(points, TIPS_ROUNDING_MAX_M if is_tip else _rounding_m(points))
         yield Part(name, carrier, (hull,) * len(SHARES), is_tip, _solids(skeleton, of_cluster))
 
 

@@ -51,8 +51,8 @@ class Skeleton:
         self.model = pin.buildModelFromXML(robot.urdf)
         self.frames = tuple(_frames(arm) for arm in robot.arms)
         self._arms, self._lift = robot.arms, robot.card.lift
-        moving = [name for arm in robot.arms for name in arm.card.joints]
-        self._q = at_rest(self.model, dict(robot.card.resting), moving)
+        self._moving = frozenset(name for arm in robot.arms for name in arm.card.joints)
+        self._q = at_rest(self.model, dict(robot.card.resting), sorted(self._moving))
         self._places = self._at(self._q)
         self._mimics = _mimics(robot.urdf)
 
@@ -108,10 +108,13 @@ class Skeleton:
         return [*data.oMi]
 
     def _fingers(self, gripper: GripperFile) -> dict[str, tuple[float, float]]:
-        """Return the joints that a gripper moves, each with its factor and offset."""
+        """Return the joints that a gripper moves, none of an arm or fixed, each with its factor and offset."""
         driver = gripper.drive.joint
-        return {driver: (1.0, 0.0)} | {
+        found = {driver: (1.0, 0.0)} | {
             name: (factor, offset) for name, (driven_by, factor, offset) in self._mimics.items() if driven_by == driver
+        }
+        return {
+            name: how for name, how in found.items() if self.model.existJointName(name) and name not in self._moving
         }
 
 
