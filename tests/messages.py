@@ -132,6 +132,19 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "delete_corner"},
     {"code": "start_at", "station": "front_left"},
     {"code": "take_back", "step": "Move vertex"},
+    {"code": "corners_seen", "corners": 10},
+    {"code": "made_symmetric", "off_m": 0.0021},
+    {"code": "edges_do_not_fit", "share": 0.8, "within_m": 0.01},
+    {"code": "likeness_does_not_fit", "share": 0.7, "within_m": 0.01},
+    {"code": "cut_off", "share": 0.1},
+    {"code": "ways_disagree", "agreement": 0.5, "least": 0.8},
+    {"code": "faint_edge", "contrast": 2.5},
+    {"code": "size_uncertain", "share": 0.12},
+    {"code": "scale_needed"},
+    {"code": "picture_size", "size": [20, 30], "sides": [160, 12000], "most": 50000000},
+    {"code": "seen_does_not_fit", "share": 0.4, "residual_m": 0.02},
+    {"code": "too_little_seen", "share": 0.3},
+    {"code": "too_uncertain", "error_m": 0.03},
 ]
 
 

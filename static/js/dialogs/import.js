@@ -1,4 +1,4 @@
-/** `Import`: a garment file, a plan file, an SVG or a DXF, chosen or dropped on the page. */
+/** `Import`: a garment file, a plan file, an SVG, a DXF or a picture, chosen or dropped on the page. */
 
 import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
@@ -12,7 +12,7 @@ import { picture } from "./picture.js";
 /** @import { Told } from "../messages/in_words.js" */
 /** @import { Store } from "../store.js" */
 
-const KINDS = ".json,.svg,.dxf";
+const KINDS = ".json,.svg,.dxf,.png,.jpg,.jpeg";
 const UNITS = ["mm", "cm", "m", "in"];
 /** @typedef {NonNullable<Imported["creases"]>} Creases */
 /** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
@@ -65,7 +65,8 @@ function ask(store, body, problem = "") {
       "p",
       "dialog-text",
       "A garment or a plan of Pleat (.json), a drawing (.svg) or a pattern (.dxf). In drawings the closed path is the " +
-        "outline, and blue and red lines are folds.",
+        "outline, and blue and red lines are folds. Or a picture (.png, .jpg) of a garment on a table, a sheet of A4 or " +
+        "Letter beside it.",
     ),
     said,
   );
@@ -73,7 +74,7 @@ function ask(store, body, problem = "") {
 
 /**
  * What is to be said beside the file to read it; without it the file says so itself.
- * @typedef {{units?: string, scale?: number, creases?: Creases}} How
+ * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string}} How
  */
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
@@ -84,6 +85,7 @@ async function read(store, body, file, how) {
   const answer = await fetch(`../api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
   const told = answer ? await answer.json() : null;
   if (answer?.ok) found(store, body, file, how, told);
+  else if (told?.errors?.[0]?.field === "measured") askLength(store, body, file, how, inWords(told.errors[0], []));
   else if (told?.sizes) askSize(store, body, file, how, told.sizes, inWords(told.errors[0], []));
   else ask(store, body, told ? `${file.name}: ${sentenceOf(told)}` : OFFLINE);
 }
@@ -123,6 +125,37 @@ function askSize(store, body, file, how, sizes, why) {
     element("p", "dialog-text", `${file.name}: ${why}.`),
     element("p", "dialog-text", "How large is the garment?"),
     element("div", "unit-choices", ...choices),
+    form,
+    said,
+  );
+}
+
+/**
+ * How long the garment in a picture is, where nothing in it tells.
+ * @param {Store} store
+ * @param {HTMLElement} body
+ * @param {File} file
+ * @param {How} how
+ * @param {string} why
+ */
+function askLength(store, body, file, how, why) {
+  const said = element("p", "dialog-problem");
+  said.setAttribute("role", "alert");
+  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
+  input.autocomplete = "off";
+  const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
+  const label = element("label", "measure", element("span", "measure-name", "From end to end"), input);
+  label.append(element("span", "measure-unit", unit.name));
+  form.append(label, element("button", "plain-button", "Use this length"));
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    said.textContent = problemOf(input.value, LEAST_M);
+    const length_m = (parsed(input.value) ?? 0).toFixed(6);
+    if (!said.textContent) read(store, body, file, { ...how, measured: `${length_m}m:longest` });
+  });
+  body.replaceChildren(
+    element("p", "dialog-text", `${file.name}: ${why}.`),
+    element("p", "dialog-text", "How long is the garment?"),
     form,
     said,
   );

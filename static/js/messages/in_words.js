@@ -6,6 +6,7 @@
 import { CHANGES } from "./changes.js";
 import { DRAWING } from "./drawing.js";
 import { files } from "./files.js";
+import { PICTURES } from "./pictures.js";
 import { REASONS } from "./reasons.js";
 
 /** @import { Says } from "pleat" */
@@ -15,7 +16,7 @@ import { REASONS } from "./reasons.js";
 /** @typedef {{[code: string]: (says: any, folds: Named[]) => string}} Catalogue */
 
 /** @type {Catalogue} */
-const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES, ...files(inWords) };
+const CATALOGUE = { ...DRAWING, ...REASONS, ...CHANGES, ...PICTURES, ...files(inWords) };
 
 /**
  * A message without a capital in front and a full stop behind. One that has no numbers comes as its sentence alone.
