@@ -3,6 +3,9 @@
 All answers are held as three arrays: which value of each varied axis a cell has, its status, its cost.
 """
 
+import math
+from array import array
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -72,13 +75,17 @@ class Findings:
         every = study.all_axes
         self._kept = [n for n, axis in enumerate(every) if n == 0 or len(axis.values) > 1]
         self.axes: Sequence[Axis] = [every[n] for n in self._kept]
-        rows = [(cell, row["status"], row["cost_s"], row["reason_codes"]) for cell, row, _ in results.rows()]
-        self.cells = np.array([row[0] for row in rows], dtype=np.int64)
-        self.status = np.array([STATUSES.index(row[1]) for row in rows], dtype=np.int8)
-        self.cost_s: FloatArray = np.array([np.nan if row[2] is None else row[2] for row in rows])
-        codes, counts = np.unique([code for row in rows for code in (row[3] or "").split()], return_counts=True)
-        found = zip(codes.tolist(), counts.tolist(), strict=True)
-        self.reasons: Sequence[tuple[str, int]] = sorted(found, key=lambda pair: (-pair[1], pair[0]))
+        cells, status, cost_s = array("q"), array("b"), array("d")
+        reasons: Counter[str] = Counter()
+        for cell, row, _ in results.rows():
+            cells.append(cell)
+            status.append(STATUSES.index(row["status"]))
+            cost_s.append(math.nan if row["cost_s"] is None else row["cost_s"])
+            reasons.update((row["reason_codes"] or "").split())
+        self.cells: NDArray[np.int64] = np.array(cells)
+        self.status: NDArray[np.int8] = np.array(status)
+        self.cost_s: FloatArray = np.array(cost_s)
+        self.reasons: Sequence[tuple[str, int]] = sorted(reasons.items(), key=lambda pair: (-pair[1], pair[0]))
 
     @cached_property
     def is_solved(self) -> BoolArray:
