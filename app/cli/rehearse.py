@@ -1,5 +1,6 @@
 """``pleat rehearse``: perform a plan in simulated worlds, and judge every step."""
 
+from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -21,14 +22,34 @@ from app.cli.program import (
 from app.rehearsal.rehearse import RehearsalOptions, rehearse
 from app.rehearsal.result import RehearsalResult
 from app.step_words import step_words
-from planner import Plan, Task, make_plan
+from planner import Plan, make_plan
+from planner.errors import RequestError
+from planner.planning.robot_task import task_for
+from planner.task.task import DEFAULT_ROBOT
+
+
+class NoiseName(StrEnum):
+    """The errors of a rehearsal."""
+
+    NONE = "none"
+    REAL = "real"
+
+
+class Switch(StrEnum):
+    """Whether something is done."""
+
+    ON = "on"
+    OFF = "off"
 
 
 @cli.command("rehearse")
 def rehearse_command(
     source: SourceArgument,
+    robot: Annotated[str | None, typer.Option(help="The robot, for a garment.", show_default=DEFAULT_ROBOT)] = None,
     runs: Annotated[int, typer.Option(help="How often the plan is performed.")] = 1,
     seed: Annotated[int, typer.Option(help="The seed of the first run; each after it has the next.")] = 0,
+    noise: Annotated[NoiseName, typer.Option(help="The errors of robot, cloth and camera.")] = NoiseName.NONE,
+    feedback: Annotated[Switch, typer.Option(help="Look before each step, and correct it.")] = Switch.ON,
     json_to: JsonOption = None,
 ) -> None:
     """Perform a plan in simulated physics, and say of every step whether it holds.
@@ -36,9 +57,11 @@ def rehearse_command(
     Exit status: 0 where all runs held, 3 where not, or where there is no plan.
     """
     with blaming(source):
-        options = RehearsalOptions(runs, seed)
+        options = RehearsalOptions(runs, seed, noise.value, feedback is Switch.ON)
         found = load_source(source)
-        plan = found if isinstance(found, Plan) else make_plan(Task.of(found))
+        if isinstance(found, Plan) and robot not in (None, found.task.robot):
+            raise RequestError("robot", f"the plan is one for {found.task.robot}")
+        plan = found if isinstance(found, Plan) else make_plan(task_for(found, robot=robot or DEFAULT_ROBOT))
         if not plan.is_solved:
             errors.print(f"{source}: the plan is {plan.status}, so there is nothing to rehearse")
             raise typer.Exit(NO_PLAN)
@@ -60,7 +83,7 @@ def _table(plan: Plan, result: RehearsalResult) -> Table:
     for name in ("step", "what", "overlap", "mean [mm]", "95 % [mm]", "slid [mm]", "verdict"):
         table.add_column(name, justify="left" if name in ("what", "verdict") else "right")
     for verdict in result.runs[0].steps:
-        what = step_words(plan.steps[verdict.step], plan.garment)
+        what = "" if result.runs[0].count("replanned") else step_words(plan.steps[verdict.step], plan.garment)
         empty = f", {' and '.join(verdict.empty)} found no cloth" if verdict.empty else ""
         numbers = (f"{number:.1f}" for number in (verdict.mean_mm, verdict.p95_mm, verdict.slid_mm))
         told = ("held" if verdict.held else "lost") + empty

@@ -3,12 +3,14 @@
 from collections.abc import Mapping
 
 from app.job_kinds.placements import PLACEMENTS
+from app.job_kinds.rehearsals import REHEARSALS
 from app.job_kinds.studies import STUDIES
 from app.job_kinds.suggestions import SUGGESTIONS
 from app.jobs.job_kind import AnyKind
 
 _ALL: tuple[AnyKind, ...] = (
     PLACEMENTS,
+    REHEARSALS,
     STUDIES,
     SUGGESTIONS,
 )

@@ -1,5 +1,6 @@
 """Judge a step: how far the cloth is from where the plan has it."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -81,11 +82,6 @@ class Slide:
     slid_m: float
     turned_rad: float
 
-    def carried(self, placement: Pose2) -> Pose2:
-        """Return a placement of the article frame carried along."""
-        x, y = self.isometry.apply_point((placement.x_m, placement.y_m))
-        return Pose2(x, y, placement.yaw_rad + self.turned_rad)
-
 
 def slide_of(planned: FloatArray, found: FloatArray) -> Slide:
     """Return the turn and shift that bring points nearest to where they are, by least squares; shapes (n, 2), m."""
@@ -98,7 +94,14 @@ def slide_of(planned: FloatArray, found: FloatArray) -> Slide:
 
 
 def judged(
-    truth: Truth, step: int, sequence: FoldSequence, state: WorldState, table: Table, gate: Gate, empty: tuple[str, ...]
+    truth: Truth,
+    step: int,
+    sequence: FoldSequence,
+    state: WorldState,
+    carried: Isometry,
+    table: Table,
+    gate: Gate,
+    empty: tuple[str, ...],
 ) -> StepVerdict:
     """Return the verdict on a step.
 
@@ -107,19 +110,26 @@ def judged(
         step: the step's index.
         sequence: the garment's folds.
         state: the world as it should be.
+        carried: how far the cloth was known to lie from there, table frame.
         table: the table.
         gate: what counts as held.
         empty: the arms that found no cloth.
     """
-    planned = planned_positions(sequence, truth.pattern, state.done, state.placement, table, _GAP_M)
+    lies = _carried(state.placement, carried)
+    planned = planned_positions(sequence, truth.pattern, state.done, lies, table, _GAP_M)
     slide = slide_of(planned[:, :2], truth.positions[:, :2])
     back = slide.isometry.inverse
     places = np.column_stack([back.apply(truth.positions[:, :2]), truth.positions[:, 2]])
     errors = _MM * np.linalg.norm(places - planned, axis=1)
-    covered = planned_silhouette(sequence, state.done, state.placement, table)
+    covered = planned_silhouette(sequence, state.done, lies, table)
     seen = Region.union(Region.polygon(corners) for corners in places[truth.triangles][..., :2])
     shared = covered.intersection(seen).area
     iou = shared / (covered.area + seen.area - shared)
     mean, p95 = float(errors.mean()), float(np.quantile(errors, 0.95))
     held = iou >= gate.iou and mean <= gate.mean_mm and p95 <= gate.p95_mm and not empty
     return StepVerdict(step, iou, mean, p95, _MM * slide.slid_m, slide.turned_rad, empty, held)
+
+
+def _carried(placement: Pose2, carried: Isometry) -> Pose2:
+    x, y = carried.apply_point((placement.x_m, placement.y_m))
+    return Pose2(x, y, placement.yaw_rad + math.atan2(carried.c, carried.a))

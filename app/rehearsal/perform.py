@@ -1,28 +1,138 @@
-"""Perform a plan in a world, step after step, and judge each."""
+"""Perform a plan in a world and judge each step; with feedback, look before each and correct it (paper, section 9).
+
+Before hands close the stack's outline is fitted to what is seen. Grips follow the cloth as far as the comfort radius
+goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip.
+"""
 
 from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
+from app.rehearsal.corrections import carry, corrected, regrasps, shift_of
 from app.rehearsal.judge import Gate, StepVerdict, judged
+from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import step_motions
-from app.rehearsal.world import World
-from planner.task.plan import Plan
+from app.rehearsal.world import Performed, StepMotion, World
+from app.vision.fit_stack import fit_stack
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Pose2
+from planner.task.plan import Plan, PlanStep
+from planner.task.task import Task
+from planner.task.world_state import WorldState
+
+FAILURES_MAX = 3
+"""How often the rest is planned again before a run is given up."""
 
 
-def performed(plan: Plan, world: World, gate: Gate, progress: Callable[[float], None]) -> tuple[StepVerdict, ...]:
-    """Perform a plan as it is; return the verdicts on the steps after which all hands are free.
+@dataclass(frozen=True, slots=True)
+class Performance:
+    """How a plan came out: the verdicts, what feedback decided, and why it ended early ("" if it did not)."""
 
-    Args:
-        plan: a solved plan.
+    steps: tuple[StepVerdict, ...]
+    decisions: tuple[Decision, ...] = ()
+    reason: str = ""
+
+
+@dataclass
+class Performer:
+    """Performs a plan.
+
+    Attributes:
+        plan: the plan; after it was planned again the new one.
         world: the world.
         gate: what counts as held.
+        replan: plans a task again; None performs the plan as it is, without looking.
         progress: told the fraction that is done.
     """
-    verdicts = []
-    for motion, step in zip(step_motions(plan), plan.steps, strict=True):
-        answer = world.perform(motion)
+
+    plan: Plan
+    world: World
+    gate: Gate
+    replan: Callable[[Task], Plan] | None = None
+    progress: Callable[[float], None] = lambda _: None
+    _verdicts: list[StepVerdict] = field(default_factory=list)
+    _decisions: list[Decision] = field(default_factory=list)
+    _made: int = 0
+
+    def performed(self) -> Performance:
+        """Perform the plan."""
+        motions, number = step_motions(self.plan), 0
+        carried = Isometry()
+        while number < len(motions):
+            step, motion = self.plan.steps[number], motions[number]
+            is_free = all(grip.closes for grip in motion.grips)
+            if self.replan is not None and motion.grips and is_free:
+                lies = self._seen(step)
+                carried = carry(step.before.placement, lies)
+                shift_m = shift_of(motion, carried)
+                answer = None
+                if shift_m <= self.plan.task.limits.comfort_radius_m:
+                    self._decide("corrected", ("shift_m", shift_m))
+                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried)
+                if answer is None:
+                    reason = self._planned_again(step, lies, shift_m)
+                    if reason:
+                        return Performance(tuple(self._verdicts), tuple(self._decisions), reason)
+                    motions, number, carried = step_motions(self.plan), 0, Isometry()
+                    continue
+            else:
+                answer = self.world.perform(corrected(motion, carried))
+            self._judge(motion, step, answer, Isometry() if motion.kind == "drag" else carried)
+            number += 1
+            self._made += 1
+            self.progress(number / len(motions))
+        return Performance(tuple(self._verdicts), tuple(self._decisions))
+
+    def _seen(self, step: PlanStep) -> Pose2:
+        """Return where the stack lies as seen; where nothing is known, where it should lie."""
+        outline = self.world.observe().outline
+        if outline is None:
+            return step.before.placement
+        fit = fit_stack(outline, self.plan.sequence.cloth(step.before.done), step.before.placement)
+        return fit.placement if fit.is_known or fit.others else step.before.placement
+
+    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
+        """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""
+        answer = self.world.perform(motion)
+        missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
+        radius_m, fold = self.plan.task.limits.comfort_radius_m, self._reflection(step, carried)
+        for trial in regrasps(motion, missing, radius_m, fold) if missing else ():
+            self._decide("regrasped", ("radius_m", radius_m))
+            answer = self.world.perform(trial)
+            if not answer.is_missing_cloth:
+                break
+        return None if answer.is_missing_cloth else answer
+
+    def _reflection(self, step: PlanStep, carried: Isometry) -> Isometry | None:
+        """Return what a fold does to the cloth as it lies, table frame."""
+        if step.fold is None:
+            return None
+        lies = step.before.placement
+        to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
+        over = Isometry.reflection(self.plan.sequence.folds[step.fold].line)
+        return to_table.after(over).after(to_table.inverse)
+
+    def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
+        """Plan the rest from what is there; return why that cannot be, "" if it can."""
+        self._decide("replanned", ("shift_m", shift_m))
+        if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
+            return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
+        start = WorldState(step.before.folds_done, lies, step.before.base)
+        assert self.replan is not None
+        again = self.replan(replace(self.plan.task, start=start))
+        if not again.is_solved:
+            return f"from where the cloth lies before step {self._made} the plan is {again.status}"
+        self.plan = again
+        return ""
+
+    def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:
+        truth = self.world.truth()
+        if truth is None or not all(grip.opens for grip in motion.grips):
+            return
         empty = tuple(arm for arm, has in answer.has_cloth.items() if not has)
-        truth = world.truth()
-        if truth is not None and all(grip.opens for grip in motion.grips):
-            verdicts.append(judged(truth, motion.step, plan.sequence, step.after, plan.scene.table, gate, empty))
-        progress((motion.step + 1) / len(plan.steps))
-    return tuple(verdicts)
+        verdict = judged(
+            truth, self._made, self.plan.sequence, step.after, carried, self.plan.scene.table, self.gate, empty
+        )
+        self._verdicts.append(verdict)
+
+    def _decide(self, code: str, *numbers: tuple[str, float]) -> None:
+        self._decisions.append(Decision(self._made, code, numbers))

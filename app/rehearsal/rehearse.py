@@ -4,15 +4,17 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.util import find_spec
 from multiprocessing import get_context
 from time import process_time
 from typing import Any
 
+import numpy as np
+
 from app.physics.fabric import Fabric, Resolution
 from app.rehearsal.judge import Gate
-from app.rehearsal.perform import performed
+from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.result import RehearsalResult, Run
 from planner.errors import FoldingError, RequestError, UnsolvedPlanError
 from planner.task.plan import Plan
@@ -43,6 +45,8 @@ class RehearsalOptions:
     Attributes:
         runs: how often.
         seed: the seed of the first run; each run after it has the next.
+        noise: the name of the noise, one of `NOISE`.
+        feedback: whether the robot looks before each step and corrects it.
         resolution: how finely the world is simulated.
         gate: what counts as held.
         workers: processes at most; None for two, or one on a machine with one core.
@@ -50,6 +54,8 @@ class RehearsalOptions:
 
     runs: int = 1
     seed: int = 0
+    noise: str = "none"
+    feedback: bool = True
     resolution: Resolution = field(default_factory=Resolution)
     gate: Gate = field(default_factory=Gate)
     workers: int | None = None
@@ -60,6 +66,14 @@ class RehearsalOptions:
             raise RequestError("runs", f"{self.runs} is not between 1 and {RUNS_MAX}")
         if not 0 <= self.seed < 2**31:
             raise RequestError("seed", f"{self.seed} is not between 0 and {2**31 - 1}")
+        if self.noise not in NOISE:
+            raise RequestError("noise", f"{self.noise!r} is none of {', '.join(NOISE)}")
+
+
+def require_physics() -> None:
+    """Raise `PhysicsMissingError` where MuJoCo is not installed."""
+    if find_spec("mujoco") is None:
+        raise PhysicsMissingError
 
 
 def rehearse(
@@ -83,8 +97,7 @@ def rehearse(
     """
     if plan.trajectory is None:
         raise UnsolvedPlanError(plan.status)
-    if find_spec("mujoco") is None:
-        raise PhysicsMissingError
+    require_physics()
     seeds = range(options.seed, options.seed + options.runs)
     workers = min(options.runs, options.workers or min(2, os.cpu_count() or 1))
     if workers > 1:
@@ -103,20 +116,31 @@ def one_run(
     is_cancelled: Callable[[], bool],
 ) -> Run:
     """Perform a plan once."""
-    from app.physics.physics_world import PhysicsWorld  # here: it needs MuJoCo
+    # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.
+    from app.physics.physics_world import PhysicsWorld
+    from app.rehearsal.noisy_world import NoisyWorld
+    from app.rehearsal.perform import Performance, Performer
+    from planner.plans import make_plan
 
     def tick() -> None:
         if is_cancelled():
             raise CancelledError
 
-    began = process_time()
-    fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=plan.scene.friction)
-    world = PhysicsWorld(plan.task, fabric, options.resolution, seed, tick=tick)
+    began, noise, start = process_time(), NOISE[options.noise], plan.task.start
+    rng = np.random.default_rng(seed)
+    x, y, turn, slip = rng.normal(size=4).tolist()
+    placement = start.placement.moved(noise.placement_m * x, noise.placement_m * y)
+    placement = replace(placement, yaw_rad=placement.yaw_rad + noise.placement_rad * turn)
+    friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
+    fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
+    world = PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
+    seen = world if noise == Noise() else NoisyWorld(world, noise, seed, start.base.pose)
+    performer = Performer(plan, seen, options.gate, make_plan if options.feedback else None, progress)
     try:
-        steps = performed(plan, world, options.gate, progress)
+        found = performer.performed()
     except FloatingPointError as error:
-        return Run(seed, (), str(error), world.elapsed_s, process_time() - began)
-    return Run(seed, steps, "", world.elapsed_s, process_time() - began)
+        found = Performance((), (), str(error))
+    return Run(seed, found.steps, found.decisions, found.reason, world.elapsed_s, process_time() - began)
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:

@@ -11,12 +11,32 @@ _CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True, slots=True)
+class Decision:
+    """What feedback decided, and on which numbers.
+
+    Attributes:
+        step: how many steps had been made.
+        code: "corrected", "regrasped" or "replanned".
+        numbers: what it rests on, by name, in SI units.
+    """
+
+    step: int
+    code: str
+    numbers: tuple[tuple[str, float], ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the decision as JSON."""
+        return {"step": self.step, "code": self.code, **dict(self.numbers)}
+
+
+@dataclass(frozen=True, slots=True)
 class Run:
     """One run of a plan.
 
     Attributes:
         seed: the seed of its noise.
         steps: the verdicts on the steps after which hands were free, in the order in which they were made.
+        decisions: what feedback decided, in order.
         reason: why it ended early; "" if it did not.
         simulated_s: the time that passed in the world (s).
         cpu_s: the processor time that it took (s).
@@ -24,6 +44,7 @@ class Run:
 
     seed: int
     steps: tuple[StepVerdict, ...]
+    decisions: tuple[Decision, ...] = ()
     reason: str = ""
     simulated_s: float = 0.0
     cpu_s: float = 0.0
@@ -33,16 +54,21 @@ class Run:
         """Whether all steps were made and held."""
         return not self.reason and all(step.held for step in self.steps)
 
+    def count(self, code: str) -> int:
+        """Return how often something was decided."""
+        return sum(1 for decision in self.decisions if decision.code == code)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the run as JSON."""
         return {
             "held": self.held,
             "steps": [step.to_dict() for step in self.steps],
             "final_iou": self.steps[-1].iou if self.steps else None,
-            "regrasps": 0,
-            "replans": 0,
+            "regrasps": self.count("regrasped"),
+            "replans": self.count("replanned"),
             "seed": self.seed,
             "reason": self.reason,
+            "decisions": [decision.to_dict() for decision in self.decisions],
             "simulated_s": self.simulated_s,
             "cpu_s": self.cpu_s,
         }

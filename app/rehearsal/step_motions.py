@@ -6,9 +6,9 @@ import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.task.phase import Hand
-from planner.task.plan import Plan
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 
@@ -30,9 +30,14 @@ def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
             GripMotion(arm, times, points, arm not in held, arm not in after)
             for arm, (times, points) in closed[number].items()
         )
-        found.append(StepMotion(number, step.kind, step.duration_s, grips))
+        found.append(StepMotion(number, step.kind, step.duration_s, grips, base=_driven(step)))
         held = set(closed[number]) & after
     return tuple(found)
+
+
+def _driven(step: PlanStep) -> Pose2 | None:
+    """Return where the base stands after a step in which it changes its station."""
+    return None if step.before.base.station == step.base.station else step.base.pose
 
 
 _Path = tuple[tuple[float, ...], tuple[tuple[float, float, float], ...]]

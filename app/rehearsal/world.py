@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.pose import FloatArray, Point3, Pose2
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,7 @@ class StepMotion:
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the
             others go on.
+        base: where the base stands after it has driven in the step; None if it does not drive to another station.
     """
 
     step: int
@@ -51,6 +52,7 @@ class StepMotion:
     duration_s: float
     grips: tuple[GripMotion, ...] = ()
     needs_all: bool = False
+    base: Pose2 | None = None
 
 
 @dataclass(frozen=True, slots=True)

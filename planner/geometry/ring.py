@@ -80,3 +80,12 @@ def _halving(arriving: Segment, leaving: Segment) -> Point2:
 
 def _point(row: FloatArray) -> Point2:
     return (float(row[0]), float(row[1]))
+
+
+def evenly_along(ring: FloatArray, spacing_m: float) -> FloatArray:
+    """Return points along a closed ring, shape (n, 2), at most a distance apart, its corners among them (m)."""
+    parts = []
+    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        count = max(1, math.ceil(float(np.hypot(*(end - start))) / spacing_m))
+        parts.append(start + np.arange(count)[:, None] / count * (end - start))
+    return np.concatenate(parts)

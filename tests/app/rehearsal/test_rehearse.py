@@ -90,6 +90,6 @@ def test_a_rate_is_told_with_the_bounds_of_clopper_and_pearson():
 
 
 def test_a_run_that_ended_early_has_not_held():
-    result = RehearsalResult((Run(0, (), "the simulation has become unstable"), Run(1, ())))
+    result = RehearsalResult((Run(0, (), reason="the simulation has become unstable"), Run(1, ())))
     assert not result.is_held
     assert (result.to_dict()["held"], result.to_dict()["of"]) == (1, 2)

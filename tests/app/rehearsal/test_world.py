@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from app.rehearsal.judge import Gate
-from app.rehearsal.perform import performed
+from app.rehearsal.perform import Performer
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import Observation, Performed
@@ -36,5 +36,5 @@ def test_a_record_is_played_step_by_step_and_ends():
 def test_steps_of_which_nobody_knows_the_truth_are_performed_and_not_judged():
     world = ReplayWorld(Observation(), [Recorded(Performed(), Observation())])
     told: list[float] = []
-    assert performed(towel_plan(), world, Gate(), told.append) == ()
+    assert Performer(towel_plan(), world, Gate(), progress=told.append).performed().steps == ()
     assert told == [1.0]

@@ -8,6 +8,7 @@ from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.world import StepMotion
 from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment
+from planner.geometry.isometry import Isometry
 
 COARSE = Resolution(edge_m=0.03, settle_s=0.5)
 FABRIC = Fabric(density_kg_m2=0.3)
@@ -35,4 +36,4 @@ def verdict_on(plan: Plan, motion: StepMotion) -> StepVerdict:
     answer = world.perform(motion)
     empty = tuple(arm for arm, has in answer.has_cloth.items() if not has)
     state = plan.steps[motion.step].after
-    return judged(world.truth(), motion.step, plan.sequence, state, plan.scene.table, Gate(), empty)
+    return judged(world.truth(), motion.step, plan.sequence, state, Isometry(), plan.scene.table, Gate(), empty)

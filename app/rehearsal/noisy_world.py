@@ -1,0 +1,62 @@
+"""A world with errors of robot and camera: what is asked for is done a little elsewhere, or not at all."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.rehearsal.corrections import carry
+from app.rehearsal.noise import Noise
+from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Pose2
+
+
+class NoisyWorld:
+    """Another world, seen and acted on with errors.
+
+    The robot believes that its base is where it should be. What it sees is seen from its base, so a correction by what
+    is seen takes off the base's error too.
+    """
+
+    def __init__(self, world: World, noise: Noise, seed: int, base: Pose2) -> None:
+        """Take a world, the noise, its seed, and where the base stands at first."""
+        self._world, self._noise = world, noise
+        self._rng = np.random.default_rng(seed)
+        self._error = self._driven(base)
+
+    def observe(self) -> Observation:
+        """Return the outline as seen from where the robot believes to be."""
+        seen = self._world.observe()
+        if seen.outline is None:
+            return seen
+        points = self._error.inverse.apply(seen.outline)
+        return replace(seen, outline=points + self._rng.normal(0.0, self._noise.camera_m, points.shape))
+
+    def perform(self, motion: StepMotion) -> Performed:
+        """Perform a step from where the base really is; a hand may close beside its grip, and a drag stop short."""
+        if motion.base is not None:
+            self._error = self._driven(motion.base)
+        missed = {grip.arm for grip in motion.grips if grip.closes and self._rng.random() < self._noise.miss}
+        if missed and motion.needs_all:
+            return Performed({grip.arm: grip.arm not in missed for grip in motion.grips})
+        short = self._rng.uniform(0.0, self._noise.undershoot) if motion.kind == "drag" else 0.0
+        found = (self._off(grip, short) for grip in motion.grips if grip.arm not in missed)
+        answer = self._world.perform(replace(motion, grips=tuple(found)))
+        return Performed({**answer.has_cloth, **dict.fromkeys(missed, False)})
+
+    def truth(self) -> Truth | None:
+        """Return where the cloth really is."""
+        return self._world.truth()
+
+    def _driven(self, base: Pose2) -> Isometry:
+        """Return the error with which the base arrives: from where the robot believes to be to where it is."""
+        x, y = self._rng.normal(0.0, self._noise.base_m, 2).tolist()
+        return carry(
+            base, Pose2(base.x_m + x, base.y_m + y, base.yaw_rad + self._rng.normal(0.0, self._noise.base_rad))
+        )
+
+    def _off(self, grip: GripMotion, short: float) -> GripMotion:
+        points = np.array(grip.points)
+        points[:, :2] = points[0, :2] + (1.0 - short) * (points[:, :2] - points[0, :2])
+        points[:, :2] = self._error.apply(points[:, :2]) + self._rng.normal(0.0, self._noise.arm_m, 2)
+        return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))

@@ -1,0 +1,32 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from planner.task.plan_files import write_plan
+from tests.app.rehearsal.towel import towel_plan
+from tests.app.test_cli import pleat
+
+
+@pytest.mark.parametrize("option", [("--runs", "0"), ("--seed", "-1"), ("--noise", "loud"), ("--robot", "ur5e-pair")])
+def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str], tmp_path: Path):
+    path = tmp_path / "towel.plan.json"
+    write_plan(towel_plan(), path)
+    refused = pleat("rehearse", str(path), *option)
+    assert refused.exit_code == 2
+    assert option[0] in refused.stderr
+
+
+@pytest.mark.slow
+def test_a_towel_is_rehearsed_from_its_plan_file(tmp_path: Path):
+    path = tmp_path / "towel.plan.json"
+    write_plan(towel_plan(), path)
+    done = pleat("rehearse", str(path), "--json", "-")
+    result = json.loads(done.stdout)
+    assert done.exit_code == (0 if result["held"] == 1 else 3)
+    assert result["of"] == 1
+    (run,) = result["runs"]
+    assert {"held", "steps", "final_iou", "regrasps", "replans"} <= run.keys()
+    (step,) = run["steps"]
+    assert {"step", "iou", "mean_mm", "p95_mm", "held"} <= step.keys()
+    assert run["final_iou"] == step["iou"] > 0.9

@@ -1,0 +1,117 @@
+"""Feedback in a world that only notes what it is asked for: cloth that lies elsewhere, and hands that miss."""
+
+import math
+
+import numpy as np
+import pytest
+
+from app.rehearsal.corrections import REGRASPS, carry, corrected, regrasps, shift_of
+from app.rehearsal.judge import Gate
+from app.rehearsal.noise import Noise
+from app.rehearsal.noisy_world import NoisyWorld
+from app.rehearsal.perform import FAILURES_MAX, Performer
+from app.rehearsal.step_motions import step_motions
+from app.rehearsal.world import Observation, Performed, StepMotion
+from planner import Plan, Task
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.ring import evenly_along
+from tests.app.rehearsal.towel import towel_plan
+
+
+class NotedWorld:
+    """Cloth that lies somewhere, flat, and hands that miss as often as told."""
+
+    def __init__(self, outline: FloatArray, misses: int = 0) -> None:
+        self.asked: list[StepMotion] = []
+        self._outline, self._misses = outline, misses
+
+    def observe(self) -> Observation:
+        return Observation(outline=self._outline)
+
+    def perform(self, motion: StepMotion) -> Performed:
+        self.asked.append(motion)
+        has = len(self.asked) > self._misses
+        return Performed({grip.arm: has or number > 0 for number, grip in enumerate(motion.grips)})
+
+    def truth(self) -> None:
+        return
+
+
+def outline_at(x_m: float, y_m: float, turn_rad: float = 0.0) -> FloatArray:
+    plan = towel_plan()
+    lies = plan.task.start.placement
+    moved = Pose2(lies.x_m + x_m, lies.y_m + y_m, lies.yaw_rad + turn_rad)
+    return evenly_along(moved.to_outer(plan.garment.pattern.ring), 0.01)
+
+
+def no_plan(task: Task) -> Plan:
+    raise AssertionError(f"nobody should plan again from {task.start}")
+
+
+def test_grips_follow_cloth_that_lies_two_centimetres_away():
+    world = NotedWorld(outline_at(0.012, -0.016))
+    done = Performer(towel_plan(), world, Gate(), no_plan).performed()
+    (asked,), (planned,) = world.asked, step_motions(towel_plan())
+    assert [decision.code for decision in done.decisions] == ["corrected"]
+    for grip, former in zip(asked.grips, planned.grips, strict=True):
+        for now, then in zip(grip.points, former.points, strict=True):
+            assert np.subtract(now, then) == pytest.approx([0.012, -0.016, 0.0], abs=1e-3)
+
+
+def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
+    world = NotedWorld(outline_at(0.0, 0.0), misses=2)
+    done = Performer(towel_plan(), world, Gate(), no_plan).performed()
+    assert [decision.code for decision in done.decisions] == ["corrected", "regrasped", "regrasped"]
+    first, *others = world.asked
+    assert not done.reason
+    for other in others:
+        apart = [math.dist(a.points[0], b.points[0]) for a, b in zip(first.grips, other.grips, strict=True)]
+        assert apart == pytest.approx([0.03, 0.0], abs=1e-9)
+        assert other.needs_all
+
+
+def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end():
+    asked: list[Task] = []
+
+    def same(task: Task) -> Plan:
+        asked.append(task)
+        return towel_plan()
+
+    done = Performer(towel_plan(), NotedWorld(outline_at(0.05, 0.0)), Gate(), same).performed()
+    assert len(asked) == FAILURES_MAX
+    start = towel_plan().task.start.placement
+    assert asked[0].start.placement.x_m == pytest.approx(start.x_m + 0.05, abs=2e-3)
+    assert str(FAILURES_MAX) in done.reason
+    assert done.steps == ()
+
+
+def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
+    (motion,) = step_motions(towel_plan())
+    (fold,) = towel_plan().sequence.folds
+    lies = towel_plan().task.start.placement
+    to_table = Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m)
+    over = to_table.after(Isometry.reflection(fold.line)).after(to_table.inverse)
+    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, over))
+    assert len(trials) == REGRASPS
+    for trial in trials:
+        grip = trial.grips[0]
+        assert grip.points[-1][:2] == pytest.approx(over.apply_point(grip.points[0][:2]), abs=1e-9)
+        assert trial.grips[1] == motion.grips[1]
+
+
+def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip():
+    (motion,) = step_motions(towel_plan())
+    carried = carry(Pose2(0.1, 0.2, 0.3), Pose2(0.1, 0.21, 0.3))
+    assert shift_of(motion, carried) == pytest.approx(0.01)
+    assert shift_of(corrected(motion, carried), carried) == pytest.approx(0.01)
+    assert corrected(motion, Isometry()) == motion
+
+
+def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
+    world = NotedWorld(outline_at(0.0, 0.0))
+    noisy = NoisyWorld(world, Noise(base_m=0.005, base_rad=0.005), 3, towel_plan().task.start.base.pose)
+    Performer(towel_plan(), noisy, Gate(), no_plan).performed()
+    (asked,), (planned,) = world.asked, step_motions(towel_plan())
+    for grip, former in zip(asked.grips, planned.grips, strict=True):
+        assert math.dist(grip.points[0], former.points[0]) < 2e-3
