@@ -8,6 +8,7 @@ import pytest
 from planner import Scene, load_garment
 from planner.errors import RequestError
 from planner.planning.robot_task import default_placement, default_scene, task_for, with_robots_scene
+from planner.robots.load_robot import robot_card_file
 from tests.builders import garment
 
 
@@ -27,11 +28,12 @@ def test_a_robot_whose_base_is_fixed_has_one_station_and_no_standoff():
     assert (scene.table.depth_m, scene.table.width_m, scene.table.height_m) == (0.8, 1.0, 0.75)
 
 
-def test_an_article_lies_in_the_middle_of_another_robots_table_turned_as_drawn():
+def test_an_article_lies_where_another_robots_card_says_turned_as_drawn():
     shirt = load_garment("t-shirt")
     placed = default_placement(shirt, "ur5e-pair")
     corners = placed.to_outer(np.array(shirt.outline))
-    np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, [0.0, 0.0], atol=1e-12)
+    suits = robot_card_file("ur5e-pair").scene.placement
+    np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, [suits.x_m, suits.y_m], atol=1e-12)
     assert placed.yaw_rad == shirt.placement.yaw_rad
 
 
