@@ -9,15 +9,14 @@ import numpy as np
 
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError
-from planner.geometry.pose import Pose2
-from planner.geometry.table import Table
+from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.card_file import CardFile
 from planner.robots.load_robot import robot_card_file
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
 
 _DECIMALS = 6
-"""Overhangs that are equal to a micrometre count as equal."""
+"""What is beyond the table by as much, to a micrometre, counts as equal."""
 
 
 def default_scene(robot: str = DEFAULT_ROBOT) -> Scene:
@@ -67,30 +66,27 @@ def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
     """Return where an article lies at the start for a robot, table frame.
 
     It is the garment's own placement for the default robot, for whose table garments are made. For another robot the
-    middle of the bounding box lies where the card says, turned as the garment's own placement and the card say, or by
-    quarter turns from there if less of it hangs over the table's edges then.
+    middle of the bounding box lies where the card says, or as near to that as leaves no edge beyond the table. It is
+    turned as the garment's own placement and the card say, or by quarter turns from there if the table is too small for
+    it that way.
     """
     if robot == DEFAULT_ROBOT:
         return garment.placement
     suits = robot_card_file(robot).scene
     usual_rad = garment.placement.yaw_rad + suits.placement.yaw_rad
-    turned = (_middle_at(garment, suits.placement, usual_rad + turn * math.pi / 2) for turn in (0, 1, -1, 2))
-    return min(turned, key=lambda placed: round(_overhang_m(garment, placed, suits.table), _DECIMALS))
+    turns = [Pose2(0.0, 0.0, usual_rad + quarters * math.pi / 2) for quarters in (0, 1, -1, 2)]
+    top = np.array([suits.table.depth_m, suits.table.width_m])
+    turned = min(turns, key=lambda one: round(float(np.maximum(_size(garment, one) - top, 0.0).sum()), _DECIMALS))
+    room = np.maximum(top - _size(garment, turned), 0.0) / 2
+    corners = turned.to_outer(np.array(garment.outline))
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    x_m, y_m = (np.clip([suits.placement.x_m, suits.placement.y_m], -room, room) - middle).tolist()
+    return turned.moved(x_m, y_m)
 
 
-def _middle_at(garment: Garment, place: Pose2, yaw_rad: float) -> Pose2:
-    """Return the placement with the middle of the bounding box at a place and a given yaw."""
-    x0, y0, x1, y1 = garment.pattern.bounds
-    turned = Pose2(0.0, 0.0, yaw_rad)
-    x_m, y_m = turned.to_outer(np.array([0.5 * (x0 + x1), 0.5 * (y0 + y1)])).tolist()
-    return turned.moved(place.x_m - x_m, place.y_m - y_m)
-
-
-def _overhang_m(garment: Garment, placed: Pose2, table: Table) -> float:
-    """Return how far the outline reaches beyond the table's edges (m), the sum of both directions."""
-    corners = np.abs(placed.to_outer(np.array(garment.outline))).max(axis=0)
-    beyond = np.maximum(corners - np.array([table.depth_m / 2, table.width_m / 2]), 0.0)
-    return float(beyond.sum())
+def _size(garment: Garment, turned: Pose2) -> FloatArray:
+    """Return how long and wide a turned article is (m)."""
+    return np.asarray(np.ptp(turned.to_outer(np.array(garment.outline)), axis=0))
 
 
 def task_for(garment: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Task:

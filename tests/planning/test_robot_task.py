@@ -29,12 +29,17 @@ def test_a_robot_whose_base_is_fixed_has_one_station_and_no_standoff():
 
 
 def test_an_article_lies_where_another_robots_card_says_turned_as_drawn():
-    shirt = load_garment("t-shirt")
-    placed = default_placement(shirt, "ur5e-pair")
-    corners = placed.to_outer(np.array(shirt.outline))
-    suits = robot_card_file("ur5e-pair").scene.placement
+    towel = load_garment("hand-towel")
+    placed, suits = default_placement(towel, "ur5e-pair"), robot_card_file("ur5e-pair").scene.placement
+    corners = placed.to_outer(np.array(towel.outline))
     np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, [suits.x_m, suits.y_m], atol=1e-12)
-    assert placed.yaw_rad == shirt.placement.yaw_rad
+    assert placed.yaw_rad == towel.placement.yaw_rad
+
+
+def test_an_article_that_the_table_has_room_for_lies_on_it():
+    shirt, table = load_garment("t-shirt"), default_scene("ur5e-pair").table
+    corners = np.abs(default_placement(shirt, "ur5e-pair").to_outer(np.array(shirt.outline))).max(axis=0)
+    assert (corners <= [table.depth_m / 2 + 1e-9, table.width_m / 2 + 1e-9]).all()
 
 
 def test_an_article_that_is_longer_than_the_table_is_deep_lies_across_it():
