@@ -1,8 +1,8 @@
 """What goes wrong in a real laboratory, in numbers.
 
 The paper gives no figures for its errors, only their kinds (section 9): bases that undershoot and stop at an angle,
-grasps that miss, cloth that is not quite where it should be. The numbers here are typical of such machines, each with
-its source beside it; they are assumptions, to be replaced by a laboratory's own.
+grasps that miss, cloth that is not quite where it should be. So the numbers here are assumptions, each with the thought
+behind it; none was measured, and a laboratory should put in its own.
 """
 
 from dataclasses import dataclass
@@ -38,21 +38,21 @@ class Noise:
 NOISE = {
     "none": Noise(),
     "real": Noise(
-        # Base: the paper names undershoot as its main failure; ROS navigation accepted a goal within .05-.1 m and
-        # .05-.1 rad by default, and was tuned finer for docking at a table.
+        # Base: the paper names undershoot as its main failure. ROS 1's base_local_planner stops within .1 m and .05 rad
+        # of a goal by default; docking at a table is assumed to be ten and five times as good.
         undershoot=0.1,
         base_m=0.01,
         base_rad=0.01,
-        # Arm: calibrated PR2s repeat to some millimetres at the fingertips.
+        # Arm: some millimetres at the fingertips, assumed for a calibrated arm.
         arm_m=0.003,
         # Grasps: the paper tries up to eight other points after a miss; about one grasp in twenty is assumed.
         miss=0.05,
         # Placement: laid by hand along a mark.
         placement_m=0.01,
         placement_rad=0.02,
-        # Camera: about two pixels at one metre and VGA, as fits of outlines report.
+        # Camera: about two pixels at one metre and VGA, assumed.
         camera_m=0.003,
-        # Friction: the spread between fabrics on one surface.
+        # Friction: assumed for fabrics on one surface.
         friction=0.15,
     ),
 }
