@@ -67,8 +67,10 @@ class CardRobot:
         return MappedReach(asked, numbers, joints, lengths, float(torso_m), float(comfort_m), memories)
 
     def forget_reach(self) -> None:
-        """Drop what plans have left about where the arms reach, so that benchmarks measure its computation."""
+        """Drop what plans have left about where the arms reach and how, so that benchmarks measure its computation."""
         self._memories.cache_clear()
+        for arm in self._arms:
+            arm.forget_samples()
 
     @cached_property
     def _arms(self) -> tuple[MappedArm, ...]:

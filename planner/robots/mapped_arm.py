@@ -1,7 +1,7 @@
 """An arm of any robot: which tool poses it can take, and the joints for them."""
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from planner.robots.posture_following import followed
 from planner.robots.posture_map import PostureMap, reachable_poses
 from planner.robots.posture_maps import Progress, posture_map
 from planner.robots.posture_samples import posture_samples
+from planner.robots.sample_memory import SampleMemory
 
 _PITCHES_DEG = (15, 30, 45, 60, 75)
 _HEADINGS_DEG = range(0, 360, 30)
@@ -36,7 +37,7 @@ joints turn farther for a centimetre.
 
 
 class MappedArm:
-    """An arm with the map of its postures. It does not change, so all users may share one instance.
+    """An arm with the map of its postures. What it answers does not change, so all users may share one instance.
 
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
@@ -50,6 +51,7 @@ class MappedArm:
         self._known = known
         is_wide = arm.chain.turns & (arm.chain.high - arm.chain.low >= _WIDE_RAD)
         self.periods: FloatArray = np.where(arm.is_endless | is_wide, math.tau, 0.0)
+        self._memory = SampleMemory(partial(posture_samples, self._chain, self._known, self.periods))
 
     @property
     def chain(self) -> Chain:
@@ -123,7 +125,11 @@ class MappedArm:
         """Return samples of the joints at each tool pose, shape (n, m, joints), and their costs; see `PathArm`."""
         shoulder = self.shoulder(torso_m)
         points, axes = np.ascontiguousarray(positions - shoulder), np.ascontiguousarray(rotations)
-        return posture_samples(self._chain, self._known, self.periods, points, axes, floor_m - float(shoulder[2]))
+        return self._memory.samples(points, axes, floor_m - float(shoulder[2]))
+
+    def forget_samples(self) -> None:
+        """Drop the samples that searches have left, so that benchmarks measure their computation."""
+        self._memory.forget()
 
     def along(
         self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
