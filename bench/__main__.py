@@ -21,6 +21,7 @@ from bench.paper_tables import table_1, table_2
 from bench.re_plan import re_plan
 from bench.reach import reach
 from bench.report import Report
+from bench.robot_plans import robot_plans
 from bench.studies import studies
 from bench.yes_and_no import PAIRS, yes_and_no
 
@@ -35,6 +36,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "re-plan": re_plan,
     "reach": reach,
     "any-robot": any_robot,
+    "robot-plans": robot_plans,
     "growth": growth,
     "frames": frames,
     "hand": hand,

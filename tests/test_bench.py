@@ -33,6 +33,7 @@ from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
 from bench.reach_truth import DenseReach
 from bench.report import Report, Row
+from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.served import served
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
@@ -313,6 +314,26 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
     assert row["robot"] == "so101-pair"
     assert row["reachable"] > row["missed"] >= 0
     assert row["map_mb"] > 0.0
+
+
+def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("pr2", "so101-pair"))
+    report = robot_plans(["scarf", "scarf-halved"], 1)
+    (row,) = written(report, tmp_path)["rows"]
+    assert (row["robot"], row["article"], row["status"]) == ("so101-pair", "scarf", "solved")
+    assert row["cost_s"] > 0.0
+    assert row["cpu_s"] > 0.0
+    assert robot_plans(["scarf-halved"], 1).rows == ()
+
+
+def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not():
+    jeans, towel = load_garment("jeans"), load_garment("hand-towel")
+    small = shrunk(jeans, 0.5)
+    share = np.ptp(small.outline, axis=0).max() / np.ptp(jeans.outline, axis=0).max()
+    assert np.ptp(small.outline, axis=0).max() == pytest.approx(0.5)
+    assert share < 1.0
+    np.testing.assert_allclose(small.folds[0].start, np.multiply(jeans.folds[0].start, share))
+    assert shrunk(towel, LONGEST_M).outline == towel.outline
 
 
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
