@@ -169,9 +169,15 @@ def _stretched(rng: np.random.Generator, side: int, times: tuple[int, int], blur
 def _covered(ring: FloatArray) -> NDArray[np.float32]:
     """Return how much of each pixel of the plane a figure covers; fillPoly alone makes figures 1 mm too large."""
     side, finer = int(SIDE_M / PIXEL_M), 4
-    mask = np.zeros((finer * side, finer * side), np.uint8)
-    cv2.fillPoly(mask, [np.asarray((_cells(ring, exact=True) * finer - 0.5).round(), np.int32)], 255)
-    return np.asarray(cv2.resize(mask, (side, side), interpolation=cv2.INTER_AREA), np.float32) / np.float32(255)
+    cells = _cells(ring, exact=True)
+    low = np.clip(np.floor(cells.min(axis=0)).astype(int) - 1, 0, side)
+    width, height = np.clip(np.ceil(cells.max(axis=0)).astype(int) + 2, 0, side) - low
+    fine = np.zeros((finer * height, finer * width), np.uint8)
+    cv2.fillPoly(fine, [np.asarray(((cells - low) * finer - 0.5).round(), np.int32)], 255)
+    cover = np.zeros((side, side), np.float32)
+    part = cv2.resize(fine, (int(width), int(height)), interpolation=cv2.INTER_AREA)
+    cover[low[1] : low[1] + height, low[0] : low[0] + width] = np.asarray(part, np.float32) / np.float32(255)
+    return cover
 
 
 def _lay(plane: NDArray[np.float32], ring: FloatArray, colour: tuple[float, float, float]) -> None:

@@ -23,7 +23,7 @@ from app.templates.catalogue import find_template
 from app.vision.picture import LARGEST_PICTURE
 from app.vision.seen_garment import Seen
 from app.vision.seen_garment import see as see_garment
-from app.vision.vision_errors import NothingToldError, ScaleNeededError
+from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 
 
 @cli.command()
@@ -82,6 +82,10 @@ def telling(source: Path) -> Iterator[None]:
             raise typer.Exit(NO_PLAN) from None
         except ScaleNeededError as error:
             raise failure(f"{source}: --scale: {error}") from None
+        except PictureError as error:
+            if error.field != "scale":
+                raise
+            raise failure(f"--scale: {error.message}") from None
 
 
 def _told(found: Seen) -> str:

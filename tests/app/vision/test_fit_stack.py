@@ -22,8 +22,7 @@ def test_distances_from_a_square_are_known_by_hand():
     assert outwards == pytest.approx(np.array([(0, 1), (0, 1), (-0.6, -0.8), (1, 0)]))
 
 
-@pytest.mark.parametrize("name", ["t-shirt", "jeans", "tie", "vest"])
-@pytest.mark.parametrize("folds", [0, 1])
+@pytest.mark.parametrize(("name", "folds"), [("t-shirt", 1), ("jeans", 0), ("tie", 0), ("tie", 1), ("vest", 1)])
 def test_a_stack_is_found_where_it_lies_though_an_arm_hides_some_of_it(name: str, folds: int):
     stack = replayed(load_garment(name)).cloth((1 << folds) - 1)
     placement = Pose2(0.21, -0.13, 2.4 - folds)

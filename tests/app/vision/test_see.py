@@ -35,7 +35,13 @@ def size(seen: Seen) -> float:
     return Region.polygon(seen.garment.outline).length
 
 
-@pytest.mark.parametrize("look", [BLUE_ON_WOOD, WHITE_ON_LIGHT_WOOD, DARK_ON_DARK, PATTERNED])
+@pytest.fixture(scope="module")
+def alone() -> Photo:
+    """Return a picture of a T-shirt with nothing beside it."""
+    return picture(BLUE_ON_WOOD)
+
+
+@pytest.mark.parametrize("look", [WHITE_ON_LIGHT_WOOD, DARK_ON_DARK, PATTERNED])
 def test_a_t_shirt_beside_a_sheet_is_seen_with_its_corners_and_its_size(look: Look):
     seen = see(picture(look, sheet=(0.62, -0.3, 0.4)).jpeg, "shirt", "a4")
     assert seen.sure.unknown is None, seen.sure
@@ -70,9 +76,9 @@ def test_what_is_like_a_known_garment_has_its_corners_and_its_folds(name: str, l
     assert np.abs(found.distances).max() < 0.005
 
 
-def test_without_anything_of_known_size_the_scale_is_asked_for():
+def test_without_anything_of_known_size_the_scale_is_asked_for(alone: Photo):
     with pytest.raises(ScaleNeededError, match="A4 or Letter"):
-        see(picture(BLUE_ON_WOOD).jpeg, "shirt", None)
+        see(alone.jpeg, "shirt", None)
 
 
 def test_an_empty_table_shows_no_garment():
@@ -80,9 +86,8 @@ def test_an_empty_table_shows_no_garment():
         see(photo([], BLUE_ON_WOOD, 3).jpeg, "nothing", "0.5m")
 
 
-def test_a_garment_that_runs_out_of_the_picture_is_doubted():
-    whole = picture(BLUE_ON_WOOD).image
-    _, cut = cv2.imencode(".png", whole[:640])
+def test_a_garment_that_runs_out_of_the_picture_is_doubted(alone: Photo):
+    _, cut = cv2.imencode(".png", alone.image[:640])
     assert see(cut.tobytes(), "half", "0.5m").sure.unknown.code == "cut_off"
 
 
