@@ -23,6 +23,7 @@ from bench.reach import reach
 from bench.report import Report
 from bench.robot_plans import robot_plans
 from bench.studies import studies
+from bench.vision import vision
 from bench.yes_and_no import PAIRS, yes_and_no
 
 Benchmark = Callable[[Sequence[str], int], Report]
@@ -42,8 +43,9 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "hand": hand,
     "crowd": crowd,
     "studies": studies,
+    "vision": vision,
 }
-APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "studies"})
+APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "studies", "vision"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))

@@ -12,7 +12,7 @@ from app.vision.on_table import OnTable, outline_on_table
 from app.vision.picture import read_picture
 from app.vision.scale_said import read_scale
 from app.vision.stack_fit import pose_json, unknown_json
-from app.vision.straighten import Straightened, near_m, straighten
+from app.vision.straighten import Straightened, near_m, size_m, straighten
 from app.vision.symmetry import find_mirror, symmetric
 from app.vision.vision_errors import NothingToldError
 from planner.cloth.garment import Garment
@@ -101,10 +101,10 @@ def see(data: bytes, name: str, scale: str | None, like: Like | None = None) -> 
     """
     said = None if scale is None else read_scale(scale)
     seen = outline_on_table(read_picture(data), said)
-    return _drawn(seen, name) if like is None else _likened(seen, name, like)
+    return drawn(seen, name) if like is None else _likened(seen, name, like)
 
 
-def _drawn(seen: OnTable, title: str) -> Seen:
+def drawn(seen: OnTable, title: str) -> Seen:
     """Return the garment with straight edges, symmetric where it nearly is, upright."""
     straight = straighten(seen.contour)
     notes = [
@@ -113,6 +113,8 @@ def _drawn(seen: OnTable, title: str) -> Seen:
     corners, axis_rad = straight.corners, math.pi / 2
     mirror = find_mirror(corners)
     made = None if mirror is None else symmetric(corners, mirror)
+    if made is not None and _area_off(made, seen.contour) > _MOST_AREA_OFF:  # of narrow cloth the wrong corners pair up
+        made = None
     if mirror is None:
         notes.append(Message.plain("the outline is not symmetric, and was left as it was seen"))
     elif made is None:
@@ -123,7 +125,9 @@ def _drawn(seen: OnTable, title: str) -> Seen:
         text = f"the outline was made symmetric; its halves differed by {mirror.off_m:.4f} m in the mean"
         notes.append(Message("made_symmetric", text, {"off_m": mirror.off_m}))
     outline, placement = _upright(corners, axis_rad)
-    sure = Sure(straight.share, straight.within_m, seen.seen.agreement, seen.size_error, _doubt(seen, straight))
+    sure = Sure(
+        straight.share, straight.within_m, seen.seen.agreement, seen.size_error, _doubt(seen, straight, outline)
+    )
     try:
         garment = Garment.from_dict({"name": plain_name(title), "title": title, "outline": outline.tolist()})
     except GarmentError as error:
@@ -135,7 +139,7 @@ def _drawn(seen: OnTable, title: str) -> Seen:
 def _likened(seen: OnTable, title: str, like: Like) -> Seen:
     """Return a known kind of garment that fits the outline seen."""
     found = liken(seen.contour, like)
-    within_m = near_m(Region.polygon(seen.contour).length)
+    within_m = near_m(size_m(Region.polygon(seen.contour)))
     share = float((np.abs(found.distances) <= within_m).mean())
     doubt = seen.doubt
     if doubt is None and share < _LEAST_SHARE:
@@ -149,8 +153,20 @@ def _likened(seen: OnTable, title: str, like: Like) -> Seen:
 
 _LEAST_SHARE = 0.85
 
+_MOST_AREA_OFF = 0.05
+"""An outline whose area is so much off that of the points seen lacks a corner, though most points are near it."""
 
-def _doubt(seen: OnTable, straight: Straightened) -> Message | None:
+
+def _area_off(corners: FloatArray, contour: FloatArray) -> float:
+    """Return by which share the area within some corners differs from that within the points seen."""
+    return abs(Region.polygon(corners).area / Region.polygon(contour).area - 1.0)
+
+
+def _doubt(seen: OnTable, straight: Straightened, outline: FloatArray) -> Message | None:
+    off = _area_off(outline, seen.contour)
+    if seen.doubt is None and off > _MOST_AREA_OFF:
+        text = f"the area within the straight edges differs by {off:.0%} from what was seen"
+        return Message("edges_do_not_fit", text, {"share": off})
     if seen.doubt is None and straight.share < _LEAST_SHARE:
         text = f"straight edges fit only {straight.share:.0%} of the outline to {straight.within_m:.3f} m"
         return Message("edges_do_not_fit", text, {"share": straight.share, "within_m": straight.within_m})

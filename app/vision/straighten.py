@@ -1,5 +1,6 @@
 """Straight edges for an outline seen: the corners first, then a line through the points of each edge."""
 
+import math
 from dataclasses import dataclass
 
 import cv2
@@ -36,7 +37,7 @@ class Straightened:
 def straighten(contour: FloatArray) -> Straightened:
     """Return the figure with the fewest straight edges that fits an outline seen, points in order, shape (n, 2), m."""
     ring = contour if _area(contour) > 0 else contour[::-1]
-    length = Region.polygon(ring).length
+    length = size_m(Region.polygon(ring))
     within_m = near_m(length)
     best: Straightened | None = None
     for share in TOLERANCES:
@@ -52,8 +53,16 @@ def straighten(contour: FloatArray) -> Straightened:
     return Straightened(ring[_corners(ring, 0.01 * length)], within_m, 0.0) if best is None else best
 
 
+def size_m(figure: Region) -> float:
+    """Return the size that tolerances are shares of: a figure's length, or less where it is narrow (m).
+
+    A hundredth of a tie's length is a fifth of its narrow end: within that, corners could go unnoticed.
+    """
+    return min(figure.length, math.sqrt(2.0 * figure.area))
+
+
 def near_m(length: float) -> float:
-    """Return how near to the outline of a figure of some length a point counts as on it (m)."""
+    """Return how near to the outline of a figure of some size a point counts as on it (m)."""
     return _NEAR[0] + _NEAR[1] * length
 
 

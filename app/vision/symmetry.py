@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.vision.outline_edges import OutlineEdges
+from app.vision.straighten import size_m
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 
@@ -65,7 +66,7 @@ def find_mirror(corners: FloatArray) -> Mirror | None:
 
 def symmetric(corners: FloatArray, mirror: Mirror) -> FloatArray | None:
     """Return corners moved so that the figure mirrors itself; None where they do not pair up."""
-    most_m = _PAIR_OFF * Region.polygon(corners).length
+    most_m = _PAIR_OFF * size_m(Region.polygon(corners))
     images = mirror.mirrored(corners)
     gaps = np.sqrt(((images[:, None] - corners) ** 2).sum(axis=2))
     partner = gaps.argmin(axis=1)

@@ -10,6 +10,7 @@ from app.vision.outline_edges import OutlineEdges
 from app.vision.picture import read_picture
 from app.vision.scale_said import LengthSaid, MarkerSaid, SheetSaid, read_scale
 from app.vision.seen_garment import Seen, see
+from app.vision.straighten import straighten
 from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from bench.table_photo import Look, Photo, photo
 from planner import load_garment
@@ -74,6 +75,13 @@ def test_what_is_like_a_known_garment_has_its_corners_and_its_folds(name: str, l
     assert len(found.garment.folds) == len(load_garment(name).folds)
     assert found.garment.pattern.length == pytest.approx(1.15 * load_garment(name).pattern.length, rel=0.01)
     assert np.abs(found.distances).max() < 0.005
+
+
+def test_the_corners_of_narrow_cloth_are_not_lost_within_the_tolerance_of_its_length():
+    tie = load_garment("tie").pattern
+    points = OutlineEdges.of(tie).spaced(700)
+    points = points + np.random.default_rng(2).normal(0.0, 0.0015, points.shape)
+    assert Region.polygon(straighten(points).corners).area == pytest.approx(tie.area, rel=0.04)
 
 
 def test_without_anything_of_known_size_the_scale_is_asked_for(alone: Photo):
