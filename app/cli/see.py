@@ -23,7 +23,10 @@ from app.templates.catalogue import find_template
 from app.vision.picture import LARGEST_PICTURE
 from app.vision.seen_garment import Seen
 from app.vision.seen_garment import see as see_garment
+from app.vision.seen_state import SeenState, see_state
+from app.vision.stack_fit import FoldFit
 from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
+from planner.cloth.garment import Garment
 
 
 @cli.command()
@@ -45,12 +48,25 @@ def see(
             "brought along.",
         ),
     ] = None,
+    state: Annotated[
+        str | None,
+        typer.Option(
+            "--state-of",
+            metavar="GARMENT",
+            help="Say which of this garment's folds are done in the picture, and how far off the last crease is.",
+        ),
+    ] = None,
     json_to: JsonOption = None,
 ) -> None:
-    """Read a garment from a picture: its outline, where it lies, how sure that is.
+    """Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded.
 
     Exit status: 0 read; 2 bad input, or no scale; 3 nothing can be told from the picture.
     """
+    if like is not None and state is not None:
+        raise failure("--like and --state-of cannot be given together")
+    if state is not None:
+        _see_state(image, scale, garment_of(state), json_to)
+        return
     kind = None if like is None else find_template(like) or garment_of(like)
     with telling(image):
         found = see_garment(picture_file(image), image.stem, scale, kind)
@@ -59,6 +75,17 @@ def see(
         output.print(_told(found))
     if found.sure.unknown is not None:
         errors.print(f"{image}: not sure: {found.sure.unknown.text}")
+
+
+def _see_state(image: Path, scale: str | None, garment: Garment, json_to: str | None) -> None:
+    """Print and write which state of a garment's folds a picture shows."""
+    with telling(image):
+        found = see_state(picture_file(image), scale, garment)
+    write_json(found.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(_state_told(found))
+    if found.unknown is not None:
+        errors.print(f"{image}: not sure: {found.unknown.text}")
 
 
 def picture_file(path: Path) -> bytes:
@@ -86,6 +113,22 @@ def telling(source: Path) -> Iterator[None]:
             if error.field != "scale":
                 raise
             raise failure(f"--scale: {error.message}") from None
+
+
+def _state_told(found: SeenState) -> str:
+    """Return which state was seen, in a few lines."""
+    done = ", ".join(str(index + 1) for index in found.folds) or "none"
+    lines = [f"{found.garment.title}: folds done: {done}; the scale from the {found.scale_from}"]
+    fit = found.found.fit
+    if isinstance(fit, FoldFit):
+        lines.append(
+            f"the last crease is {fit.offset_m:+.3f} m (within {fit.offset_error_m:.3f} m) to the left of its line, "
+            f"turned by {fit.turn_rad:+.3f} rad; the part that moved is {fit.off_m:.3f} m off"
+        )
+    place = found.found.stack.placement
+    lines.append(f"it lies in the frame of the {found.frame} at ({place.x_m:.3f}, {place.y_m:.3f}) m, ")
+    lines[-1] += f"turned by {place.yaw_rad:.3f} rad"
+    return "\n".join(lines)
 
 
 def _told(found: Seen) -> str:

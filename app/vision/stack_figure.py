@@ -10,6 +10,7 @@ from app.vision.outline_edges import OutlineEdges
 from app.vision.stack_fit import LOOKS_ALIKE, StackFit
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
 from planner.message import Message
 
 ON_OUTLINE_M = 0.01
@@ -71,10 +72,14 @@ class Figure:
     @staticmethod
     def of(stack: ClothState) -> "Figure":
         """Return a stack's figure."""
-        silhouette = stack.silhouette
-        edges = OutlineEdges.of(silhouette)
+        return Figure.about(stack.silhouette)
+
+    @staticmethod
+    def about(outline: Region) -> "Figure":
+        """Return the figure of an outline."""
+        edges = OutlineEdges.of(outline)
         spaced = edges.spaced(POINTS)
-        return Figure(spaced.mean(axis=0), edges, spaced, silhouette.hull)
+        return Figure(spaced.mean(axis=0), edges, spaced, outline.hull)
 
     def pose(self, row: FloatArray) -> Pose2:
         """Return the placement of the article frame."""
@@ -166,7 +171,7 @@ class Figure:
     def chosen(self, candidates: list[Fitted], seen: FloatArray, near: Pose2 | None) -> StackFit:
         """Return what is known: the best of some placements, or of those that fit as well the one nearest to `near`."""
         best = candidates[0]
-        alike = [best, *(one for one in candidates[1:] if _fits_as_well(one, best))]
+        alike = [best, *(one for one in candidates[1:] if fits_as_well(one.misfit_m, best.misfit_m))]
         is_ambiguous = len(alike) > 1
         if near is not None and is_ambiguous:
             start = self.fit_at(near)
@@ -237,6 +242,6 @@ def gaps(points: FloatArray, others: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(((points[:, None] - others) ** 2).sum(axis=2).min(axis=1)))
 
 
-def _fits_as_well(one: Fitted, best: Fitted) -> bool:
-    """Return whether a placement cannot be told from the best by how it fits."""
-    return one.misfit_m <= 1.25 * best.misfit_m + 0.0005
+def fits_as_well(misfit_m: float, least_m: float) -> bool:
+    """Return whether what fits so well cannot be told from the best by its misfit."""
+    return misfit_m <= 1.25 * least_m + 0.0005

@@ -82,10 +82,14 @@ class FoldSequence:
         The last fold done of an unfinished chain comes last, because a red fold takes the layers that it moved.
         """
         if done not in self._cloths:
-            begun = self.dag.last_of_begun_chain(done)
-            last = done.bit_length() - 1 if begun is None else begun
+            last = self.last_done(done)
             self._cloths[done] = self.folded(done & ~(1 << last), last).cloth
         return self._cloths[done]
+
+    def last_done(self, done: int) -> int:
+        """Return the fold that `cloth` takes to be the last of a set of folds, which is not empty."""
+        begun = self.dag.last_of_begun_chain(done)
+        return done.bit_length() - 1 if begun is None else begun
 
     def folded(self, done: int, index: int) -> Folded:
         """Return the result of one more fold on the stack after a set of folds."""

@@ -51,6 +51,13 @@ def test_what_is_like_a_template_brings_its_folds(shirt: str):
     assert seen["sure"]["share_within"] > 0.9
 
 
+def test_a_garment_that_is_not_folded_is_seen_to_be_so(shirt: str):
+    result = see(shirt, "--scale", "a4", "--state-of", "t-shirt", "--json", "-")
+    assert result.exit_code == 0, result.output
+    state = json.loads(result.stdout)
+    assert state["known"] and state["folds_done"] == [] and state["last_fold"] is None
+
+
 def test_nothing_to_be_told_is_status_3(bare: str):
     result = see(bare, "--scale", "0.5m")
     assert result.exit_code == 3
@@ -63,6 +70,8 @@ def test_nothing_to_be_told_is_status_3(bare: str):
         ((), "--scale: nothing in the picture says how large"),
         (("--scale", "five"), "--scale: 'five' is none of a4"),
         (("--scale", "0.5m", "--like", "sock"), "sock"),
+        (("--scale", "0.5m", "--state-of", "sock"), "sock"),
+        (("--like", "tie", "--state-of", "tie"), "cannot be given together"),
     ],
 )
 def test_bad_input_and_no_scale_are_status_2(bare: str, options: tuple[str, ...], says: str):
