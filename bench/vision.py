@@ -156,7 +156,8 @@ def _corners_off(scene: Scene, ways: tuple[Pose2, ...]) -> list[float]:
     corners = np.array(load_garment(scene.garment).outline)
     true = scene.sheet.to_inner(scene.placement.to_outer(corners))
     found = [sign * way.to_outer(corners) for way in ways for sign in (1.0, -1.0)]
-    return list(min((np.hypot(*(one - true).T) for one in found), key=lambda off: float(off.max())))
+    offs: list[list[float]] = [np.hypot(*(one - true).T).tolist() for one in found]
+    return min(offs, key=max)
 
 
 def _row(kind: str, judged: list[Judged]) -> Row:
