@@ -3,16 +3,24 @@
 import os
 import time
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
+from app.files.robot_archive import unpack_robot
 from app.jobs.apart import Tell
 from app.jobs.job_kind import Progress
+from app.store.storage_error import storing
 from planner import make_plan
+from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
 from planner.planning.plan_check import require_replay
+from planner.robots.card_file import CardFile
+from planner.robots.collision.part_source import make_parts
+from planner.robots.described_robot import DescribedRobot, read_card
+from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
 from planner.task.task import Task
 
@@ -111,3 +119,16 @@ def read_file(
 ) -> Imported:
     """Read a garment from a file, as `import_file` does."""
     return import_file(filename, data, units, scale, creases, measured)
+
+
+def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
+    """Return a robot's card once all that it names is there: that of an archive, unpacked into a folder, or a card."""
+    if isinstance(given, CardFile):
+        card = given
+    else:
+        with storing("the robot could not be unpacked"):
+            unpack_robot(given, folder)
+        card = read_card(folder / CARD)
+    if not make_parts(DescribedRobot.of(card, folder)):
+        raise RobotError("urdf", "no link has a shape")
+    return card

@@ -21,7 +21,9 @@ from app.store.document_repository import DocumentRepository
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository
 from app.store.plan_store import PlanStore
+from app.store.robot_repository import RobotRepository
 from planner.errors import FoldingError
+from planner.robots.own_robots import use_robots_folder
 
 FIRST_GARMENT = "t-shirt"
 UNUSED_S = 60.0
@@ -46,6 +48,7 @@ class Workspace:
     Attributes:
         folder: the data folder.
         garments: the garment repository.
+        robots: the repository of robots; the whole process looks for robots of one's own there.
         documents: the document repository.
         plans: the plans made so far.
         lanes: the workers for everything that takes time.
@@ -57,6 +60,8 @@ class Workspace:
         """Start with no open document; `kinds` are the jobs that can be asked for."""
         self.folder = DataFolder(settings.data)
         self.garments = GarmentRepository(self.folder.garments)
+        self.robots = RobotRepository(self.folder.robots)
+        use_robots_folder(self.folder.robots)
         self.documents = DocumentRepository(self.folder.documents)
         self.plans = PlanStore()
         self.lanes = Lanes()
@@ -74,6 +79,7 @@ class Workspace:
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
         start_template()
+        self.robots.mend()
         try:
             self.jobs.resume()
         except FoldingError as error:

@@ -12,6 +12,8 @@
     ├── GarmentFileError             a file that cannot be read as a garment (or scene) at all
     ├── UnknownGarmentError          no garment of that name
     ├── ReadOnlyGarmentError         an attempt to change a shipped garment
+    ├── UnknownRobotError            no robot of that name
+    ├── ReadOnlyRobotError           an attempt to change a shipped robot
     └── UnsolvedPlanError            a request for the timeline of a plan that has none
 
 "No plan exists" is never an error: it is a `planner.task.plan.Plan` with that status.
@@ -89,6 +91,16 @@ class UnknownRobotError(FoldingError):
 
     def __str__(self) -> str:
         return f"there is no robot named {self.name!r}"
+
+
+@dataclass
+class ReadOnlyRobotError(FoldingError):
+    """An attempt to replace or remove a shipped robot."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.name!r} is shipped with Pleat and read-only; save yours under another name"
 
 
 class RequestError(FieldError):

@@ -15,7 +15,7 @@ from planner.cloth.garment import Garment
 from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import robot_names
 from planner.task.grip import BaseStop
 from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
@@ -89,8 +89,9 @@ def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimi
 
 def require_name(robot: str) -> None:
     """Raise `RequestError` for a robot that is given by anything but the name of one."""
-    if robot not in shipped_robots():
-        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(shipped_robots())}")
+    known = robot_names()
+    if robot not in known:
+        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(known)}")
 
 
 def _asked_start(task: Task, wanted: StartField) -> WorldState:

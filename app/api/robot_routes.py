@@ -1,28 +1,113 @@
-"""Routes of robots: the list, and one robot's card."""
+"""Routes of robots: the list, one robot's card, and saving one's own."""
 
-from typing import Any
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
+from app import searches
 from app.api.answers import RobotEntry
+from app.api.asked import workspace_of
+from app.api.body import JsonBody, read_bytes
 from app.api.described import DescribedRoute, problems
+from app.api.waiting import answer_of
+from app.files.robot_archive import PACKED_BYTES_MAX
+from app.jobs.apart import LostProcessError, ignore, run_apart
+from app.jobs.job_pool import ShouldStop
+from app.store.robot_repository import RobotRepository
+from planner.errors import RobotError
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import robot_entry, shipped_card, shipped_robots
+from planner.robots.described_robot import robot_entry, shipped_card
+from planner.robots.known_robots import card_of, robot_cards
 
 router = APIRouter(prefix="/api/robots", tags=["robots"], route_class=DescribedRoute)
+
+_ARCHIVE = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
+
+CardBody = Annotated[
+    CardFile,
+    Depends(JsonBody(CardFile, {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My bench"})),
+]
 
 
 @router.get("", response_model=list[RobotEntry])
 async def list_robots() -> list[dict[str, Any]]:
-    """Return all robots that are described, in alphabetical order."""
-    cards = await run_in_threadpool(lambda: [shipped_card(name) for name in shipped_robots()])
+    """Return all robots that are described, the shipped ones first."""
+    cards = await run_in_threadpool(robot_cards)
     return [robot_entry(card) for card in cards]
 
 
-@router.get("/{name}", responses={200: {"model": CardFile}, **problems(404)})
+@router.post(
+    "/imports",
+    openapi_extra=_ARCHIVE,
+    responses={200: {"model": RobotEntry}, 201: {"model": RobotEntry}, **problems(403, 409, 413, 422, 503, 507)},
+)
+async def post_robot_import(request: Request) -> JSONResponse:
+    """Save or replace a robot of one's own: 201 if it is new, 200 if it existed.
+
+    The body is a zip archive of `robot.json`, its URDF and its meshes. The errors name the card's field, and the frame,
+    joint or mesh that is missing; those of the archive itself are about the field `file`. Where the robot's arms can
+    reach is found when it is first planned for, which takes up to half a minute an arm.
+    """
+    data = await read_bytes(request, PACKED_BYTES_MAX)
+    workspace = workspace_of(request)
+    work = partial(_imported, workspace.robots, data)
+    card, is_new = await answer_of(request, workspace.lanes.files, work)
+    return JSONResponse(robot_entry(card), status_code=201 if is_new else 200)
+
+
+@router.get("/{name}", responses={200: {"model": CardFile}, **problems(404, 422)})
 async def read_robot_card(name: str) -> JSONResponse:
     """Return a robot's card with every field filled in."""
-    card = await run_in_threadpool(shipped_card, name)
+    card = await run_in_threadpool(card_of, name)
     return JSONResponse(card.to_dict())
+
+
+@router.put(
+    "/{name}",
+    responses={200: {"model": CardFile}, 201: {"model": CardFile}, **problems(403, 409, 413, 422, 503, 507)},
+)
+async def save_robot_card(request: Request, name: str, card: CardBody) -> JSONResponse:
+    """Save or replace the card of a robot of one's own: 201 if it is new, 200 if it existed.
+
+    Its URDF is in an installed package, or among the files that an import has put beside the card.
+    """
+    if card.name != name:
+        raise RobotError("name", f"is {card.name!r}, but the address says {name!r}")
+    workspace = workspace_of(request)
+    is_new = await answer_of(request, workspace.lanes.files, partial(_saved, workspace.robots, card))
+    return JSONResponse(card.to_dict(), status_code=201 if is_new else 200)
+
+
+@router.delete("/{name}", status_code=204, responses=problems(403, 404, 409))
+async def remove_robot(request: Request, name: str) -> Response:
+    """Remove a robot of one's own with its files."""
+    await run_in_threadpool(workspace_of(request).robots.remove, name)
+    return Response(status_code=204)
+
+
+def _imported(robots: RobotRepository, data: bytes, should_stop: ShouldStop) -> tuple[CardFile, bool]:
+    with robots.beside() as unpacked:
+        card = _looked_at(should_stop, unpacked, data)
+        return card, robots.take(card.name, unpacked)
+
+
+def _saved(robots: RobotRepository, card: CardFile, should_stop: ShouldStop) -> bool:
+    _looked_at(should_stop, robots.place(card.name), card)
+    return robots.save(card)
+
+
+def _looked_at(should_stop: ShouldStop, folder: Path, given: bytes | CardFile) -> CardFile:
+    """Return the card of an archive or a card as it stands in a folder; raise `RobotError` if it is not valid."""
+    try:
+        return run_apart(searches.read_robot, should_stop, ignore, folder, given)
+    except LostProcessError:
+        raise RobotError("urdf", "cannot be read: the program that read it has ended") from None

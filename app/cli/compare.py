@@ -6,6 +6,7 @@ import typer
 
 from app.cli.program import (
     STANDARD_OUTPUT,
+    DataOption,
     JsonOption,
     SourceArgument,
     blaming,
@@ -17,7 +18,7 @@ from app.cli.program import (
 )
 from app.comparison import compared
 from app.tables import comparison_table
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import robot_names
 from planner.task.task import Limits
 
 
@@ -29,12 +30,13 @@ def compare(
     ] = None,
     time_limit_s: Annotated[float, typer.Option(help="How long to search for each (s).")] = 10.0,
     json_to: JsonOption = None,
+    data: DataOption = None,
 ) -> None:
     """Plan a garment for several robots, each at its own table: who can fold it, how long it takes, what it would take.
 
     The first time a robot is planned for, maps of what its arms reach are made, which takes up to half a minute an arm.
     """
-    names = [name.strip() for name in robots.split(",")] if robots else list(shipped_robots())
+    names = [name.strip() for name in robots.split(",")] if robots else list(robot_names())
     if not all(names):
         raise failure("--robots: has an empty name")
     source = garment_of(garment)

@@ -11,6 +11,7 @@ from app.cli.program import (
     NO_PLAN,
     OUT_OF_BUDGET,
     STANDARD_OUTPUT,
+    DataOption,
     JsonOption,
     SourceArgument,
     blaming,
@@ -71,6 +72,7 @@ def plan(
     ] = None,
     json_to: JsonOption = None,
     suggest: Annotated[bool, typer.Option("--suggest", help="Look for changes that give a (quicker) plan.")] = False,
+    data: DataOption = None,
 ) -> None:
     """Plan a garment's folds, and print the plan."""
     options = TaskOptions()

@@ -14,6 +14,7 @@ from rich.console import Console
 
 from planner.cloth.garment import Garment
 from planner.errors import FieldError, FoldingError, RequestError
+from planner.robots.own_robots import ROBOTS, use_robots_folder
 from planner.task.plan import Plan
 from planner.task.plan_files import load
 
@@ -36,6 +37,23 @@ SourceArgument = Annotated[
 ]
 JsonOption = Annotated[
     str | None, typer.Option("--json", metavar="FILE|-", help="Write JSON there; - prints it alone.")
+]
+
+
+def _use_data(folder: Path | None) -> Path | None:
+    if folder is not None:
+        use_robots_folder(folder / ROBOTS)
+    return folder
+
+
+DataOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--data",
+        callback=_use_data,
+        help="The folder with your own robots, as `pleat serve` has it.",
+        show_default="that of the server",
+    ),
 ]
 
 

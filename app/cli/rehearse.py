@@ -10,6 +10,7 @@ from rich.table import Table
 from app.cli.program import (
     NO_PLAN,
     STANDARD_OUTPUT,
+    DataOption,
     JsonOption,
     SourceArgument,
     blaming,
@@ -51,6 +52,7 @@ def rehearse_command(
     noise: Annotated[NoiseName, typer.Option(help="The errors of robot, cloth and camera.")] = NoiseName.NONE,
     feedback: Annotated[Switch, typer.Option(help="Look before each step, and correct it.")] = Switch.ON,
     json_to: JsonOption = None,
+    data: DataOption = None,
 ) -> None:
     """Perform a plan in simulated physics, and say of every step whether it holds.
 

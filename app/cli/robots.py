@@ -5,9 +5,10 @@ from typing import Annotated
 import typer
 from rich.progress import Progress
 
-from app.cli.program import STANDARD_OUTPUT, JsonOption, blaming, cli, errors, output, write_json
+from app.cli.program import STANDARD_OUTPUT, DataOption, JsonOption, blaming, cli, errors, output, write_json
 from app.tables import robot_check_table, robots_table
-from planner.robots.described_robot import read_robot, robot_entry, shipped_card, shipped_robots
+from planner.robots.described_robot import read_robot, robot_entry
+from planner.robots.known_robots import robot_cards
 from planner.robots.table_reach import table_reach
 
 robot = typer.Typer(help="Look at the card of a robot.", no_args_is_help=True)
@@ -15,9 +16,9 @@ cli.add_typer(robot, name="robot")
 
 
 @cli.command()
-def robots(json_to: JsonOption = None) -> None:
-    """Print the robots that are shipped."""
-    cards = [shipped_card(name) for name in shipped_robots()]
+def robots(json_to: JsonOption = None, data: DataOption = None) -> None:
+    """Print the robots that are shipped, and your own."""
+    cards = robot_cards()
     write_json([robot_entry(card) for card in cards], json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(robots_table(cards))
@@ -27,6 +28,7 @@ def robots(json_to: JsonOption = None) -> None:
 def check(
     card: Annotated[str, typer.Argument(metavar="CARD", help="The name of a robot, or a card's file.")],
     json_to: JsonOption = None,
+    data: DataOption = None,
 ) -> None:
     """Check that a card is complete, that what it names is there, and how much of its table it reaches.
 

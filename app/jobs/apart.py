@@ -20,10 +20,12 @@ from concurrent.futures import Future
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
+from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from app.jobs.job_pool import ShouldStop
 from planner.errors import FoldingError
+from planner.robots.own_robots import robots_folder, use_robots_folder
 
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
@@ -140,7 +142,7 @@ def run_apart(
     """
     _wait_until_loaded(should_stop)
     ours, theirs = _context.Pipe(duplex=False)
-    process = _context.Process(target=_work, args=(theirs, work, arguments, options), daemon=True)
+    process = _context.Process(target=_work, args=(theirs, robots_folder(), work, arguments, options), daemon=True)
     _start(process)
     theirs.close()
     try:
@@ -191,13 +193,18 @@ def _start(process: ForkServerProcess) -> None:
 
 
 def _work(
-    connection: Connection, work: Callable[..., Any], arguments: tuple[Any, ...], options: dict[str, Any]
+    connection: Connection,
+    robots: Path,
+    work: Callable[..., Any],
+    arguments: tuple[Any, ...],
+    options: dict[str, Any],
 ) -> None:
     """Do the work and send its result; runs in the child process, which leads a group of its own.
 
     Processes that the work starts belong to the group, and so end with it.
     """
     os.setpgid(0, 0)
+    use_robots_folder(robots)
     multiprocessing.current_process().daemon = False  # only processes that are no daemons may start others
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(BrokenPipeError):

@@ -139,9 +139,10 @@ def _files(folder: DataFolder) -> Iterator[tuple[str, bytes]]:
 
 
 def _is_kept(folder: DataFolder, path: Path) -> bool:
-    """Return whether a file is backed up; temporary files begin with a dot."""
+    """Return whether a file is backed up; temporary files and folders begin with a dot."""
+    is_temporary = any(part.startswith(".") for part in path.relative_to(folder.path).parts)
     is_database = path.parent == folder.path and path.name.startswith(folder.database.name)
-    return not (is_database or path.name in _OF_ONE_SERVER or path.name.startswith("."))
+    return not (is_database or path.name in _OF_ONE_SERVER or is_temporary)
 
 
 def _read(files: list[Path]) -> dict[Path, bytes]:

@@ -20,6 +20,7 @@ from filelock import FileLock, Timeout
 from app.store.durable_file import write_at_once
 from app.store.storage_error import ForbiddenStorageError, storage_error
 from planner.errors import FoldingError
+from planner.robots.own_robots import ROBOTS
 
 _PROBE = b"\0" * 4096
 """Content of the test file; large enough to need a disk block, so that a full disk refuses it."""
@@ -74,12 +75,13 @@ class Holder:
 
 
 class DataFolder:
-    """A folder of garments and documents.
+    """A folder of garments, documents and robots.
 
     Attributes:
         path: the folder.
         garments: the folder of garments.
         documents: the folder of documents.
+        robots: the folder of robots.
         database: the file of the database.
         token: the file of the token's hash.
         studies: the folder of studies.
@@ -90,6 +92,7 @@ class DataFolder:
         self.path = path
         self.garments = path / "garments"
         self.documents = path / "documents"
+        self.robots = path / ROBOTS
         self.database = path / "pleat.db"
         self.token = path / "token.json"
         self.studies = path / "studies"
@@ -134,7 +137,7 @@ class DataFolder:
 
     def problem(self) -> str | None:
         """Return why nothing can be saved here now; None if saving works."""
-        for folder in (self.path, self.garments, self.documents):
+        for folder in (self.path, self.garments, self.documents, self.robots):
             try:
                 self._try_writing(folder)
             except OSError as error:
@@ -144,7 +147,7 @@ class DataFolder:
 
     def _try_writing(self, folder: Path) -> None:
         if folder != self.path and not folder.exists():
-            return  # saving the first garment or document makes it
+            return  # saving the first of its kind makes it
         with tempfile.TemporaryFile(dir=folder, prefix=".probe-") as file:
             file.write(_PROBE)
 
@@ -155,7 +158,7 @@ class DataFolder:
             raise UnusableFolderError(self.path, "it is a file") from None
         except OSError as error:
             raise UnusableFolderError(self.path, f"it cannot be made: {error.strerror}") from None
-        for folder in (self.garments, self.documents):
+        for folder in (self.garments, self.documents, self.robots):
             if folder.is_file():
                 raise UnusableFolderError(self.path, f"{folder.name!r} in it is a file")
 

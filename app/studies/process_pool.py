@@ -16,12 +16,14 @@ from collections import Counter, deque
 from collections.abc import Generator, Iterable, Iterator
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
 from app.studies.answer import Answer, MakePlan, answered, failed
 from app.studies.cell import Cell
 from app.studies.workers import planner
 from planner.errors import FoldingError
+from planner.robots.own_robots import robots_folder, use_robots_folder
 
 IN_HAND = 2
 """Cells that a worker has at once."""
@@ -62,7 +64,9 @@ class _Worker:
         self.pipe, theirs = _context.Pipe()
         self.cells: deque[Cell] = deque()
         self.began_s = math.inf
-        self._process = _context.Process(target=_work, args=(theirs, make_plan, keep_plans), daemon=True)
+        self._process = _context.Process(
+            target=_work, args=(theirs, robots_folder(), make_plan, keep_plans), daemon=True
+        )
         self._process.start()
         theirs.close()
 
@@ -187,10 +191,11 @@ class _Running:
             self._fill(one)
 
 
-def _work(pipe: Connection, make_plan: MakePlan | None, keep_plans: bool) -> None:
+def _work(pipe: Connection, robots: Path, make_plan: MakePlan | None, keep_plans: bool) -> None:
     """Plan the cells that come through a pipe; runs in the worker."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program, which ends its workers
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    use_robots_folder(robots)
     plan: Any = make_plan or planner()
     pipe.send(None)
     while True:

@@ -15,6 +15,7 @@ from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import ToolFile
 from planner.robots.chain import Chain
 from planner.robots.chain_reader import read_chain
+from planner.robots.own_robots import own_card, own_robots
 from planner.robots.urdf_composing import composed_urdf
 
 _CARDS = Path(__file__).parent / "cards"
@@ -92,7 +93,12 @@ def shipped_card(name: str) -> CardFile:
     """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
     if name not in shipped_robots():
         raise UnknownRobotError(name)
-    return read_card(_CARDS / f"{name}.json")
+    return read_card(shipped_path(name))
+
+
+def shipped_path(name: str) -> Path:
+    """Return the file of a shipped robot's card."""
+    return _CARDS / f"{name}.json"
 
 
 def robot_entry(card: CardFile) -> dict[str, Any]:
@@ -107,25 +113,27 @@ def robot_entry(card: CardFile) -> dict[str, Any]:
 
 
 def read_robot(name_or_path: str) -> DescribedRobot:
-    """Return a robot by the name of a shipped card, or by the path of a card of one's own.
+    """Return a robot by its name, shipped or one's own, or by the path of its card.
 
     Raises:
         RobotError: there is no such card, or it or its URDF is not valid.
     """
     if name_or_path in shipped_robots():
         return _shipped(name_or_path)
-    path = Path(name_or_path)
+    path = own_card(name_or_path) or Path(name_or_path)
     if not path.is_file():
-        raise RobotError("robot", f"there is no robot {name_or_path!r}, only {', '.join(shipped_robots())}")
-    return _read(path)
+        known = (*shipped_robots(), *own_robots())
+        raise RobotError("robot", f"there is no robot {name_or_path!r}, only {', '.join(known)}")
+    return read_described(path)
 
 
 @cache
 def _shipped(name: str) -> DescribedRobot:
-    return _read(_CARDS / f"{name}.json")
+    return read_described(shipped_path(name))
 
 
-def _read(path: Path) -> DescribedRobot:
+def read_described(path: Path) -> DescribedRobot:
+    """Return the robot of a card's file; raises `RobotError`."""
     return DescribedRobot.of(read_card(path), path.parent)
 
 

@@ -47,6 +47,8 @@ def locate(urdf: UrdfFile, folder: Path, field: str) -> Source:
             top = Path(str(distribution(urdf.package).locate_file("")))
         except (PackageNotFoundError, ValueError):
             raise RobotError(f"{field}.package", f"the package {urdf.package!r} is not installed") from None
+        if Path(urdf.path).is_absolute() or ".." in Path(urdf.path).parts:
+            raise RobotError(f"{field}.path", f"{urdf.path!r} leads out of its package")
         first, folder = Path(urdf.path).parts[:1], top
         root = top / "cmeel.prefix" / "share" if first == ("cmeel.prefix",) else top.joinpath(*first)
     path = (folder / urdf.path).resolve()
