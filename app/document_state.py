@@ -133,8 +133,14 @@ class DocumentState:
         garment, drawing = self.solution.garment, self.drawing
         if garment is None:
             return None
-        station, comfort_m = drawing.start_station, drawing.comfort_radius_m
-        return Task.of(garment, drawing.scene, start_station=station, comfort_radius_m=comfort_m, start=self.start)
+        return Task.of(
+            garment,
+            drawing.scene,
+            robot=drawing.robot,
+            start_station=drawing.start_station,
+            comfort_radius_m=drawing.comfort_radius_m,
+            start=self.start,
+        )
 
     @property
     def is_answered(self) -> bool:

@@ -63,7 +63,8 @@ class LiveSearch:
             should_stop: called often; true ends the search.
         """
         with self._lock:
-            remembered, like, known = self._remembered.get(task), self._known.by_cost(), self._known.of(shown)
+            remembered, known = self._remembered.get(task), self._known.of(shown)
+            like = [found for found in self._known.by_cost() if found.plan.task.robot == task.robot]
         if remembered is None and known is None and not should_stop():
             known = self._quick(task, like, show, should_stop)
         return Begun(task, remembered, known, like)

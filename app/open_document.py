@@ -13,7 +13,6 @@ from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
 from planner.robots.load_robot import load_robot
-from planner.task.task import DEFAULT_ROBOT
 
 
 class OpenDocument:
@@ -28,8 +27,7 @@ class OpenDocument:
         """Open a document and start planning it."""
         self.id = document_id
         self.document = document
-        self._card = load_robot(DEFAULT_ROBOT).card
-        self._replanner = Replanner(document, pool, plans, len(self._card.arms))
+        self._replanner = Replanner(document, pool, plans)
         self._lock = threading.Lock()
         self._shown: tuple[Stage, Player] | None = None
         self._users = 0
@@ -40,8 +38,9 @@ class OpenDocument:
         """Return its stage; the first call builds it."""
         with self._lock:
             if self._shown is None:
-                stage = Stage(self._card, self.document.state.drawing.scene)
-                desk = Desk(self.document, stage.server, self._card, stage.opening)
+                drawing = self.document.state.drawing
+                stage = Stage(load_robot(drawing.robot).card, drawing.scene)
+                desk = Desk(self.document, stage.server, stage.opening)
                 self._shown = (stage, Player(self.document, stage, desk))
             return self._shown[0]
 

@@ -11,6 +11,7 @@ from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
+from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 from planner.task.scene import Scene
 
@@ -63,7 +64,7 @@ class Player:
         self._shown: DocumentState | None = None
         self._plan: Plan | None = None
         self._spread: Garment | None = None
-        self._bare: Pose2 | None = None
+        self._bare: tuple[str, Pose2] | None = None
         self._preview: tuple[Film, float] | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
@@ -131,7 +132,7 @@ class Player:
             return
         if self._plan is not state.film.plan:
             self._plan = state.film.plan
-            self._stage.show_scene(state.film.plan.scene)
+            self._set(state.film.plan.task.robot, state.film.plan.scene)
             self._stage.show_plan(state.film.plan)
         self._spread = self._bare = self._waits_until_s = None
         self._stage.show(state.film.timeline.at(self._document.t_s))
@@ -147,7 +148,7 @@ class Player:
         if self._preview is None or self._preview[0] is not film:
             self._preview = (film, now_s)
             self._plan, self._spread, self._bare, self._waits_until_s = film.plan, None, None, None
-            self._stage.show_scene(film.plan.scene)
+            self._set(film.plan.task.robot, film.plan.scene)
             self._stage.show_plan(film.plan)
         share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
         self._stage.show(film.timeline.at(share * film.timeline.duration_s))
@@ -176,20 +177,25 @@ class Player:
         base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
         if spread is None:
             if not state.drawing.outline or (self._plan is None and self._spread is None):
-                self._show_bare(scene, base)
+                self._show_bare(state.drawing.robot, scene, base)
             return
         if spread is self._spread or self._is_to_wait(state):
             return
         self._spread, self._plan, self._bare, self._waits_until_s = spread, None, None, None
-        self._stage.show_scene(scene)
+        self._set(state.drawing.robot, scene)
         self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)
 
-    def _show_bare(self, scene: Scene, base: Pose2) -> None:
+    def _show_bare(self, robot: str, scene: Scene, base: Pose2) -> None:
         """Show the robot at a table without cloth, for an empty or still invalid drawing."""
-        if base != self._bare:
-            self._spread, self._plan, self._bare, self._waits_until_s = None, None, base, None
-            self._stage.show_scene(scene)
+        if (robot, base) != self._bare:
+            self._spread, self._plan, self._bare, self._waits_until_s = None, None, (robot, base), None
+            self._set(robot, scene)
             self._stage.show_bare(base)
+
+    def _set(self, robot: str, scene: Scene) -> None:
+        """Set the stage with a robot and a scene; both stay where they are the same."""
+        self._stage.show_scene(scene)
+        self._stage.show_robot(load_robot(robot).card)
 
     def _is_to_wait(self, state: DocumentState) -> bool:
         """Return whether a plan for the drawing will come soon, and the stage has something to show until then."""

@@ -19,6 +19,7 @@ from app.jobs.job_pool import Job, JobPool, ShouldStop
 from app.live_search import LiveSearch
 from app.store.plan_store import PlanStore
 from planner.errors import FoldingError, SceneError
+from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Plan
 
 WORK_S, LONGER_WORK_S = 10.0, 60.0
@@ -59,12 +60,11 @@ Phase: TypeAlias = Resting | Searching
 class Replanner:
     """Plans one document as it changes."""
 
-    def __init__(self, document: Document, pool: JobPool, plans: PlanStore, arms: int) -> None:
+    def __init__(self, document: Document, pool: JobPool, plans: PlanStore) -> None:
         """Start the first search at once, in the pool."""
         self._document = document
         self._pool = pool
         self._plans = plans
-        self._arms = arms
         self._search = LiveSearch()
         self._of_previews: set[str] = set()
         self._lock = threading.RLock()
@@ -169,7 +169,8 @@ class Replanner:
 
     def _check(self, state: DocumentState) -> None:
         if state.checks is None or state.checks.version != state.version:
-            self._document.put_checks(state.drawing, tuple(held_folds(state.solution, self._arms)))
+            arms = len(robot_card_file(state.drawing.robot).arms)
+            self._document.put_checks(state.drawing, tuple(held_folds(state.solution, arms)))
 
     def _publish(self, asked: DocumentState, plan: Plan, *, is_final: bool) -> None:
         """Show a plan, and drop the plans that nobody needs to read by id.

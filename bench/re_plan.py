@@ -42,7 +42,6 @@ COLUMNS = (
     "soon",
     "solved",
 )
-ARMS = 2
 MOVES = 8
 """Number of corners of an article that are moved; all of them where it has fewer."""
 
@@ -110,7 +109,7 @@ def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:
 def _planned(drawing: Drawing) -> Iterator[Document]:
     """Yield a document with its planner, at rest."""
     document, pool = Document(draft_of(drawing)), JobPool()
-    replanner = Replanner(document, pool, PlanStore(), ARMS)
+    replanner = Replanner(document, pool, PlanStore())
     try:
         _until(document, _is_settled)
         yield document

@@ -15,7 +15,7 @@ from planner.cloth.garment import Garment
 from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
-from planner.robots.known_robots import robot_names
+from planner.robots.known_robots import require_name
 from planner.task.grip import BaseStop
 from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
@@ -85,13 +85,6 @@ def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimi
     """Return the task whose garment a request wants to have planned wherever it can lie."""
     garment = asked_garment(within, wanted.garment)
     return Task.of(garment, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
-
-
-def require_name(robot: str) -> None:
-    """Raise `RequestError` for a robot that is given by anything but the name of one."""
-    known = robot_names()
-    if robot not in known:
-        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(known)}")
 
 
 def _asked_start(task: Task, wanted: StartField) -> WorldState:

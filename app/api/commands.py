@@ -24,9 +24,12 @@ from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
+from app.drawing.robot_drawing import with_robot
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
+from planner.robots.known_robots import require_shipped
+from planner.robots.load_robot import robot_card_file
 from planner.strict_model import first_error
 
 
@@ -75,9 +78,31 @@ def put_garment(
     """Put another garment into the scene, as one step; raises `StaleVersionError`."""
     now = document.state.drawing
     drawing = replace(
-        drawing_of(garment, now.scene), start_station=now.start_station, comfort_radius_m=now.comfort_radius_m
+        drawing_of(garment, now.scene, now.robot),
+        start_station=now.start_station,
+        comfort_radius_m=now.comfort_radius_m,
     )
     edit = Edit(label or f"Open {garment.title}", drawing, base_version=base_version, gesture="open")
     state = document.edit(edit)
+    document.rewind()
+    return state
+
+
+def put_robot(
+    document: Document, robot: str, label: str | None = None, base_version: int | None = None
+) -> DocumentState:
+    """Have another robot fold, with the scene, start and placement that suit it, as one step.
+
+    Raises:
+        StaleVersionError: the change is based on a version that is no longer current.
+        RequestError: there is no such robot.
+    """
+    require_shipped(robot)
+    before = document.state
+    if before.drawing.robot == robot:
+        return before
+    drawing, title = with_robot(before.solution, robot), robot_card_file(robot).title
+    base = before.version if base_version is None else base_version
+    state = document.edit(Edit(label or f"Fold with {title}", drawing, base_version=base, gesture="robot"))
     document.rewind()
     return state

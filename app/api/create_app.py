@@ -8,6 +8,7 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi_offline import FastAPIOffline
 
 from app.api import (
+    document_changes,
     document_routes,
     file_routes,
     garment_routes,
@@ -78,6 +79,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         study_routes,
         template_routes,
         document_routes,
+        document_changes,
         file_routes,
         overlay_routes,
         live,

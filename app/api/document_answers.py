@@ -52,6 +52,7 @@ class DrawingAnswer(BaseModel):
     scene: Scene
     start_station: str
     comfort_radius_m: float
+    robot: str
 
 
 class DocumentEntryAnswer(BaseModel):

@@ -52,6 +52,14 @@ class GarmentRequest(StrictModel):
     base_version: Version | None = None
 
 
+class RobotRequest(StrictModel):
+    """A request to have another robot fold; it is given by its name."""
+
+    robot: str
+    label: Label | None = None
+    base_version: Version | None = None
+
+
 class TravelRequest(StrictModel):
     """A request to undo or redo, optionally only at a given version."""
 

@@ -1,8 +1,6 @@
 """Routes of documents: the list, each one with its history and playback, and new folds."""
 
-from collections.abc import Callable
 from dataclasses import asdict
-from functools import partial
 from typing import Annotated, Any
 from urllib.parse import urlencode
 
@@ -12,7 +10,7 @@ from starlette.responses import JSONResponse
 
 from app.api.asked import asked_garment, workspace_of
 from app.api.body import JsonBody
-from app.api.commands import obey, put_garment
+from app.api.commands import obey
 from app.api.described import DescribedRoute, problems
 from app.api.document_answers import (
     CreaseAnswer,
@@ -23,22 +21,19 @@ from app.api.document_answers import (
     StepsAnswer,
     VersionAnswer,
 )
-from app.api.document_messages import CreaseRequest, EditRequest, GarmentRequest, NewDocument, TravelRequest
+from app.api.document_changes import opened_document
+from app.api.document_messages import CreaseRequest, NewDocument
 from app.api.live_messages import document_message, playback_message
 from app.api.messages import AnyCommand, Command
-from app.api.problems import ProblemResponse
 from app.api.waiting import quick_answer
-from app.document_state import DocumentState
 from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import drawing_from_dict
-from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.place_crease import PlacedCrease, along_line, grab_and_drop
 from app.drawing.quick_fixes import quick_fixes
 from app.open_document import OpenDocument
 from app.workspace import Workspace
-from planner.errors import FieldError, RequestError
+from planner.errors import RequestError
 from planner.geometry.segment import Segment
 
 router = APIRouter(prefix="/api/documents", tags=["documents"], route_class=DescribedRoute)
@@ -47,18 +42,13 @@ CreaseRequestBody = Annotated[
     CreaseRequest, Depends(JsonBody(CreaseRequest, {"after": 0, "line": {"start": [0.0, 0.2], "end": [0.4, 0.2]}}))
 ]
 CommandBody = Annotated[Command, Depends(JsonBody(AnyCommand, {"do": "pause"}))]
-EditRequestBody = Annotated[EditRequest, Depends(JsonBody(EditRequest, {"base_version": 1, "phase": "cancel"}))]
-GarmentRequestBody = Annotated[GarmentRequest, Depends(JsonBody(GarmentRequest, {"garment": "tie"}))]
 NewDocumentBody = Annotated[NewDocument, Depends(JsonBody(NewDocument, {"garment": "hand-towel"}))]
-TravelRequestBody = Annotated[TravelRequest, Depends(JsonBody(TravelRequest, {"base_version": 1}, may_be_empty=True))]
 
 PAGE, PAGE_MAX = 100, 500
 """Documents on a page of the list: by default, and at most."""
 
 Limit = Annotated[int, Query(ge=1, le=PAGE_MAX, description="documents on the page")]
 After = Annotated[str, Query(max_length=100, description="where the page before ended, as its `Link` has it")]
-
-_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(403, 404, 409, 413, 422, 507)}
 
 
 @router.get("", response_model=list[DocumentEntryAnswer])
@@ -93,7 +83,7 @@ async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResp
 @router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422)})
 async def read_document(request: Request, document_id: str) -> JSONResponse:
     """Return the drawing of a document, its solution and its problems."""
-    opened = await _opened(request, document_id)
+    opened = await opened_document(request, document_id)
     return JSONResponse(await run_in_threadpool(document_message, document_id, opened.document.state))
 
 
@@ -104,47 +94,13 @@ async def remove_document(request: Request, document_id: str) -> Response:
     return Response(status_code=204)
 
 
-@router.put("/{document_id}/drawing", responses=_CHANGED)
-async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
-    """Change the drawing; answers 409, with the current `state`, if somebody else has changed it meanwhile."""
-    edit = _edit(wanted)
-    opened = await _opened(request, document_id)
-    return await _changed(opened, partial(opened.document.edit, edit))
-
-
-@router.put("/{document_id}/garment", responses=_CHANGED)
-async def put_other_garment(request: Request, document_id: str, wanted: GarmentRequestBody) -> Response:
-    """Put another garment in place of the one that is drawn, as one step."""
-    opened = await _opened(request, document_id)
-
-    def put() -> DocumentState:
-        garment = asked_garment(workspace_of(request), wanted.garment)
-        return put_garment(opened.document, garment, wanted.label, wanted.base_version)
-
-    return await _changed(opened, put)
-
-
-@router.post("/{document_id}/undo", responses=_CHANGED)
-async def undo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
-    """Undo the last step; without one nothing happens."""
-    opened = await _opened(request, document_id)
-    return await _changed(opened, partial(opened.document.undo, wanted.base_version))
-
-
-@router.post("/{document_id}/redo", responses=_CHANGED)
-async def redo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
-    """Redo the step undone last; without one nothing happens."""
-    opened = await _opened(request, document_id)
-    return await _changed(opened, partial(opened.document.redo, wanted.base_version))
-
-
 @router.post(
     "/{document_id}/playback",
     responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422)},
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
-    opened = await _opened(request, document_id)
+    opened = await opened_document(request, document_id)
     await run_in_threadpool(obey, command, workspace_of(request), opened.document)
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
 
@@ -155,7 +111,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
 )
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Return the fold that takes a point of the cloth to another place, or that runs along a line."""
-    opened = await _opened(request, document_id)
+    opened = await opened_document(request, document_id)
     placed = await quick_answer(request, _placed, opened, wanted)
     return JSONResponse(placed.to_dict())
 
@@ -163,7 +119,7 @@ async def post_crease(request: Request, document_id: str, wanted: CreaseRequestB
 @router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 503)})
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
     """Return the layers before each legal fold and after the last, bottom to top."""
-    opened = await _opened(request, document_id)
+    opened = await opened_document(request, document_id)
     state = opened.document.state
     return JSONResponse({"version": state.version, "steps": await quick_answer(request, state.solution.layers)})
 
@@ -180,7 +136,7 @@ async def read_versions(request: Request, document_id: str) -> JSONResponse:
 )
 async def read_quick_fixes(request: Request, document_id: str) -> JSONResponse:
     """Return the quick fixes of the drawing's first problem, best first; none if it has no problems."""
-    opened = await _opened(request, document_id)
+    opened = await opened_document(request, document_id)
     state = opened.document.state
     found = await quick_answer(request, quick_fixes, state.draft)
     return JSONResponse({"version": state.version, "quick_fixes": [quick_fix.to_dict() for quick_fix in found]})
@@ -194,20 +150,6 @@ def _place(after: str | None) -> tuple[str, str] | None:
     return changed_at, document_id
 
 
-async def _opened(request: Request, document_id: str) -> OpenDocument:
-    return await run_in_threadpool(workspace_of(request).opened, document_id)
-
-
-async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) -> Response:
-    """Return the state that a change leads to, or the current state if the change came too late."""
-    try:
-        state = await run_in_threadpool(change)
-    except StaleVersionError as error:
-        current = await run_in_threadpool(document_message, opened.id, opened.document.state)
-        return ProblemResponse(409, str(error), members={"state": current})
-    return JSONResponse(await run_in_threadpool(document_message, opened.id, state))
-
-
 def _created(workspace: Workspace, wanted: NewDocument) -> OpenDocument:
     return workspace.create(_first_drawing(workspace, wanted))
 
@@ -218,17 +160,6 @@ def _first_drawing(workspace: Workspace, wanted: NewDocument) -> Drawing:
     if wanted.copy_of is not None:
         return workspace.opened(wanted.copy_of).document.state.drawing
     return blank_drawing() if wanted.garment is None else drawing_of(asked_garment(workspace, wanted.garment))
-
-
-def _edit(wanted: EditRequest) -> Edit:
-    phase = Phase(wanted.phase)
-    if wanted.drawing is None and phase is not Phase.CANCEL:
-        raise RequestError("drawing", "is missing")
-    try:
-        drawing = None if wanted.drawing is None else drawing_from_dict(wanted.drawing)
-    except FieldError as error:
-        raise error.within("drawing") from None
-    return Edit(wanted.label, drawing, phase, wanted.base_version, wanted.coalesce, wanted.gesture)
 
 
 def _placed(opened: OpenDocument, wanted: CreaseRequest) -> PlacedCrease:

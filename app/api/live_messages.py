@@ -6,14 +6,13 @@ from app.document_state import Answer, Checks, DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from planner.errors import FoldingError
-from planner.robots.load_robot import load_robot
+from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Statistics
-from planner.task.task import DEFAULT_ROBOT
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
     """Return the drawing, its solution, its problems and its history."""
-    card = load_robot(DEFAULT_ROBOT).card
+    card = robot_card_file(state.drawing.robot)
     solution, history, gesture = state.solution, state.draft.history, state.draft.gesture
     return {
         "kind": "document",

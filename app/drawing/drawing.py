@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
+from planner.task.task import DEFAULT_ROBOT
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +130,7 @@ class Drawing:
         scene: table, stations and costs.
         start_station: the station at which the robot starts; may be missing from the scene.
         comfort_radius_m: the comfort radius (m).
+        robot: the name of the robot that folds.
     """
 
     name: str
@@ -141,6 +143,7 @@ class Drawing:
     scene: Scene
     start_station: str
     comfort_radius_m: float
+    robot: str = DEFAULT_ROBOT
 
     @property
     def points(self) -> tuple[Point2, ...]:

@@ -25,9 +25,10 @@ from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
 from planner.geometry.given import GivenPose, PlanePoint
+from planner.robots.known_robots import require_shipped
 from planner.strict_model import Positive, StrictModel, first_error
 from planner.task.scene import Scene
-from planner.task.task import COMFORT_MAX_M
+from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,16}$")]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
@@ -127,9 +128,11 @@ class DrawingModel(StrictModel):
     scene: dict[str, Any]
     start_station: Annotated[str, Field(max_length=TITLE_MAX)]
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
+    robot: str = DEFAULT_ROBOT
 
     def value(self) -> Drawing:
-        """Return the drawing; raise `FieldError` for duplicate ids or an invalid scene."""
+        """Return the drawing; raise `FieldError` for duplicate ids, an invalid scene or an unknown robot."""
+        require_shipped(self.robot)
         corners = _named("outline", "v", [corner.id for corner in self.outline])
         names = _named("folds", "f", [fold.id for fold in self.folds])
         return Drawing(
@@ -143,6 +146,7 @@ class DrawingModel(StrictModel):
             _scene(self.scene),
             self.start_station,
             self.comfort_radius_m,
+            self.robot,
         )
 
 
@@ -167,6 +171,7 @@ def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
         "scene": drawing.scene.to_dict(),
         "start_station": drawing.start_station,
         "comfort_radius_m": drawing.comfort_radius_m,
+        "robot": drawing.robot,
     }
 
 

@@ -2,7 +2,9 @@
 
 from app.drawing.drawing import Corner, Crease, Drawing, End
 from planner.cloth.garment import Garment
+from planner.planning.robot_task import default_placement, default_scene
 from planner.task.scene import Scene
+from planner.task.task import DEFAULT_ROBOT
 
 START_STATION = "front"
 
@@ -10,9 +12,9 @@ COMFORT_RADIUS_M = 0.03
 """Default comfort radius (m)."""
 
 
-def drawing_of(garment: Garment, scene: Scene | None = None) -> Drawing:
-    """Return a garment as a drawing, in a scene."""
-    where = scene or Scene()
+def drawing_of(garment: Garment, scene: Scene | None = None, robot: str = DEFAULT_ROBOT) -> Drawing:
+    """Return a garment as a drawing for a robot, in a scene, by default the robot's; it lies where that suits it."""
+    where = scene or default_scene(robot)
     stations = [name for name, _ in where.stations]
     return Drawing(
         garment.name,
@@ -31,8 +33,9 @@ def drawing_of(garment: Garment, scene: Scene | None = None) -> Drawing:
             )
             for i, fold in enumerate(garment.folds)
         ),
-        garment.placement,
+        default_placement(garment, robot),
         where,
         START_STATION if START_STATION in stations else stations[0],
         COMFORT_RADIUS_M,
+        robot,
     )

@@ -26,6 +26,7 @@ class Moment:
     """A moment of a plan, or of the article as drawn.
 
     Attributes:
+        robot: the name of the robot.
         scene: the scene.
         comfort_m: the comfort radius (m).
         base: the base in the table frame.
@@ -39,6 +40,7 @@ class Moment:
         reason: the first reason with a position why there is no plan, or None.
     """
 
+    robot: str
     scene: Scene
     comfort_m: float
     base: Pose2
@@ -88,6 +90,7 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
     world = step.after if is_over else step.before
     station, back_off_m = _station(plan.scene, frame.base)
     return Moment(
+        plan.task.robot,
         plan.scene,
         state.drawing.comfort_radius_m,
         frame.base,
@@ -119,6 +122,7 @@ def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float
     if not state.solution.cloths:
         raise NoClothError("There is no outline yet.")
     return Moment(
+        drawing.robot,
         drawing.scene,
         drawing.comfort_radius_m,
         stations[name].ahead(-back_off_m),

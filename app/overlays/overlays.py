@@ -17,7 +17,6 @@ from app.overlays.slip import slip_overlay
 from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 from planner.robots.load_robot import load_robot
-from planner.task.task import DEFAULT_ROBOT
 
 NOTCH_M, FRINGE_M = 0.04, 0.1
 """Widths below which notches of a reach region are filled, and parts of it left out (m)."""
@@ -42,7 +41,7 @@ def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> di
 
 
 def _robot(moment: Moment) -> dict[str, Any]:
-    card, base = load_robot(DEFAULT_ROBOT).card, moment.base_in_article
+    card, base = load_robot(moment.robot).card, moment.base_in_article
     length, width = card.base_size_m
     corners = np.array([(-length, -width), (length, -width), (length, width), (-length, width)]) / 2.0
     return {
@@ -58,7 +57,7 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
     """Return for each arm the region where it can take cloth on the table, with and without the comfort radius."""
     scene, base = moment.scene, moment.base_in_article
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
-    ask = partial(reach_regions, DEFAULT_ROBOT, scene.torso_m, table_height_m=scene.table.height_m)
+    ask = partial(reach_regions, moment.robot, scene.torso_m, table_height_m=scene.table.height_m)
     with ThreadPoolExecutor() as both:  # uncached it takes long, mostly outside the interpreter
         with_comfort, bare = both.map(ask, (moment.comfort_m, 0.0))
     return [
@@ -68,7 +67,7 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
             "regions": _on_table(moment, with_comfort[number], to_article),
             "bare": _on_table(moment, bare[number], to_article),
         }
-        for number, arm in enumerate(load_robot(DEFAULT_ROBOT).card.arms)
+        for number, arm in enumerate(load_robot(moment.robot).card.arms)
     ]
 
 

@@ -25,7 +25,6 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Reason
-from planner.task.task import DEFAULT_ROBOT
 
 _STEPS, _CORNERS = 40, 96
 """Grid steps from the point to each side, and corners of the disc about it."""
@@ -77,7 +76,7 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
         return None
-    near = near_reach(DEFAULT_ROBOT, moment.scene.torso_m, moment.comfort_m, lack)
+    near = near_reach(moment.robot, moment.scene.torso_m, moment.comfort_m, lack)
     base = moment.in_article(lack.base)
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     x, y = base.to_outer(np.array(lack.seen[:2]))
@@ -123,7 +122,7 @@ def _lack(moment: Moment, reason: Reason) -> Lack | None:
     point, approach, offset_m, short_by_m = reason.point, reason.approach, reason.offset_m, reason.short_by_m
     if point is None or approach is None or offset_m is None or short_by_m is None:
         return None
-    arms = [arm.name for arm in load_robot(DEFAULT_ROBOT).card.arms]
+    arms = [arm.name for arm in load_robot(moment.robot).card.arms]
     stations = dict(moment.scene.stations)
     if reason.arm not in arms or reason.station not in stations:
         return None

@@ -36,6 +36,12 @@ class GripView:
         self._hands = {arm: _HandMarks(server, arm, node) for arm, node in hands.items()}
         self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX)
 
+    def remove(self) -> None:
+        """Take all marks off the stage."""
+        self._route.remove()
+        for marks in self._hands.values():
+            marks.remove()
+
     def stand_on(self, floor_z_m: float) -> None:
         """Set the floor's height (m), for routes drawn from now on."""
         self._route_z_m = floor_z_m + _ABOVE_FLOOR_M
@@ -73,6 +79,10 @@ class _HandMarks:
             anchor="center-center",
             visible=False,
         )
+
+    def remove(self) -> None:
+        for node in (self._pick, self._place, self._path, self._name):
+            node.remove()
 
     def recolour(self, palette: Palette) -> None:
         self._pick.color = self._place.color = paint(palette.grip)

@@ -45,6 +45,10 @@ class RobotView:
                 self._moved.setdefault(link.joint, []).append((link, handle))
         self.hands = {arm.name: nodes[arm.tool_frame] for arm in card.arms}
 
+    def remove(self) -> None:
+        """Take the robot off the stage."""
+        self._root.remove()
+
     def stand_on(self, floor_z_m: float) -> None:
         """Set the floor's height (m), from the next pose on."""
         self._floor_z_m = floor_z_m

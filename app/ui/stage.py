@@ -39,6 +39,7 @@ class Stage:
     """A 3-D view of one scene with its robot.
 
     Attributes:
+        card: the robot that is shown.
         scene: the scene that is shown.
         opening: the opening viewpoint of each new visitor.
         port: the loopback port of its viser server.
@@ -49,17 +50,15 @@ class Stage:
         """Start a server and build everything that is always there; about half a second the first time."""
         self.scene = scene
         self.opening: Viewpoint = opening(scene, _SQUARE)
-        self._card = card
+        self.card = card
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()
-        floor_z_m = -scene.table.height_m
         with self._server.atomic():
             self._look()
             self._table = TableView(self._server, scene)
             self._cloth = ClothView(self._server.scene)
             self._folds = FoldView(self._server)
-            self._robot = RobotView(self._server, card, floor_z_m)
-            self._grips = GripView(self._server, self._robot.hands, floor_z_m)
+            self._bring_robot()
         self._palette = LIGHT
         self._steps: tuple[PlanStep, ...] = ()
         self._marked: PlanStep | None = None
@@ -101,6 +100,19 @@ class Stage:
             for view in (self._table, self._cloth, self._folds, self._robot, self._grips):
                 view.recolour(palette)
         self._server.flush()
+
+    def show_robot(self, card: RobotCard) -> None:
+        """Replace the robot, which takes its place with what is shown next; it stays if it is the same."""
+        if card.name == self.card.name:
+            return
+        self.card = card
+        with self._server.atomic():
+            self._grips.remove()
+            self._robot.remove()
+            self._bring_robot()
+            self._robot.recolour(self._palette)
+            self._grips.recolour(self._palette)
+        self._marked = None
 
     def show_scene(self, scene: Scene) -> None:
         """Replace table and stations; robot and cloth follow with what is shown next."""
@@ -160,9 +172,14 @@ class Stage:
         camera.position, camera.look_at = self.opening.position, self.opening.look_at
         camera.fov = self.opening.fov_rad
 
+    def _bring_robot(self) -> None:
+        floor_z_m = -self.scene.table.height_m
+        self._robot = RobotView(self._server, self.card, floor_z_m)
+        self._grips = GripView(self._server, self._robot.hands, floor_z_m)
+
     def _waiting_joints(self) -> dict[str, float]:
-        homes = [np.array(arm.home) for arm in self._card.arms]
-        return self._card.joint_values(self.scene.torso_m, homes, [0.0] * len(homes))
+        homes = [np.array(arm.home) for arm in self.card.arms]
+        return self.card.joint_values(self.scene.torso_m, homes, [0.0] * len(homes))
 
     def _begin(self, garment: Garment, steps: tuple[PlanStep, ...]) -> None:
         self._take_up(steps)

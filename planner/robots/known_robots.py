@@ -3,7 +3,7 @@
 from contextlib import suppress
 from pathlib import Path
 
-from planner.errors import RobotError, UnknownRobotError
+from planner.errors import RequestError, RobotError, UnknownRobotError
 from planner.robots.card_file import CardFile
 from planner.robots.described_robot import read_card, shipped_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
@@ -51,3 +51,18 @@ def card_path(name_or_path: str) -> Path | None:
         return own
     path = Path(name_or_path)
     return path if name_or_path.endswith(".json") and path.is_file() else None
+
+
+def require_name(robot: str) -> None:
+    """Raise `RequestError` for a robot that is given by anything but the name of one."""
+    _require(robot, robot_names())
+
+
+def require_shipped(robot: str) -> None:
+    """Raise `RequestError` for a robot that is given by anything but the name of a shipped one."""
+    _require(robot, shipped_robots())
+
+
+def _require(robot: str, known: tuple[str, ...]) -> None:
+    if robot not in known:
+        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(known)}")

@@ -107,6 +107,11 @@ export class EditQueue {
     return this.push(run);
   }
 
+  /** @param {string} robot the name of the robot that shall fold */
+  robot(robot) {
+    return this.push(async () => this.taken(await this.send("PUT", "/robot", { robot })));
+  }
+
   /** @param {(job: Job) => unknown} isUnwanted */
   drop(isUnwanted) {
     const [first] = this.isBusy ? this.waiting : []; // on its way

@@ -200,6 +200,11 @@ export class Store extends EventTarget {
     return this.queue.open(garment, label);
   }
 
+  /** Have another robot fold, with the scene that suits it. @param {string} robot its name */
+  putRobot(robot) {
+    return this.queue.robot(robot);
+  }
+
   /** @param {Command} command */
   command(command) {
     this.live.send(command);

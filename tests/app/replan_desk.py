@@ -29,7 +29,7 @@ class Desk:
         self.pool = JobPool()
         self.plans = PlanStore()
         self.document = Document(draft_of(TOWEL))
-        self.replanner = Replanner(self.document, self.pool, self.plans, arms=2)
+        self.replanner = Replanner(self.document, self.pool, self.plans)
 
     def until(self, condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + PATIENCE_S

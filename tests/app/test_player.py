@@ -12,6 +12,7 @@ from app.player import UPDATES_PER_S, Player
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
+from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
 
 
@@ -25,12 +26,16 @@ class CountingStage:
         self.times: list[float] = []
         self.themes: list[bool] = []
         self.scenes: list[Scene] = []
+        self.robots: list[str] = []
 
     def set_theme(self, *, is_dark: bool) -> None:
         self.themes.append(is_dark)
 
     def show_scene(self, scene: Scene) -> None:
         self.scenes.append(scene)
+
+    def show_robot(self, card: RobotCard) -> None:
+        self.robots.append(card.name)
 
     def show_garment(self, *_: object) -> None:
         self.lying += 1

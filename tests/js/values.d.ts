@@ -16,6 +16,7 @@ export type FoldEnd = Schemas["EndAnswer"];
 export type FoldKind = Fold["kind"];
 export type Garment = Schemas["GarmentAnswer"];
 export type GarmentEntry = Schemas["GarmentEntry"];
+export type RobotEntry = Schemas["RobotEntry"];
 export type GarmentFold = Schemas["GarmentFold"];
 export type Scene = Schemas["Scene"];
 export type Table = Schemas["Table"];

@@ -16,7 +16,6 @@ from app.document import Document
 from app.document_state import DocumentState
 from app.ui.editor.seat import Seat
 from app.ui.viewpoint import Viewpoint
-from planner.robots.card import RobotCard
 
 _log = logging.getLogger(__name__)
 
@@ -50,18 +49,16 @@ class _Asked:
 class Desk:
     """The seats of all visitors: each has a mode, panels, drawing aids and a camera of their own."""
 
-    def __init__(self, document: Document, server: viser.ViserServer, card: RobotCard, opening: Viewpoint) -> None:
+    def __init__(self, document: Document, server: viser.ViserServer, opening: Viewpoint) -> None:
         """Wait for visitors.
 
         Args:
             document: the document that is edited.
             server: the stage's server.
-            card: the robot.
             opening: the opening viewpoint.
         """
         self._document = document
         self._server = server
-        self._card = card
         self._opening = opening
         self._tray: deque[_Asked] = deque()
         self._seats: dict[int, Seat] = {}
@@ -104,7 +101,7 @@ class Desk:
             self._ask(client.client_id, act, is_passing)
 
         if client.client_id in self._server.get_clients():
-            self._seats[client.client_id] = Seat(client, self._document, self._card, self._opening, ask)
+            self._seats[client.client_id] = Seat(client, self._document, self._opening, ask)
 
     def _get_up(self, client: viser.ClientHandle) -> None:
         seat = self._seats.pop(client.client_id, None)

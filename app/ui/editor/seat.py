@@ -23,7 +23,7 @@ from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from app.ui.viser_patches import PANEL_LABEL
 from planner.geometry.pose import Pose2
-from planner.robots.card import RobotCard
+from planner.robots.load_robot import load_robot
 
 _PANEL_PX = 250
 _PANEL_GAP_PX = 15
@@ -36,21 +36,17 @@ Ask = Callable[[Callable[[], None], bool], None]
 class Seat:
     """The parts of one visitor; the stage's own thread makes and uses them, viser's thread only adds actions."""
 
-    def __init__(
-        self, client: viser.ClientHandle, document: Document, card: RobotCard, opening: Viewpoint, ask: Ask
-    ) -> None:
+    def __init__(self, client: viser.ClientHandle, document: Document, opening: Viewpoint, ask: Ask) -> None:
         """Build panels and aids; the panels are closed at first, and lie where there is mostly no cloth.
 
         Args:
             client: the visitor.
             document: the document that is edited.
-            card: the robot.
             opening: the opening viewpoint.
             ask: the function that hands an action to the stage's own thread.
         """
         self._client = client
         self._document = document
-        self._card = card
         self._ask = ask
         self._editor = Editor(document, f"stage.{client.client_id}")
         self._zoom = 0
@@ -135,9 +131,9 @@ class Seat:
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
         """Return the view from the robot's head where it stands now."""
-        scene, aspect = state.drawing.scene, self._camera_panel.lens.aspect
+        scene, aspect, card = state.drawing.scene, self._camera_panel.lens.aspect, load_robot(state.drawing.robot).card
         points = on_table(state.drawing, state.drawing.points) or scene.table.corners
-        return robots_eye(self._card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
+        return robots_eye(card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
 
     def _base(self, state: DocumentState) -> Pose2:
         """Return where the robot stands now."""

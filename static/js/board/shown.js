@@ -32,6 +32,7 @@ const EMPTY = {
   },
   start_station: "",
   comfort_radius_m: 0,
+  robot: "",
 };
 
 /** @typedef {Pick<Step, "silhouette"|"flap">} Cloth the outlines of the cloth at a moment, and of its last flap */

@@ -93,8 +93,8 @@ export class SuggestionSearch extends EventTarget {
 
 /** @param {DocumentState} state */
 function request({ garment, drawing }) {
-  const { scene, start_station, comfort_radius_m } = drawing;
-  return { garment, scene, start_station, comfort_radius_m };
+  const { robot, placement, scene, start_station, comfort_radius_m } = drawing;
+  return { garment, robot, placement, scene, start_station, comfort_radius_m };
 }
 
 /** @param {number} delay_ms @param {AbortSignal} signal @returns {Promise<void>} */

@@ -30,7 +30,7 @@ ELSEWHERE = (-0.35, -0.3)
 @pytest.fixture(scope="module")
 def opened() -> Iterator[tuple[Document, Stage]]:
     document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
-    player = Player(document, stage, Desk(document, stage.server, CARD, stage.opening))
+    player = Player(document, stage, Desk(document, stage.server, stage.opening))
     yield document, stage
     player.close()
     stage.close()
@@ -206,7 +206,7 @@ def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Docume
 def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, opening(Scene(), 1.0))
+        desk = Desk(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
         done: list[str] = []
         for visitor, name, is_passing in (
             (1, "press", False),
@@ -225,7 +225,7 @@ def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
 def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest.LogCaptureFixture) -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, CARD, opening(Scene(), 1.0))
+        desk = Desk(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
         done: list[str] = []
         desk._ask(1, lambda: done.append(str(1 // 0)), False)
         desk._ask(2, lambda: done.append("second"), False)
@@ -244,7 +244,7 @@ def driven() -> Iterator[tuple[Document, Stage]]:
     task = document.state.task
     assert task is not None
     document.settle(document.state.version, task, plan, "id")
-    player = Player(document, stage, Desk(document, stage.server, CARD, stage.opening))
+    player = Player(document, stage, Desk(document, stage.server, stage.opening))
     yield document, stage
     player.close()
     stage.close()

@@ -17,7 +17,7 @@ EDGE = Segment((0.0, 0.0), (1.0, 0.0))
 
 def lying(cloth: ClothState, placement: Pose2, friction: float = 1.0) -> Moment:
     scene = Scene(friction=friction)
-    return Moment(scene, 0.03, DEFAULT_STATIONS["front"], "front", 0.0, placement, cloth)
+    return Moment("pr2", scene, 0.03, DEFAULT_STATIONS["front"], "front", 0.0, placement, cloth)
 
 
 def folded_over(width_m: float, length_m: float, at_m: float) -> ClothState:

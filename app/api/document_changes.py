@@ -1,0 +1,99 @@
+"""Routes that change a document: its drawing, garment or robot, and its history."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from starlette.responses import JSONResponse
+
+from app.api.asked import asked_garment, workspace_of
+from app.api.body import JsonBody
+from app.api.commands import put_garment, put_robot
+from app.api.described import DescribedRoute, problems
+from app.api.document_answers import DocumentAnswer
+from app.api.document_messages import EditRequest, GarmentRequest, RobotRequest, TravelRequest
+from app.api.live_messages import document_message
+from app.api.problems import ProblemResponse
+from app.document_state import DocumentState
+from app.drawing.drawing_json import drawing_from_dict
+from app.drawing.edit import Edit, Phase, StaleVersionError
+from app.open_document import OpenDocument
+from planner.errors import FieldError, RequestError
+
+router = APIRouter(prefix="/api/documents", tags=["documents"], route_class=DescribedRoute)
+
+EditRequestBody = Annotated[EditRequest, Depends(JsonBody(EditRequest, {"base_version": 1, "phase": "cancel"}))]
+GarmentRequestBody = Annotated[GarmentRequest, Depends(JsonBody(GarmentRequest, {"garment": "tie"}))]
+TravelRequestBody = Annotated[TravelRequest, Depends(JsonBody(TravelRequest, {"base_version": 1}, may_be_empty=True))]
+RobotRequestBody = Annotated[RobotRequest, Depends(JsonBody(RobotRequest, {"robot": "ur5e-pair"}))]
+
+_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(403, 404, 409, 413, 422, 507)}
+
+
+@router.put("/{document_id}/drawing", responses=_CHANGED)
+async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
+    """Change the drawing; answers 409, with the current `state`, if somebody else has changed it meanwhile."""
+    edit = _edit(wanted)
+    opened = await opened_document(request, document_id)
+    return await _changed(opened, partial(opened.document.edit, edit))
+
+
+@router.put("/{document_id}/garment", responses=_CHANGED)
+async def put_other_garment(request: Request, document_id: str, wanted: GarmentRequestBody) -> Response:
+    """Put another garment in place of the one that is drawn, as one step."""
+    opened = await opened_document(request, document_id)
+
+    def put() -> DocumentState:
+        garment = asked_garment(workspace_of(request), wanted.garment)
+        return put_garment(opened.document, garment, wanted.label, wanted.base_version)
+
+    return await _changed(opened, put)
+
+
+@router.put("/{document_id}/robot", responses=_CHANGED)
+async def put_other_robot(request: Request, document_id: str, wanted: RobotRequestBody) -> Response:
+    """Have another robot fold the garment, with the scene, start and placement that suit it, as one step."""
+    opened = await opened_document(request, document_id)
+    return await _changed(opened, partial(put_robot, opened.document, wanted.robot, wanted.label, wanted.base_version))
+
+
+@router.post("/{document_id}/undo", responses=_CHANGED)
+async def undo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
+    """Undo the last step; without one nothing happens."""
+    opened = await opened_document(request, document_id)
+    return await _changed(opened, partial(opened.document.undo, wanted.base_version))
+
+
+@router.post("/{document_id}/redo", responses=_CHANGED)
+async def redo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
+    """Redo the step undone last; without one nothing happens."""
+    opened = await opened_document(request, document_id)
+    return await _changed(opened, partial(opened.document.redo, wanted.base_version))
+
+
+async def opened_document(request: Request, document_id: str) -> OpenDocument:
+    """Return an open document; open it if necessary."""
+    return await run_in_threadpool(workspace_of(request).opened, document_id)
+
+
+async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) -> Response:
+    """Return the state that a change leads to, or the current state if the change came too late."""
+    try:
+        state = await run_in_threadpool(change)
+    except StaleVersionError as error:
+        current = await run_in_threadpool(document_message, opened.id, opened.document.state)
+        return ProblemResponse(409, str(error), members={"state": current})
+    return JSONResponse(await run_in_threadpool(document_message, opened.id, state))
+
+
+def _edit(wanted: EditRequest) -> Edit:
+    phase = Phase(wanted.phase)
+    if wanted.drawing is None and phase is not Phase.CANCEL:
+        raise RequestError("drawing", "is missing")
+    try:
+        drawing = None if wanted.drawing is None else drawing_from_dict(wanted.drawing)
+    except FieldError as error:
+        raise error.within("drawing") from None
+    return Edit(wanted.label, drawing, phase, wanted.base_version, wanted.coalesce, wanted.gesture)

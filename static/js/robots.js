@@ -1,0 +1,38 @@
+/** The combobox `Robot` on the stage: who folds. Another robot brings its table and stations along, as one step. */
+
+import { byId } from "./dom.js";
+
+/** @import { RobotEntry } from "pleat" */
+
+/** @param {import("./store.js").Store} store */
+export function mountRobots(store) {
+  const select = /** @type {HTMLSelectElement} */ (byId("robot"));
+  /** @type {RobotEntry[]} */
+  let robots = [];
+
+  const show = () => {
+    if (!store.state) return;
+    const { name, title } = store.state.robot;
+    if (![...select.options].some(({ value }) => value === name)) select.append(new Option(title, name));
+    select.value = name;
+    select.disabled = !store.isLive || !robots.length;
+  };
+  const load = async () => {
+    const answer = await fetch("../api/robots").catch(() => null);
+    if (!answer?.ok) return;
+    robots = (await answer.json()).filter((/** @type {RobotEntry} */ { shipped }) => shipped);
+    select.replaceChildren(...robots.map((robot) => new Option(called(robot), robot.name)));
+    show();
+  };
+  const choose = async () => {
+    const wanted = select.value;
+    if (!(await store.putRobot(wanted))) show(); // it was refused, so the one before stays
+  };
+
+  select.addEventListener("change", choose);
+  store.addEventListener("document", show);
+  store.addEventListener("connection", () => (store.isLive && !robots.length ? load() : show()));
+}
+
+/** A robot's title and its arms, as in `Two UR5e: left, right`. @param {RobotEntry} robot */
+const called = ({ title, arms }) => `${title}: ${arms.map((arm) => arm.replaceAll("_", " ")).join(", ")}`;
