@@ -5,7 +5,7 @@ unknown fields are refused by name, numbers are finite JSON numbers. So the form
 only the value itself can tell, its `__post_init__` refuses with a `FieldError`; the path to it is put before its field.
 """
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import fields
 from functools import cache
 from typing import Annotated, Any, Generic, TypeVar, cast, get_args, get_origin, get_type_hints
@@ -30,11 +30,13 @@ class JsonForm(Generic[T]):
         """Derive the form of a type.
 
         Args:
-            kind: the type; a dataclass names `STRICT` as its `__pydantic_config__`.
+            kind: the type; a dataclass names `STRICT` as its `__pydantic_config__`. A static method `completed` of it
+                is given the JSON before that is read, and returns it with what it may leave out.
             error: raised for JSON that is no such value.
         """
         self._adapter: TypeAdapter[T] = TypeAdapter(kind)
         self._error = error
+        self._completed: Callable[[object], object] = getattr(kind, "completed", lambda data: data)
 
     def write(self, value: T) -> Any:  # noqa: ANN401
         """Return a value as JSON."""
@@ -43,7 +45,7 @@ class JsonForm(Generic[T]):
     def read(self, data: object) -> T:
         """Return the value that JSON holds; raises the form's error, which names the field."""
         try:
-            return self._adapter.validate_json(to_json(data))
+            return self._adapter.validate_json(to_json(self._completed(data)))
         except PydanticSerializationError:
             raise self._error("", "is nested too deeply, or has text that is no Unicode") from None
         except ValidationError as error:

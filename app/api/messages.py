@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 from annotated_types import Interval
-from pydantic import Field, PlainValidator, TypeAdapter, model_validator
+from pydantic import Field, PlainValidator, TypeAdapter
 from pydantic_core import PydanticCustomError
 
 from app.playback import SPEED_MAX, SPEED_MIN
@@ -68,10 +68,9 @@ class PlanRequest(Limits):
     robot: str = DEFAULT_ROBOT
     work_limit_s: TimeLimit | None = None
 
-    @model_validator(mode="before")
-    @classmethod
-    def _fill_scene(cls, data: Any) -> Any:  # noqa: ANN401
-        """Fill up a scene that is given in part by that of the robot."""
+    @staticmethod
+    def completed(data: object) -> object:
+        """Return a request's JSON with a scene that is given in part filled up by that of the robot."""
         return with_robots_scene(data)
 
 
