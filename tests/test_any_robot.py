@@ -20,7 +20,9 @@ DOOR = (
     "planner.robots.collision.contact",
     "planner.robots.described_robot",
     "planner.robots.joint_layout",
+    "planner.robots.known_robots",
     "planner.robots.load_robot",
+    "planner.robots.own_robots",
     "planner.robots.table_reach",
     "planner.robots.tool_path",
 )
