@@ -18,6 +18,7 @@ DOOR = (
     "planner.robots.card",
     "planner.robots.card_file",
     "planner.robots.collision.contact",
+    "planner.robots.collision.part_source",
     "planner.robots.described_robot",
     "planner.robots.joint_layout",
     "planner.robots.known_robots",
