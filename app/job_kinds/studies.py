@@ -10,7 +10,9 @@ from app.studies.study import Study
 from app.studies.study_file import study_of
 from app.studies.study_job import do_study
 from app.studies.table import CSV, PARQUET, TIMING
+from planner.errors import RequestError
 from planner.json_form import STRICT
+from planner.robots.known_robots import require_name
 
 CELLS_LIMIT = 10_000
 """The most cells of a study that a server takes: an hour or so of one core."""
@@ -44,6 +46,11 @@ class StudyRequest:
 
 
 def _prepare(stores: Stores, wanted: StudyRequest) -> tuple[Study, Path]:
+    for number, robot in enumerate(wanted.robots or ()):
+        try:
+            require_name(robot)  # the path of a card would name the server's own files
+        except RequestError as error:
+            raise RequestError(f"robots[{number}]", error.message) from None
     given = {field.name: getattr(wanted, field.name) for field in fields(wanted)}
     content = {name: value for name, value in given.items() if value is not None}
     return study_of(content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies

@@ -5,6 +5,7 @@ import httpx
 import pytest
 from pyarrow import parquet
 
+from planner.robots.described_robot import shipped_path
 from tests.app.samples import towel
 from tests.app.studies.study_samples import content
 from tests.app.test_job_routes import ended
@@ -36,6 +37,7 @@ async def test_a_bad_study_is_refused_with_its_field_before_there_is_a_job(clien
         ({"garments": [{"name": "sock"}]}, "garments[0].name"),
         ({"garments": [{"name": "../../etc/passwd"}]}, "garments[0].name"),
         ({"garments": [{"file": "/etc/passwd"}]}, "garments[0].file"),
+        ({"robots": ["pr2", str(shipped_path("so101-pair"))]}, "robots[1]"),
         ({"cells_max": 10_000_000}, "cells_max"),
         ({"colour": 1}, "colour"),
     ):
