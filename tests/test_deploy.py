@@ -11,8 +11,8 @@ import pytest
 from app.settings import Settings
 
 ROOT = Path(__file__).parent.parent
-UNIT = (ROOT / "deploy" / "pleat.service").read_text(encoding="utf-8")
-CONTAINER = (ROOT / "deploy" / "Containerfile").read_text(encoding="utf-8")
+UNIT = (ROOT / "docs" / "deploy" / "pleat.service").read_text(encoding="utf-8")
+CONTAINER = (ROOT / "docs" / "deploy" / "Containerfile").read_text(encoding="utf-8")
 INSTRUCTIONS = {
     "FROM", "RUN", "WORKDIR", "COPY", "USER", "ENV", "VOLUME", "EXPOSE", "STOPSIGNAL", "ENTRYPOINT", "CMD",
 }  # fmt: skip
