@@ -136,6 +136,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "made_symmetric", "off_m": 0.0021},
     {"code": "edges_do_not_fit", "share": 0.8, "within_m": 0.01},
     {"code": "likeness_does_not_fit", "share": 0.7, "within_m": 0.01},
+    {"code": "states_alike", "states": 2},
     {"code": "cut_off", "share": 0.1},
     {"code": "ways_disagree", "agreement": 0.5, "least": 0.8},
     {"code": "faint_edge", "contrast": 2.5},

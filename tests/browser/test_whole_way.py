@@ -12,6 +12,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page, expect
 
+from app.files.exports import EXPORTS
 from tests.app.conftest import Served
 from tests.browser.board_hand import Point
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet, windows
@@ -138,7 +139,7 @@ def exported(page: Page, folder: Path) -> dict[str, str]:
     """Save all files that the dialog `Export` offers; return their contents by name."""
     page.get_by_role("button", name="Export", exact=True).click()
     dialog = page.get_by_role("dialog", name="Export")
-    expect(dialog.get_by_role("listitem")).to_have_count(8)
+    expect(dialog.get_by_role("listitem")).to_have_count(len(EXPORTS))
     saved = {}
     for verb in dialog.locator("[aria-label^='Save ']").all():
         with page.expect_download() as download:
@@ -193,6 +194,9 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         assert saved.pop("untitled-steps.pdf").startswith("%PDF-")
         assert "Untitled" in saved.pop("untitled-steps.svg")
         drawing = saved.pop("untitled.svg")
+        for ending in (".mcap", ".glb", "-rosbag2.zip", "-lerobot.zip", "-poses.yaml"):
+            assert saved.pop(f"untitled{ending}")
+        assert json.loads(saved.pop("untitled-poses.json"))["version"] == 1
         ((name, recording),) = saved.items()
         assert name.endswith(".html")
         assert "<title>Untitled - Pleat</title>" in recording

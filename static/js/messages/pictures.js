@@ -15,6 +15,7 @@ export const PICTURES = {
     `straight edges fit only ${percent(share)} of the outline to ${length(within)}`,
   likeness_does_not_fit: ({ share, within_m: within }) =>
     `only ${percent(share)} of the outline lie within ${length(within)} of what it should be like`,
+  states_alike: ({ states }) => `${states} states of the folds fit equally well`,
   cut_off: ({ share }) => `the cloth is cut off: ${percent(share)} of its outline is at the picture\u2019s border`,
   ways_disagree: ({ agreement, least }) =>
     `two ways to find the cloth agree on ${percent(agreement)} only, less than ${percent(least)}`,

@@ -9,6 +9,7 @@ import ezdxf
 import pytest
 from playwright.sync_api import Page, expect
 
+from app.files.exports import EXPORTS
 from planner import make_plan
 from planner.cloth.garment import Garment
 from tests.app.samples import towel
@@ -221,7 +222,7 @@ def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
 
 def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
     page.get_by_role("button", name="Export", exact=True).click()
-    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(8)
+    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(len(EXPORTS))
     saved = {}
     for link in page.get_by_role("dialog").locator(".export a").all():
         with page.expect_download() as download:
@@ -231,7 +232,8 @@ def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
         saved[path.name] = path.read_text(errors="replace")
     sheets = ["t-shirt-steps.pdf", "t-shirt-steps.svg"]
     files = ["t-shirt.fold", "t-shirt.json", "t-shirt.plan.json", "t-shirt.svg"]
-    assert sorted(saved) == ["t-shirt-plan.csv", *sheets, *files]
+    poses = ["t-shirt-poses.json", "t-shirt-poses.yaml"]
+    assert set(saved) == {"t-shirt-plan.csv", *sheets, *files, *poses}
     assert len(json.loads(saved["t-shirt.json"])["outline"]) == 10
     plan = json.loads(saved["t-shirt.plan.json"])
     assert (plan["pleat_plan"], plan["status"], len(plan["steps"])) == (1, "solved", len(plan["primitives"]))
