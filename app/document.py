@@ -129,7 +129,7 @@ class Document:
                 return state
             answer = Answer(belongs_to, task, plan, plan_id, is_final)
             answered = state.answered(answer)
-            return answered if state.task is None else answered.filmed(answer, self._clock())
+            return answered if state.task is None else answered.showing(answer, self._clock())
 
         self._change(change)
 

@@ -41,7 +41,7 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film:
+class ShownPlan:
     """The plan on show, with the trajectory's timeline.
 
     Attributes:
@@ -93,14 +93,14 @@ class DocumentState:
         answer: the latest answer; it may belong to an older version.
         committed: the latest answer to a committed drawing.
         before: the committed answer before that, to another task, for comparison.
-        film: the plan on show; it may belong to an older version.
+        shown: the plan on show; it may belong to an older version.
         checks: the grips that the folds need.
         start: the world state from which to plan; None for the state before all folds, as drawn.
         failure: why this version has no answer.
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
-        preview: the plan of a change that is pointed at; the stage shows it in place of the film.
+        preview: the plan of a change that is pointed at; the stage shows it in place of `shown`.
     """
 
     version: int
@@ -108,14 +108,14 @@ class DocumentState:
     answer: Answer | None = None
     committed: Answer | None = None
     before: Answer | None = None
-    film: Film | None = None
+    shown: ShownPlan | None = None
     checks: Checks | None = None
     start: WorldState | None = None
     failure: str | None = None
     is_thorough: bool = False
     playback: Playback = Playback()
     is_dark: bool = False
-    preview: Film | None = None
+    preview: ShownPlan | None = None
 
     @property
     def solution(self) -> Solution:
@@ -179,15 +179,15 @@ class DocumentState:
             after = replace(after, committed=None, before=None)
         answer, task = after.answer, after.task
         if task is None or answer is None:
-            return replace(after, film=None, playback=self.playback.lasting(now_s, 0.0))
+            return replace(after, shown=None, playback=self.playback.lasting(now_s, 0.0))
         if answer.task != task:
             return after
-        if self.film is not None and self.film.plan is answer.plan:
-            after = replace(after, film=replace(self.film, version=version))
+        if self.shown is not None and self.shown.plan is answer.plan:
+            after = replace(after, shown=replace(self.shown, version=version))
         if self.checks is not None and self.checks.version == self.version:
             after = replace(after, checks=replace(self.checks, version=version))
         renewed = replace(answer, version=version)
-        return after.answered(renewed) if after.film is not None else after.answered(renewed).filmed(renewed, now_s)
+        return after.answered(renewed) if after.shown is not None else after.answered(renewed).showing(renewed, now_s)
 
     def start_after(self, step: int) -> WorldState:
         """Return the world state after a step of the plan, counted from 0; -1 is before the first."""
@@ -202,16 +202,16 @@ class DocumentState:
         """Return the state planned from another world state, None for the drawing's start, at a wall-clock time (s)."""
         if start == self.start:
             return self
-        after = replace(self, start=start, answer=None, committed=None, before=None, film=None)
+        after = replace(self, start=start, answer=None, committed=None, before=None, shown=None)
         playback = self.playback.paused(now_s).sought(now_s, 0.0)
         return replace(after, playback=playback, failure=None, is_thorough=False)
 
-    def filmed(self, answer: Answer, now_s: float) -> "DocumentState":
+    def showing(self, answer: Answer, now_s: float) -> "DocumentState":
         """Return the state that plays an answer's plan, at a wall-clock time (s), or nothing if it is not solved."""
         if not answer.plan.is_solved:
-            return replace(self, film=None, playback=self.playback.lasting(now_s, 0.0))
-        film = Film(answer.version, answer.plan, Timeline.of(answer.plan))
-        return replace(self, film=film, playback=self.playback.lasting(now_s, film.timeline.duration_s))
+            return replace(self, shown=None, playback=self.playback.lasting(now_s, 0.0))
+        shown = ShownPlan(answer.version, answer.plan, Timeline.of(answer.plan))
+        return replace(self, shown=shown, playback=self.playback.lasting(now_s, shown.timeline.duration_s))
 
     def stopped(self, why: str) -> "DocumentState":
         """Return the state that waits for no answer to this version, nor for a better one."""
@@ -225,7 +225,7 @@ class DocumentState:
         """Return the state in which the stage shows the plan of a change that is pointed at; None: its own again."""
         if plan is None:
             return self if self.preview is None else replace(self, preview=None)
-        return replace(self, preview=Film(self.version, plan, Timeline.of(plan)))
+        return replace(self, preview=ShownPlan(self.version, plan, Timeline.of(plan)))
 
     def answered(self, answer: Answer) -> "DocumentState":
         """Return the state with an answer; keep an answer to a committed drawing for comparison with the next."""

@@ -5,7 +5,7 @@ import threading
 import time
 
 from app.document import Document
-from app.document_state import DocumentState, Film
+from app.document_state import DocumentState, ShownPlan
 from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
@@ -65,7 +65,7 @@ class Player:
         self._plan: Plan | None = None
         self._spread: Garment | None = None
         self._bare: tuple[str, Pose2] | None = None
-        self._preview: tuple[Film, float] | None = None
+        self._preview: tuple[ShownPlan, float] | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         if desk is not None:
@@ -127,31 +127,31 @@ class Player:
         self._preview = None
         if self._is_to_rest(state):
             return
-        if state.film is None or self._has_left(state, state.film):
+        if state.shown is None or self._has_left(state, state.shown):
             self._show_spread(state)
             return
-        if self._plan is not state.film.plan:
-            self._plan = state.film.plan
-            self._set(state.film.plan.task.robot, state.film.plan.scene)
-            self._stage.show_plan(state.film.plan)
+        if self._plan is not state.shown.plan:
+            self._plan = state.shown.plan
+            self._set(state.shown.plan.task.robot, state.shown.plan.scene)
+            self._stage.show_plan(state.shown.plan)
         self._spread = self._bare = self._waits_until_s = None
-        self._stage.show(state.film.timeline.at(self._document.t_s))
+        self._stage.show(state.shown.timeline.at(self._document.t_s))
         self._document.stop_at_end()
 
     def _is_previewing(self, now_s: float) -> bool:
         """Return whether the plan of a change has still to be shown to its end."""
         return self._preview is None or now_s < self._preview[1] + PREVIEW_S
 
-    def _show_preview(self, film: Film) -> None:
+    def _show_preview(self, shown: ShownPlan) -> None:
         """Show the plan of a change that is pointed at, in a few seconds from its start; it stays at its end."""
         now_s = time.monotonic()
-        if self._preview is None or self._preview[0] is not film:
-            self._preview = (film, now_s)
-            self._plan, self._spread, self._bare, self._waits_until_s = film.plan, None, None, None
-            self._set(film.plan.task.robot, film.plan.scene)
-            self._stage.show_plan(film.plan)
+        if self._preview is None or self._preview[0] is not shown:
+            self._preview = (shown, now_s)
+            self._plan, self._spread, self._bare, self._waits_until_s = shown.plan, None, None, None
+            self._set(shown.plan.task.robot, shown.plan.scene)
+            self._stage.show_plan(shown.plan)
         share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
-        self._stage.show(film.timeline.at(share * film.timeline.duration_s))
+        self._stage.show(shown.timeline.at(share * shown.timeline.duration_s))
 
     def _is_to_rest(self, state: DocumentState) -> bool:
         """Return whether to leave the stage as it is, because drawing it would slow down a gesture."""
@@ -166,9 +166,9 @@ class Player:
         self._waits_until_s = rests_at_s if now_s < rests_at_s else None
         return now_s < rests_at_s
 
-    def _has_left(self, state: DocumentState, film: Film) -> bool:
+    def _has_left(self, state: DocumentState, shown: ShownPlan) -> bool:
         """Return whether the drawing has changed while the plan stands at its start: then show the cloth as drawn."""
-        return film.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
+        return shown.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
 
     def _show_spread(self, state: DocumentState) -> None:
         """Show the garment spread out; while the drawing is invalid, leave the stage as it is."""
@@ -200,8 +200,8 @@ class Player:
     def _is_to_wait(self, state: DocumentState) -> bool:
         """Return whether a plan for the drawing will come soon, and the stage has something to show until then."""
         answer = state.answer if state.is_answered else None
-        is_filmed_soon = state.is_planning or (answer is not None and answer.plan.is_solved)
-        if not is_filmed_soon or (self._spread is None and self._plan is None):
+        has_plan_soon = state.is_planning or (answer is not None and answer.plan.is_solved)
+        if not has_plan_soon or (self._spread is None and self._plan is None):
             return False
         now_s = time.monotonic()
         self._waits_until_s = self._waits_until_s or now_s + PATIENCE_S

@@ -143,7 +143,7 @@ def _is_settled(state: DocumentState) -> bool:
         return True
     if state.answer is None or not state.is_answered or not state.answer.is_final:
         return False
-    return not state.answer.plan.is_solved or (state.film is not None and state.film.plan is state.answer.plan)
+    return not state.answer.plan.is_solved or (state.shown is not None and state.shown.plan is state.answer.plan)
 
 
 def _until(document: Document, condition: Callable[[DocumentState], bool]) -> DocumentState:

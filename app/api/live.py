@@ -91,7 +91,7 @@ class _Telling:
         plan = (state.version, state.answer, state.checks, state.failure, state.start)
         if plan != self._plan:
             told.append(plan_message(state))
-        playback = (state.playback, state.film)
+        playback = (state.playback, state.shown)
         if playback != self._playback or state.playback.is_playing:
             told.append(playback_message(state, self._opened.document.t_s))
         self._document, self._plan, self._playback = document, plan, playback

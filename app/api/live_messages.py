@@ -50,7 +50,7 @@ def playback_message(state: DocumentState, t_s: float) -> dict[str, Any]:
     playback = state.playback
     return {
         "kind": "playback",
-        "version": None if state.film is None else state.film.version,
+        "version": None if state.shown is None else state.shown.version,
         "t_s": t_s,
         "duration_s": playback.duration_s,
         "playing": playback.is_playing,

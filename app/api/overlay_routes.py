@@ -92,7 +92,7 @@ def _overlays(
     state: DocumentState, time_s: float, station: str | None, back_off_m: float, shown: frozenset[str]
 ) -> dict[str, Any]:
     moment: Moment
-    if station is None and state.film is not None:
+    if station is None and state.shown is not None:
         moment = moment_of_plan(state, time_s)
     else:
         moment = moment_as_drawn(state, station, back_off_m)

@@ -79,9 +79,9 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
     Raises:
         NoClothError: nothing is drawn yet.
     """
-    if state.film is None:
+    if state.shown is None:
         return moment_as_drawn(state, None, 0.0)
-    plan, timeline = state.film.plan, state.film.timeline
+    plan, timeline = state.shown.plan, state.shown.timeline
     frame = timeline.at(t_s)
     if not plan.steps:
         return moment_as_drawn(state, None, 0.0)

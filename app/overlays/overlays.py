@@ -28,7 +28,7 @@ def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> di
     is_in_order = moment.done == tuple(range(len(moment.done)))
     return {
         "version": state.version,
-        "plan_version": state.film.version if state.film is not None and moment.plan is not None else None,
+        "plan_version": state.shown.version if state.shown is not None and moment.plan is not None else None,
         "t_s": None if frame is None else frame.t_s,
         "primitive": None if frame is None else frame.primitive,
         "done": list(moment.done),

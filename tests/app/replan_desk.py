@@ -48,7 +48,7 @@ class Desk:
     @property
     def has_film(self) -> bool:
         state = self.document.state
-        return state.film is not None and state.answer is not None and state.film.plan is state.answer.plan
+        return state.shown is not None and state.answer is not None and state.shown.plan is state.answer.plan
 
 
 @contextmanager

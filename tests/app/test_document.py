@@ -115,7 +115,7 @@ def test_an_answer_to_an_older_task_is_shown_only_if_it_is_newer_than_what_is_sh
     for late in (replace(plan), no_plan):
         changed.settle(1, first, late, "first")
         assert changed.state.answer.plan_id == "second"
-        assert changed.state.film is not None and changed.state.film.plan is plan
+        assert changed.state.shown is not None and changed.state.shown.plan is plan
         assert changed.state.playback.duration_s == plan.cost_s
 
 
@@ -127,7 +127,7 @@ def test_the_same_drawing_again_has_the_same_plan_at_once(plan: Plan) -> None:
     state = changed.edit(Edit("Move", moved(1), Phase.COMMIT))
     assert state.version == 3
     assert state.answer is not None and state.answer.version == 3
-    assert state.film is not None and state.film.version == 3
+    assert state.shown is not None and state.shown.version == 3
     assert not state.is_planning
 
 
@@ -178,15 +178,15 @@ def test_checks_of_a_preview_are_those_of_its_commit() -> None:
 def test_with_an_answer_comes_its_film_and_with_one_that_is_no_plan_it_goes(plan: Plan, no_plan: Plan) -> None:
     changed = document()
     heard: list[tuple[bool, bool]] = []
-    changed.subscribe(lambda: heard.append((changed.state.is_answered, changed.state.film is not None)))
+    changed.subscribe(lambda: heard.append((changed.state.is_answered, changed.state.shown is not None)))
     answer(changed, plan)
     assert heard == [(True, True)], "in one change, so that nobody sees the one without the other"
-    film = changed.state.film
-    assert film is not None and (film.version, film.plan, film.timeline.duration_s) == (1, plan, plan.cost_s)
+    shown = changed.state.shown
+    assert shown is not None and (shown.version, shown.plan, shown.timeline.duration_s) == (1, plan, plan.cost_s)
     assert changed.state.playback.duration_s == plan.cost_s
     changed.edit(Edit("Move", moved(1)))
     answer(changed, no_plan)
-    assert changed.state.film is None
+    assert changed.state.shown is None
     assert changed.state.playback.duration_s == 0.0
 
 
@@ -197,15 +197,15 @@ def test_an_answer_that_comes_when_something_is_wrong_by_now_is_not_played(plan:
     changed.edit(Edit("Spoil", SPOILT))
     changed.settle(1, task, plan, "id")
     assert changed.state.answer is not None and changed.state.answer.plan is plan
-    assert changed.state.film is None
+    assert changed.state.shown is None
     assert changed.state.playback.duration_s == 0.0
 
 
 def test_with_what_was_wrong_fixed_the_old_plan_is_played_again(plan: Plan) -> None:
     changed = answered(plan)
-    assert changed.edit(Edit("Spoil", SPOILT)).film is None
-    film = changed.undo().film
-    assert film is not None and (film.version, film.plan) == (3, plan)
+    assert changed.edit(Edit("Spoil", SPOILT)).shown is None
+    shown = changed.undo().shown
+    assert shown is not None and (shown.version, shown.plan) == (3, plan)
     assert changed.state.playback.duration_s == plan.cost_s
 
 

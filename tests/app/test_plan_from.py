@@ -195,7 +195,7 @@ def test_an_answer_from_the_beginning_that_comes_late_is_none_to_what_is_left(pl
     document.plan_from(0)
     document.settle(1, whole, plan, "late")
     assert document.state.is_planning
-    assert document.state.film is None
+    assert document.state.shown is None
     rest = make_plan(replace(whole, start=plan.state_after(0)))
     assert document.state.task is not None
     document.settle(1, document.state.task, rest, "rest")

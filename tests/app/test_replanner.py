@@ -89,7 +89,7 @@ def test_a_drawing_that_was_spoilt_and_is_fixed_has_its_plan_and_playback_again(
     first = desk.document.state.answer.plan
     one, other, *rest = TOWEL.outline
     state = desk.document.edit(Edit("Spoil", replace(TOWEL, outline=(other, one, *rest))))
-    assert state.solution.problems and state.film is None
+    assert state.solution.problems and state.shown is None
     desk.document.edit(Edit("Fix", TOWEL))
     desk.rest()
     assert desk.document.state.answer.plan is first

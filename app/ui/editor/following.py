@@ -7,13 +7,13 @@ import math
 
 import numpy as np
 
-from app.document_state import Film
+from app.document_state import ShownPlan
 from app.ui.editor.presets import Lens
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import Point2, Pose2, wrapped_angle
 
 ASIDE_RAD = math.radians(50.0)
-"""How far to the side of the line from the robot through its work the camera stands; 0 would be face to face (rad)."""
+"""The camera's angle beside the line from the robot through its work (rad); 0 would be face to face."""
 
 _RISE_RAD = math.radians(36.0)
 _HALF_M = (0.85, 0.6)
@@ -56,9 +56,9 @@ def across(work: Point2, heading_rad: float, lens: Lens) -> Viewpoint:
     return Viewpoint((x, y, distance * math.sin(_RISE_RAD)), (work[0], work[1], 0.1))
 
 
-def work_of(film: Film, t_s: float) -> Point2:
+def work_of(shown: ShownPlan, t_s: float) -> Point2:
     """Return the middle of what the hands do in the step at a time, or of the cloth while they do nothing (m)."""
-    plan = film.plan
+    plan = shown.plan
     step = next((step for step in plan.steps if t_s < step.end_s), plan.steps[-1] if plan.steps else None)
     if step is not None and step.grips:
         points = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)])

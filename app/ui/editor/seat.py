@@ -126,7 +126,7 @@ class Seat:
             return self._robots_eye(state)
         points = on_table(state.drawing, state.drawing.points) or state.drawing.scene.table.corners
         x, y = np.array(points).mean(axis=0)
-        work = (float(x), float(y)) if state.film is None else work_of(state.film, self._document.t_s)
+        work = (float(x), float(y)) if state.shown is None else work_of(state.shown, self._document.t_s)
         return self._following.view(self._base(state), work, self._camera_panel.lens)
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
@@ -137,8 +137,8 @@ class Seat:
 
     def _base(self, state: DocumentState) -> Pose2:
         """Return where the robot stands now."""
-        if state.film is not None:
-            return state.film.timeline.base_at(self._document.t_s)
+        if state.shown is not None:
+            return state.shown.timeline.base_at(self._document.t_s)
         return self._starting_base(state)
 
     @staticmethod

@@ -252,10 +252,10 @@ def driven() -> Iterator[tuple[Document, Stage]]:
 
 def time_at_side(document: Document) -> float:
     """Return a time at which the robot stands beside the table (s)."""
-    film = document.state.film
-    assert film is not None
-    times = (move.start_s + move.duration_s for move in film.plan.primitives if move.kind == "move")
-    return next(t for t in times if abs(film.timeline.base_at(t).y_m) > 0.6)
+    shown = document.state.shown
+    assert shown is not None
+    times = (move.start_s + move.duration_s for move in shown.plan.primitives if move.kind == "move")
+    return next(t for t in times if abs(shown.timeline.base_at(t).y_m) > 0.6)
 
 
 def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
@@ -263,16 +263,16 @@ def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the
 ) -> None:
     document, stage = driven
     document.seek(0.0)
-    film = document.state.film
-    assert film is not None
+    shown = document.state.shown
+    assert shown is not None
     with Visitor(stage) as visitor:
         visitor.until(lambda: "Look from" in visitor.controls)
         visitor.choose("Look from", "Robot's eye")
         visitor.until(lambda: len(visitor.camera) == 2)
-        before = film.timeline.base_at(0.0)
+        before = shown.timeline.base_at(0.0)
         assert math.dist(visitor.camera[-1][:2], (before.x_m, before.y_m)) < 0.4
         document.seek(at := time_at_side(document))
-        beside = film.timeline.base_at(at)
+        beside = shown.timeline.base_at(at)
         visitor.until(lambda: math.dist(visitor.camera[-1][:2], (beside.x_m, beside.y_m)) < 0.4)
         visitor.look(EYE, (800, 500))
         time.sleep(0.2)
@@ -291,9 +291,9 @@ def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does
         visitor.until(lambda: "Mode" in visitor.controls)
         visitor.look(visitor.camera[-1], (800, 500))
         document.seek(at := time_at_side(document))
-        film = document.state.film
-        assert film is not None
-        beside = film.timeline.base_at(at)
+        shown = document.state.shown
+        assert shown is not None
+        beside = shown.timeline.base_at(at)
         visitor.until(lambda: visitor.camera[-1][1] * beside.y_m < 0.0)
 
 

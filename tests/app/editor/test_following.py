@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.document_state import Film
+from app.document_state import ShownPlan
 from app.ui.editor.following import Following, work_of
 from app.ui.editor.presets import Lens
 from planner import Plan, Timeline, load_garment, make_plan
@@ -39,13 +39,13 @@ def test_the_camera_goes_after_the_work_without_a_jump():
 
 def test_the_work_is_where_the_hands_are_and_at_the_end_still_there():
     plan: Plan = make_plan(load_garment("hand-towel"))
-    film = Film(1, plan, Timeline.of(plan))
+    shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
         if step.grips:
             points = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)])
-            assert work_of(film, step.start_s) == pytest.approx(tuple(points.mean(axis=0)))
+            assert work_of(shown, step.start_s) == pytest.approx(tuple(points.mean(axis=0)))
     assert plan.cost_s is not None
-    assert work_of(film, plan.cost_s + 1.0) == work_of(film, plan.steps[-1].start_s)
+    assert work_of(shown, plan.cost_s + 1.0) == work_of(shown, plan.steps[-1].start_s)
 
 
 def _parts(following: Following, base: Pose2, work: tuple[float, float]):

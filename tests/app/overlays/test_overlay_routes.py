@@ -27,7 +27,7 @@ async def overlays(client: httpx.AsyncClient, document_id: str, query: str = "")
     return told
 
 
-async def filmed(client: httpx.AsyncClient) -> str:
+async def planned_document(client: httpx.AsyncClient) -> str:
     """Open a document whose plan can be played."""
     document_id = await created(client)
     for _ in range(600):
@@ -45,7 +45,7 @@ def area(region: dict[str, Any]) -> float:
 
 
 async def test_a_moment_of_the_plan_has_all_overlays(client: httpx.AsyncClient) -> None:
-    document_id = await filmed(client)
+    document_id = await planned_document(client)
     told = await overlays(client, document_id, "?t_s=0")
     assert (told["t_s"], told["primitive"], told["done"], told["fold_step"]) == (0.0, 0, [], 0)
     assert all(told[part] is not None for part in PARTS)
