@@ -1,4 +1,4 @@
-"""Who can fold this: one garment planned for several robots, each at its own table."""
+"""Comparison of robots: one garment planned for several of them, each at its own table."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ _MARGIN_STEPS = 4
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """What a robot makes of a garment.
+    """A robot's result for a garment.
 
     Attributes:
         robot: the robot's name.

@@ -18,7 +18,7 @@ RIBBON_M = 0.2
 """Width of the ribbon (m): one grip holds both corners of its end."""
 
 TAB_M, TAB_SHARE = 0.05, 0.6
-"""How far a tab sticks out (m), and the fraction of a side that is tabs."""
+"""The depth of a tab (m), and the fraction of a side that is tabs."""
 
 NARROW_M, BROAD_M = 0.3, 0.5
 """Width of the cloth between the tabs (m) with tabs along one side, and along two."""

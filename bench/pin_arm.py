@@ -11,7 +11,7 @@ from planner.robots.description import read_model
 from planner.robots.pr2_card import pr2_card
 
 TORSO_M = 0.29
-"""How far the torso is raised in all queries about reach (m)."""
+"""The torso's height in all queries about reach (m)."""
 
 ALL_ROUND_RAD = np.pi
 """Largest start angle in a search of a joint that turns without end: half a turn either way."""

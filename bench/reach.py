@@ -62,7 +62,7 @@ class _Turn:
 
     @property
     def is_false(self) -> BoolArray:
-        """Which "yes" answers have joints that miss the pose, or no joints."""
+        """The "yes" answers whose joints miss the pose, or that have none."""
         poses = zip(self.joints, self.queries.points, self.queries.rotations, strict=True)
         return np.array([j is not None and not pin_arm().residual(j, p, r) <= FALSE_M for j, p, r in poses], dtype=bool)
 

@@ -20,7 +20,7 @@ from planner.robots.arm import read_arm
 from planner.robots.description import read_model, urdf_path
 
 Solve: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray | None]
-"""From a tool's position (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""
+"""A solver: from a tool's position (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""
 
 PRECISION = 1e-7
 """Precision at which a numerical method may stop (m, rad)."""

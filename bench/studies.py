@@ -35,7 +35,7 @@ _context = multiprocessing.get_context("forkserver")
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What planning all cells once took: time that went by, CPU time of all processes (s), largest memory (MB)."""
+    """The measurements of planning all cells once: elapsed time, CPU time of all processes (s), largest memory (MB)."""
 
     wall_s: float
     cpu_s: float

@@ -26,7 +26,7 @@ SIZE = (1280, 960)
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What a picture is like.
+    """The conditions of a picture.
 
     Attributes:
         table: the table's colour, blue, green, red.

@@ -1,4 +1,4 @@
-"""How often garments in pictures are read right, wrong, or not at all, over rendered pictures made by chance.
+"""The share of garments that are read right, wrong, or not at all, over random rendered pictures.
 
 Garment, placement, table, light, camera and sheet are drawn anew for each picture, from its number alone. A share of
 the pictures has an arm that hides a part. Every picture is read as by ``pleat see``: as a drawing; then the known
@@ -57,7 +57,7 @@ COLUMNS = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """A picture made by chance, and the truth about it.
+    """A random picture with its ground truth.
 
     Attributes:
         garment: the name of the garment.
@@ -74,7 +74,7 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """What was read from a picture, judged by the truth.
+    """A reading of a picture, compared with the ground truth.
 
     Attributes:
         garment: the name of the garment.

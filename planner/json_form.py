@@ -18,7 +18,7 @@ from planner.errors import FieldError, RequestError
 from planner.strict_model import first_error
 
 STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, json_schema_serialization_defaults_required=True)
-"""How values are read; the outermost one names it as its `__pydantic_config__`."""
+"""The strictness of reading; the outermost value names it as its `__pydantic_config__`."""
 
 T = TypeVar("T")
 

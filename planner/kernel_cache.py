@@ -1,8 +1,8 @@
-"""Where compiled kernels are kept: a folder of the user's cache for each state of their sources.
+"""The cache of compiled kernels: a folder in the user's cache for each state of their sources.
 
-Numba keeps what it has compiled beside a source and looks at the age of that file alone. A kernel calls others, from
-other files: when one of these changes, the kernel that is kept is another than the one that is written. So the folder
-is named for all their sources at once.
+Numba caches compiled code by source file and looks at the age of that file alone. But a kernel may call kernels from
+other files, and when one of these changes, the cached code is out of date. The folder's name is therefore a digest of
+all their sources.
 """
 
 import hashlib

@@ -18,7 +18,7 @@ Point3 = tuple[float, float, float]
 
 
 class Checks(BaseModel):
-    """What the server depends on: `ok`, or what is wrong. The workers load when the server starts, for some seconds."""
+    """The state of each part of the server: `ok`, or its fault. The workers load for some seconds after the start."""
 
     disk: str
     database: str

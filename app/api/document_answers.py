@@ -75,7 +75,7 @@ class VersionAnswer(BaseModel):
 
 
 class SolvedFold(BaseModel):
-    """Whether a fold is legal, and its line on the cloth as it lies when its turn comes (m)."""
+    """A fold's legality, and its line on the cloth as it lies when its turn comes (m)."""
 
     fold: str
     status: Literal["legal", "illegal", "unchecked"]

@@ -37,7 +37,7 @@ class DagRequest(StrictModel):
 
 
 class BaseField(StrictModel):
-    """Where the base stands: at a station, backed off from it, or at a pose in the table frame (m, rad)."""
+    """The base's place: at a station, at a standoff from it, or at a pose in the table frame (m, rad)."""
 
     station: str | None = None
     back_off_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0

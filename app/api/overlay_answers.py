@@ -15,7 +15,7 @@ class RegionAnswer(BaseModel):
 
 
 class RobotAnswer(BaseModel):
-    """Where the base stands (m, rad)."""
+    """The base's pose (m, rad)."""
 
     station: str | None
     back_off_m: float
@@ -25,7 +25,7 @@ class RobotAnswer(BaseModel):
 
 
 class ReachAnswer(BaseModel):
-    """Where an arm can take cloth that lies on the table, within the comfort radius and without it (m)."""
+    """The region in which an arm can take cloth on the table, within the comfort radius and without it (m)."""
 
     arm: str
     comfort_m: float
@@ -54,7 +54,7 @@ class SlipAnswer(BaseModel):
 
 
 class StandAnswer(BaseModel):
-    """Where a primitive leaves the base (m, rad)."""
+    """The base's pose after a primitive (m, rad)."""
 
     primitive: int
     point: Point

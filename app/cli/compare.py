@@ -1,4 +1,4 @@
-"""``pleat compare``: which robots can fold a garment."""
+"""``pleat compare``: compare robots by their plans for one garment."""
 
 from typing import Annotated
 

@@ -34,7 +34,7 @@ from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, TaskOptions
 from planner.words.catalogue import sentence
 
 _SLOWDOWN_MAX = 6.0
-"""How many times as long as its counted work a search for suggestions may take, on a machine that is slow or busy."""
+"""The time that a search for suggestions may take, as a multiple of its counted work, on a slow or busy machine."""
 
 PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan file, as `pleat plan --out` writes it.")]
 

@@ -37,7 +37,7 @@ class NoiseName(StrEnum):
 
 
 class Switch(StrEnum):
-    """Whether something is done."""
+    """A choice between on and off."""
 
     ON = "on"
     OFF = "off"

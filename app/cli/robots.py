@@ -1,4 +1,4 @@
-"""``pleat robots`` and ``pleat robot check``: which robots there are, and whether a card describes one."""
+"""``pleat robots`` and ``pleat robot check``: list the robots, and check a robot's card."""
 
 from typing import Annotated
 

@@ -14,7 +14,7 @@ from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
 
 INSIDE_M = 0.05
-"""How far inside the table's near edge cloth is laid for the default robot (m)."""
+"""The distance of the cloth from the table's near edge for the default robot (m)."""
 
 
 def with_robot(solution: Solution, robot: str) -> Drawing:

@@ -28,16 +28,16 @@ SNAP_PX: Final = {
     "grid": 4.0,
     "line": 4.0,
 }
-"""How near a pointer must be to each kind of target (px), the strongest kind first; the stage has no grid or guides."""
+"""The snapping distance of each kind of target (px), the strongest kind first; the stage has no grid or guides."""
 
 FRACTIONS: Final = ((1, 2), (1, 3), (2, 3), (1, 4), (3, 4))
 """The fractions of an edge that a pointer snaps to, as numerator and denominator."""
 
 HANDLE_PX: Final = 12.0
-"""How near a mouse must be to a handle (px)."""
+"""The distance within which a mouse grabs a handle (px)."""
 
 FINGER_PX: Final = 22.0
-"""How near a finger must be to a handle (px), and any pointer on the stage, where fingers are not told from mice."""
+"""The same for a finger (px), and for any pointer on the stage, where fingers are not told from mice."""
 
 LEAST_CORNERS: Final = 3
 """The fewest corners with which an outline can be closed."""

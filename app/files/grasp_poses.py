@@ -27,7 +27,7 @@ from planner.task.trajectory import Trajectory
 VERSION = 1
 
 STANDOFF_M = 0.08
-"""How far the tool is from its grasp before it, and from its release after it (m), where its way is as long."""
+"""The tool's distance from its grasp before it, and from its release after it (m), where its path is as long."""
 
 _LOOK_S = 0.02
 """Time between the moments at which the tool is looked at (s)."""

@@ -98,7 +98,7 @@ def _done(plan: Plan, frame: Frame) -> Iterator[Shape]:
 
 
 class _View:
-    """Where points of the table frame are in a picture."""
+    """The projection from the table frame into a picture."""
 
     def __init__(self, frame: Frame, seen: FloatArray) -> None:
         """Show all of some points, shape (n, 2), m."""

@@ -20,10 +20,10 @@ FILES_MAX, DEPTH_MAX, PATH_MAX = 2000, 12, 240
 """Most entries, most folders in one another, and most characters of a path."""
 
 _ENTRY = b"PK\x01\x02"
-"""What every entry of an archive's directory begins with."""
+"""The first bytes of every entry of an archive's directory."""
 
 _OTHERS = ("__MACOSX", ".DS_Store")
-"""What one operating system adds to archives."""
+"""Files that macOS adds to archives."""
 
 _CHUNK = 1 << 20
 

@@ -1,4 +1,4 @@
-"""The map of placements as a job: what the plan costs wherever the garment could be laid."""
+"""The map of placements as a job: the cost of the plan wherever the garment could be laid."""
 
 from app import searches
 from app.api.asked import TimeLimit, asked_places

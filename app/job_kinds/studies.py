@@ -1,4 +1,4 @@
-"""A study as a job: the product of what varies, a plan for each cell, one table and one report."""
+"""A study as a job: the product of its axes, a plan for each cell, one table and one report."""
 
 from dataclasses import dataclass, fields
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Takes jobs, has them done, and tells how far they are; what it knows outlives the server.
+"""Takes jobs, has them done, and reports their progress; all of it outlives the server.
 
 A job is a row of the database from the moment it is accepted. While it is open its progress is in memory as well, so
 that the database is written once a second at most. Jobs that the end of a server interrupted are begun anew at the next
@@ -28,7 +28,7 @@ OPEN_OF_CLIENT_MAX = 16
 """Largest number of open jobs of one client."""
 
 BEGUN_MAX = 3
-"""How often a job is begun at most: one that ends the server would otherwise do so for ever."""
+"""Times that a job is begun at most; without a limit, a job that crashes the server would do so at every start."""
 
 _SAVE_EVERY_S = 1.0
 """Least time between two writes of a job's progress (s)."""

@@ -1,4 +1,4 @@
-"""A kind of job: what is asked, how it is checked, done and answered.
+"""A kind of job: the form of its request, and the functions that check, do and answer it.
 
 A request passes through three functions. `prepare` runs in the server: it turns the body into the argument of the work,
 looking up garments and plans by name, and raises for a bad request before there is a job. `work` runs in a process of
@@ -29,7 +29,7 @@ LARGEST_BODY = 1 << 20
 
 @dataclass(frozen=True, slots=True)
 class Stores:
-    """What the functions of a kind may look up, and where they may put plans.
+    """The repositories that a kind's functions may read, and the store of plans, to which they may add.
 
     Attributes:
         garments: the garments.

@@ -1,4 +1,4 @@
-"""What a simulation assumes of cloth and table, and how finely it computes."""
+"""Parameters of a simulation: the mechanics of cloth and table, and the resolution."""
 
 import math
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ class Fabric:
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """How finely a simulation computes.
+    """The resolution of a simulation in space and time.
 
     Attributes:
         edge_m: the edge length of the mesh (m).

@@ -1,4 +1,4 @@
-"""Which vertices of the cloth two closing fingers pinch, as seen from the fingers alone: layers are not known."""
+"""Find the vertices of the cloth that two closing fingers pinch, by geometry alone: the layers are not known."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,10 @@ PAD_M = 0.011
 """Half the width of a fingertip's pad (m): cloth within it is pinched."""
 
 FINGER_M = 0.022
-"""How far beside the tool's point the fingers still find an edge of cloth (m)."""
+"""Distance beside the tool's point within which the fingers find an edge of cloth (m)."""
 
 _OPENING_M = 0.03
-"""How far above and below the middle of the fingers cloth is taken (m)."""
+"""Distance above and below the middle of the fingers within which cloth is pinched (m)."""
 
 _ALIKE_M = 0.003
 """Edges of several layers that are about equally far count as one (m)."""

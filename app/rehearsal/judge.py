@@ -1,4 +1,4 @@
-"""Judge a step: how far the cloth is from where the plan has it."""
+"""Judge a step by the distance of the cloth from where the plan has it."""
 
 import math
 from dataclasses import dataclass, field
@@ -23,10 +23,10 @@ _GAP_M = 0.002
 
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """What a step must meet to count as held; besides, every hand must have found cloth.
+    """The limits within which a step counts as held, provided that every hand has found cloth.
 
-    What the cloth has slid or turned as a whole does not count: the next grips can be corrected for it. If they are
-    not, the next step shows it.
+    The motion of the cloth as a whole is left out, since the next grips can be corrected for it; if they are not, the
+    next step fails.
 
     Attributes:
         iou: the overlap of the silhouettes at least, as a fraction of what either covers.
@@ -41,7 +41,7 @@ class Gate:
 
 @dataclass(frozen=True, slots=True)
 class StepVerdict:
-    """How a step of a plan came out.
+    """The verdict on one step of a plan.
 
     Attributes:
         step: the index of the step.
@@ -70,7 +70,7 @@ class StepVerdict:
 
 @dataclass(frozen=True, slots=True)
 class Slide:
-    """How cloth has moved as a whole.
+    """The rigid motion of the cloth against its plan.
 
     Attributes:
         isometry: from where it should be to where it is, table frame.

@@ -1,8 +1,8 @@
-"""What goes wrong in a real laboratory, in numbers.
+"""Noise models for rehearsals: the errors of robot, cloth and camera in a laboratory.
 
 The paper gives no figures for its errors, only their kinds (section 9): bases that undershoot and stop at an angle,
-grasps that miss, cloth that is not quite where it should be. So the numbers here are assumptions, each with the thought
-behind it; none was measured, and a laboratory should put in its own.
+grasps that miss, cloth that is not quite where it should be. The numbers here are therefore assumptions,
+each with its reason; none was measured, and a laboratory should put in its own.
 """
 
 from dataclasses import dataclass

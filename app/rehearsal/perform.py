@@ -20,12 +20,12 @@ from planner.task.task import Task
 from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
-"""How often the rest is planned again before a run is given up."""
+"""Times that the rest is planned again before a run is given up."""
 
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """How a plan came out: the verdicts, what feedback decided, and why it ended early ("" if it did not)."""
+    """The outcome of a plan: verdicts, decisions of the feedback, and the reason of an early end ("" if none)."""
 
     steps: tuple[StepVerdict, ...]
     decisions: tuple[Decision, ...] = ()

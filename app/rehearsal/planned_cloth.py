@@ -1,4 +1,4 @@
-"""Where a plan has each point of the cloth after a set of folds."""
+"""The positions of the cloth's points after a set of folds, as planned."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -21,7 +21,7 @@ from planner.task.plan import Plan
 
 RUNS_MAX = 1000
 _LOOK_S = 0.2
-"""How often a rehearsal looks for progress and for its cancellation (s)."""
+"""The interval at which a rehearsal looks for progress and for its cancellation (s)."""
 
 
 class PhysicsMissingError(FoldingError):
@@ -40,7 +40,7 @@ class CancelledError(FoldingError):
 
 @dataclass(frozen=True, slots=True)
 class RehearsalOptions:
-    """How a plan is rehearsed.
+    """The options of a rehearsal.
 
     Attributes:
         runs: how often.
@@ -149,7 +149,7 @@ def _share(progress: Callable[[float], None], before: int, runs: int) -> Callabl
 
 
 _shared: dict[str, Any] = {}
-"""What a worker process is told when it starts: the plan, the options, the event that cancels, the progress."""
+"""The data of a worker process, set when it starts: plan, options, the event that cancels, the progress."""
 
 
 def _begin(plan: Plan, options: RehearsalOptions, cancelled: Any, shares: Any) -> None:  # noqa: ANN401

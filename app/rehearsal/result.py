@@ -1,4 +1,4 @@
-"""What a rehearsal gives: each run's verdicts, and how often the plan held."""
+"""The result of a rehearsal: the verdicts of each run, and the share of runs that held."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +12,7 @@ _CONFIDENCE = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What feedback decided, and on which numbers.
+    """A decision of the feedback, with the numbers that it rests on.
 
     Attributes:
         step: how many steps had been made.

@@ -1,4 +1,4 @@
-"""What hands do to the cloth in each step of a plan, read off its trajectory: for any robot, arms by number."""
+"""Read the motions of the hands that hold cloth off a plan's trajectory, step by step, for any robot."""
 
 from collections.abc import Iterator
 

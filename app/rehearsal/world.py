@@ -57,7 +57,7 @@ class StepMotion:
 
 @dataclass(frozen=True, slots=True)
 class Performed:
-    """What the robot says it did in a step.
+    """The robot's report on a step.
 
     Attributes:
         has_cloth: for each hand that closed or held on, whether there was cloth between its fingers; a gripper tells by
@@ -91,7 +91,7 @@ class Camera:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Observation:
-    """What can be seen at one moment.
+    """The sensor data of one moment.
 
     Attributes:
         image: red, green and blue, shape (height, width, 3); None where the world has no camera.
@@ -107,7 +107,7 @@ class Observation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Truth:
-    """Where every piece of the cloth really is; for judging alone.
+    """The true position of every piece of the cloth; only for judging.
 
     Attributes:
         pattern: points of the cloth in the pattern's frame, shape (n, 2), m.

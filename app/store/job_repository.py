@@ -1,4 +1,4 @@
-"""Jobs in the database: what was asked, how far each is, its result."""
+"""Jobs in the database: each with its request, its progress and its result."""
 
 import json
 import time

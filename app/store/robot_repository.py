@@ -16,7 +16,7 @@ from planner.robots.described_robot import shipped_robots
 from planner.robots.own_robots import CARD
 
 _BEFORE, _NEW = ".before-", ".new-"
-"""What the folders of robots that are being replaced, and of new ones, begin with."""
+"""Prefixes of the folders of robots that are being replaced, and of new ones."""
 
 
 class RobotRepository:

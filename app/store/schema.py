@@ -9,7 +9,7 @@ class Table(DeclarativeBase):
 
 
 class JobRow(Table):
-    """A job: what was asked, how far it is, and its result.
+    """A job: its request, its progress and its result.
 
     `number` grows from job to job. Times are seconds since the epoch. `body` and `result` are JSON. `begun` counts how
     often the job was started, since a job that ends the server must not be started anew for ever.

@@ -18,7 +18,7 @@ from planner.task.task import Task, TaskOptions
 
 ROBOT, PLACEMENT, START = "robot", "placement", "start_station"
 TABLE, SCENE, LIMITS, MOVED, MIDDLE = "table.", "scene.", "limits.", "placement.moved.", "placement.middle."
-"""What the names of axes begin with."""
+"""The prefixes of the axes' names."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What a study's answers say, as counts over its axes: numbers for the report, no page.
+"""The findings of a study: counts of its answers over its axes, for the report.
 
 All answers are held as three arrays: which value of each varied axis a cell has, its status, its cost.
 """

@@ -1,4 +1,4 @@
-"""A garment of a study, and where it comes from."""
+"""A garment of a study, with its source."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

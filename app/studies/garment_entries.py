@@ -28,7 +28,7 @@ CORNERS_MAX, FOLDS_MAX = 40, 12
 
 @dataclass(frozen=True, slots=True)
 class Sources:
-    """Where garments come from.
+    """The sources of garments.
 
     Attributes:
         named: returns the garment of a name.

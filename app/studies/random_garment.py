@@ -28,7 +28,7 @@ _LEAST_SHARE = 0.1
 
 @dataclass(frozen=True, slots=True)
 class RandomShape:
-    """What random garments are drawn from.
+    """The distribution of random garments.
 
     Attributes:
         corners: the least and the most corners.

@@ -1,4 +1,4 @@
-"""How unlike the table each pixel of a picture is.
+"""The distance of each pixel of a picture from the table's colour and texture.
 
 The table's colours are those at the picture's border. Light falls unevenly, so their lightness and colour are first
 made even: a quadratic surface is fitted to what looks like the table, again and again without what does not. What is

@@ -103,7 +103,7 @@ class FoldedOutline:
 
     @cached_property
     def _movable(self) -> Region:
-        """What moves, and a strip beyond the line, in which the crease may lie."""
+        """The part that moves, and a strip beyond the line, in which the crease may lie."""
         line = self._line
         (ax, ay), (bx, by) = line.start, line.end
         nx, ny = np.array(line.left) * CREASE_OFF_M

@@ -1,4 +1,4 @@
-"""From a picture to the outline of what lies on the table, in metres."""
+"""Read the outline of what lies on the table from a picture, in metres."""
 
 from dataclasses import dataclass
 

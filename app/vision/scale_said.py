@@ -1,4 +1,4 @@
-"""What a user says of a picture's scale: a sheet of paper, a marker, or one length of the garment."""
+"""The scale of a picture as the user gives it: a sheet of paper, a marker, or one length of the garment."""
 
 import re
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A garment seen in a picture: its outline, where it lies, and how sure that is."""
+"""A garment seen in a picture: its outline, its placement, and the confidence in both."""
 
 import math
 from dataclasses import dataclass, replace
@@ -24,7 +24,7 @@ from planner.message import Message
 
 @dataclass(frozen=True, slots=True)
 class Sure:
-    """How sure a garment is that was seen.
+    """The confidence in a garment that was seen.
 
     Attributes:
         share: the share of the outline's points within `within_m` of the garment's outline.

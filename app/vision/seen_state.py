@@ -1,4 +1,4 @@
-"""Which state of a garment's folds a picture shows, and how far off its last crease is.
+"""Find the state of a garment's folds that a picture shows, and the error of its last crease.
 
 Every set of folds that the Fold-DAG allows leaves another outline. Those of about the area seen are fitted, and for
 the best few the crease of the last fold is fitted too. A crease far from its line can make one state look like
@@ -50,12 +50,12 @@ class FittedState:
 
     @property
     def off_m(self) -> float:
-        """How far off the part that moved last is, at most (m)."""
+        """The largest error of the part that moved last (m)."""
         return self.fit.off_m if isinstance(self.fit, FoldFit) else 0.0
 
     @property
     def stack(self) -> StackFit:
-        """Where the stack lies."""
+        """The stack's placement."""
         return self.fit.stack if isinstance(self.fit, FoldFit) else self.fit
 
 

@@ -27,10 +27,10 @@ LEAST_SHARE, MOST_SHARE = 0.004, 0.85
 """Range of the share of a picture that cloth may cover."""
 
 MOST_AT_BORDER = 0.02
-"""Where more of the outline than this share is at the picture's border, the cloth is cut off."""
+"""The share of the outline at the picture's border above which the cloth counts as cut off."""
 
 LEAST_AGREEMENT = 0.80
-"""Where the two ways overlap less, nothing is told."""
+"""The overlap of both segmentations (0..1) below which neither is trusted."""
 
 _STANDS_OUT = 2.2
 _ROUNDS = 4

@@ -37,7 +37,7 @@ _CORRELATED_M = 0.04
 """Errors of an outline seen are alike over that length: a wrinkle, a shadow's edge (m)."""
 
 _LEAST_ERROR_M = 0.002
-"""What no fit tells: the camera's own error, an outline that is wider or narrower all round (m)."""
+"""The systematic error that no fit shows: the camera's own, or an outline that is wider or narrower all round (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""What is known of where a stack lies, once its outline has been fitted to what a camera saw."""
+"""The result of fitting a stack's outline to an outline that a camera saw."""
 
 from dataclasses import dataclass
 from typing import Any

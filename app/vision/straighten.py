@@ -11,7 +11,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 
 TOLERANCES = (0.03, 0.024, 0.019, 0.015, 0.012, 0.0095, 0.0075)
-"""How far the corners first chosen may be off, as shares of the figure's length; the coarsest that fits is taken."""
+"""Tolerances for the first choice of corners, as shares of the figure's length; the coarsest that fits is taken."""
 
 _GOOD_SHARE = 0.93
 _NEAR = (0.006, 0.006)

@@ -14,10 +14,10 @@ ANGLES = 90
 """Angles at which a mirror line is looked for."""
 
 _MEAN_OFF = 0.012
-"""How far the mirrored outline may be from the outline in the mean, as a share of its length."""
+"""The largest mean distance of the mirrored outline from the outline, as a share of its length."""
 
 _PAIR_OFF = 0.05
-"""How far a mirrored corner may be from its partner, as a share of the length."""
+"""The largest distance of a mirrored corner from its partner, as a share of the length."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -22,7 +22,7 @@ from planner.task.task import DEFAULT_ROBOT
 
 @dataclass(frozen=True, slots=True)
 class FoldCheck:
-    """What one fold needs.
+    """The requirements of one fold.
 
     Attributes:
         name: the fold's name.
@@ -66,7 +66,7 @@ class FoldCheck:
 
 @dataclass(frozen=True, slots=True)
 class GarmentCheck:
-    """The measures of a garment, and what all its folds need.
+    """The measures of a garment, and the requirements of its folds.
 
     Attributes:
         points: the number of points of its outline.

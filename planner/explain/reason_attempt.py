@@ -33,7 +33,7 @@ _FINEST_M = 0.002
 
 
 class Demand(StrEnum):
-    """What a point that is out of reach must satisfy."""
+    """The requirements on a point that is out of reach."""
 
     ALONE = "alone"
     ONE_ORIENTATION = "one orientation"
@@ -67,7 +67,7 @@ class Miss:
 
     @property
     def short_by_m(self) -> float:
-        """How far the point would have to be displaced (m)."""
+        """The distance by which the point would have to be displaced (m)."""
         return self.shortfall.short_by_m
 
 

@@ -1,4 +1,4 @@
-"""Report what was out of reach: where, by how much, why, and what would help."""
+"""Report points out of reach: the place, the shortfall, its cause, and a remedy."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -69,7 +69,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
 
 
 class _Moment(StrEnum):
-    """Where a hand is on its path."""
+    """A hand's position on its path."""
 
     PICK = "pick"
     PLACE = "place"

@@ -34,7 +34,7 @@ class Suggestion:
 
     @property
     def message(self) -> str:
-        """What to do, and the cost of the plan then."""
+        """The change in words, with the cost of its plan."""
         return f"{self.says.text}: {self.cost_s:.1f} s"
 
     @property

@@ -21,7 +21,7 @@ STEPS_M = (0.1, 0.2)
 """Shifts of a line that are tried first (m)."""
 
 NARROWED_TO_M = 0.0125
-"""How exactly the least shift is found (m)."""
+"""The resolution of the least shift (m)."""
 
 _FAR_M = 20.0
 """Length by which a line is extended to cross any cloth (m)."""

@@ -14,7 +14,7 @@ from planner.geometry.tolerance import LENGTH_M
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """How far a garment can be moved while it lies wholly on the table.
+    """The displacements of a garment with which it lies wholly on the table.
 
     Attributes:
         low: the smallest move along x and y of the table frame (m).

@@ -15,7 +15,7 @@ STEP_M = 0.1
 """Step of the grid of placements (m); every other place is tried first."""
 
 NARROWED_TO_M = 0.05
-"""How exactly the nearest place is found (m)."""
+"""The resolution of the nearest place (m)."""
 
 TURN_AS_M = 0.3
 """Length of a move that counts as much as turning the garment (m)."""

@@ -17,7 +17,7 @@ from planner.geometry.tolerance import LENGTH_M, grid_key
 
 
 class Support(StrEnum):
-    """What holds a corner, or that nothing does."""
+    """The support of a corner, if there is any."""
 
     HANGS_FREELY = "hangs_freely"
     ON_THE_LINE = "on_the_line"

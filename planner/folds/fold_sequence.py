@@ -1,4 +1,4 @@
-"""A garment with its folds made legal, and the cloth after any of them.
+"""A garment with its folds made legal, and the cloth after each of them.
 
 The folds are replayed once in the user's order. The replay snaps each line, finds the part that moves and where it
 lands, and yields the Fold-DAG. Every order that the DAG allows leaves the same stack. So the cloth after a set of folds

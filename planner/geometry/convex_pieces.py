@@ -7,7 +7,7 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import AREA_M2
 
 _SIMPLER_M = 0.01
-"""How far an outline may be simplified, outwards, where it would give too many triangles (m)."""
+"""The largest outward simplification of an outline that would give too many triangles (m)."""
 
 _TRIANGLES_MAX = 24
 """Triangles of a part above which its outline is simplified."""

@@ -31,7 +31,7 @@ PlanePoint = Annotated[tuple[Bounded, Bounded], BeforeValidator(_pair)]
 
 
 _STRICT = core_schema.CoreConfig(strict=True, allow_inf_nan=False)
-"""How a pose's numbers are read; a typed dictionary takes nothing over from what it stands in."""
+"""The strictness of a pose's numbers; a typed dictionary inherits none from the value that contains it."""
 
 
 def _bounded(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401

@@ -21,7 +21,7 @@ from planner.geometry.shape import half_plane, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 
 _EVENED_M = 5e-4
-"""How far an evened boundary may deviate, so that its curves have few corners (m)."""
+"""The largest deviation of an evened boundary, so that its curves have few corners (m)."""
 
 _AT_ONCE = 256
 """Points for which distances to all edges are computed together, which limits the memory."""

@@ -1,4 +1,4 @@
-"""By how much a place is out of reach, and why."""
+"""The shortfall of a place that is out of reach."""
 
 import math
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ robot's own body is in the way."""
 
 @dataclass(frozen=True, slots=True)
 class Shortfall:
-    """Why a tool at a point is not in reach with the comfort radius, in the case that comes closest.
+    """The least shortfall of a tool at a point with the comfort radius, over all approaches.
 
     A case is a place that the point is seen from and an approach.
 

@@ -56,7 +56,7 @@ Cloths = tuple[LyingCloth | None, LyingCloth]
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """How hands approach and withdraw.
+    """The lines along which hands approach and withdraw.
 
     Attributes:
         roll_rad: their roll about their approach axes (rad); a mirrored arm's hand rolls the other way.

@@ -95,7 +95,7 @@ class PathFinder(Protocol):
 
 
 class Kinematics(Protocol):
-    """Where joints bring an arm's tool, and which joints bring it to a pose."""
+    """An arm's kinematics: from joints to the tool's pose, and from a pose to free joints."""
 
     def free_postures(
         self,

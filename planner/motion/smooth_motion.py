@@ -1,4 +1,4 @@
-"""A plan's motion as controllers want it: smooth, and no joint faster or harder accelerated than it can be.
+"""A plan's motion for controllers: smooth, with the speeds and accelerations of all joints bounded.
 
 A plan's trajectory goes straight from keyframe to keyframe, so its velocities jump. Here a curve with continuous second
 derivatives goes through the same keyframes, and is then run through as fast as speeds and accelerations allow, but
@@ -68,7 +68,7 @@ class SmoothStep:
 
     @property
     def end_s(self) -> float:
-        """When it ends on that clock (s)."""
+        """The time of its end on that clock (s)."""
         return self.start_s + self.duration_s
 
     def at(self, times_s: FloatArray, order: int = 0) -> FloatArray:

@@ -22,7 +22,7 @@ STEP_RAD = 0.05
 
 
 Spared = tuple[FloatArray, FloatArray]
-"""How far each arm may go low over cloth at the beginning of a path, and at its end (m), shape (arms,) each."""
+"""Length of path on which each arm may be low over cloth: at the beginning, and at the end (m), shape (arms,) each."""
 
 
 class TransitPaths:

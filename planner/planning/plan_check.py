@@ -102,7 +102,7 @@ def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State
 
 
 class _Tools:
-    """Where the tools must be while a step holds cloth."""
+    """The required tool poses while a step holds cloth."""
 
     def __init__(self, problem: Problem, step: PlanStep, before: State) -> None:
         names = problem.context.reach.arm_names

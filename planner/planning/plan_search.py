@@ -54,7 +54,7 @@ _COLLISIONS_MAX = 12
 
 
 class PlanSearch:
-    """One search: its budget, and what it met on the way."""
+    """A search for the quickest plan, with its budget and the obstacles met."""
 
     def __init__(
         self,

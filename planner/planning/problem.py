@@ -47,7 +47,7 @@ class Problem:
 
     @property
     def unrest(self) -> Unrest | None:
-        """Why the cloth would not stay where it lies at the start; None if it stays."""
+        """The reason why the cloth would not stay where it lies at the start; None if it stays."""
         return self.context.unrest(self.start.done, self.start.offset)
 
     def state_of(self, world: WorldState) -> State:

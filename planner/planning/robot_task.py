@@ -1,4 +1,4 @@
-"""The task of a robot that is asked without a scene, or with a part of one: what is left out is what its card says."""
+"""Complete a task for a robot: scene, station or placement left out are those of the robot's card."""
 
 import math
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
 
 _DECIMALS = 6
-"""What is beyond the table by as much, to a micrometre, counts as equal."""
+"""The resolution at which two overhangs beyond the table count as equal (decimals of a metre)."""
 
 
 def default_scene(robot: str = DEFAULT_ROBOT) -> Scene:

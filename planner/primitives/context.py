@@ -57,7 +57,7 @@ class Patience:
 
 @dataclass(frozen=True)
 class Context:
-    """What all primitives of one task share.
+    """The data that all primitives of one task share.
 
     Attributes:
         sequence: the garment and its legal folds.
@@ -109,7 +109,7 @@ class Context:
 
     @property
     def _rests_on(self) -> tuple[object, ...]:
-        """All that decides whether cloth stays as it is."""
+        """The data on which it depends whether cloth stays as it is."""
         scene = self.scene
         return (id(self.sequence), self.placement, scene.table, scene.friction, scene.support_angle_rad)
 

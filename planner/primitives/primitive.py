@@ -11,7 +11,7 @@ from planner.task.phase import Phase
 
 
 class Motion(Protocol):
-    """The motion of a step: what joint paths are sought for."""
+    """The motion of a step, for which joint paths are sought."""
 
     def phases(self) -> tuple[Phase, ...]:
         """Return the phases of the motion; their durations add up to those of the step."""
@@ -42,7 +42,7 @@ class Keyed(Protocol):
 
 
 class Varied(Protocol):
-    """The other ways to do what a step does: what is tried where it has no joint paths, or in a similar task."""
+    """The alternatives to a step, tried where it has no joint paths, or in a similar task."""
 
     def variants(self) -> "Iterable[Step]":
         """Return this step, then every other way between the same two states, the quickest first."""
@@ -81,7 +81,7 @@ class Step(Motion, Keyed, Varied, Protocol):
 
     @property
     def duration_s(self) -> float:
-        """How long it takes (s)."""
+        """Its duration (s)."""
         ...
 
     @property

@@ -30,7 +30,7 @@ class Following(Protocol):
 
 
 class Counted(Protocol):
-    """The effort of a robot's reach so far: what a budget and the statistics of a plan ask."""
+    """The counters of a robot's reach, for budgets and the statistics of a plan."""
 
     @property
     def queries(self) -> int:
@@ -44,7 +44,7 @@ class Counted(Protocol):
 
 
 class Shortfalls(Protocol):
-    """How far places are out of reach: what explanations ask."""
+    """The shortfalls of places out of reach, for explanations."""
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float

@@ -1,4 +1,4 @@
-"""A robot's card: all that is needed to show, place or describe the robot."""
+"""A robot's card: the data to show, place and describe the robot."""
 
 import math
 from collections.abc import Sequence

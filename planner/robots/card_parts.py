@@ -1,4 +1,4 @@
-"""The parts of a robot's card: URDFs and where they stand, grippers and tools."""
+"""The parts of a robot's card: URDFs with their mounts, grippers and tools."""
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
@@ -22,7 +22,7 @@ Rate = Annotated[float, Interval(gt=0.0, le=1e3)]
 
 @dataclass(frozen=True, slots=True)
 class UrdfFile:
-    """Where a URDF is.
+    """The location of a URDF.
 
     Attributes:
         path: its path below the card's folder, or in the package.
@@ -35,7 +35,7 @@ class UrdfFile:
 
 @dataclass(frozen=True, slots=True)
 class Mount:
-    """Where a URDF's root stands in the base frame, or a tool's root on its link.
+    """The pose of a URDF's root in the base frame, or of a tool's root on its link.
 
     Attributes:
         name: the name put before those of links and joints; empty for none.
@@ -111,7 +111,7 @@ class ParallelogramDrive:
 
 @dataclass(frozen=True, slots=True)
 class Pinch:
-    """How flat over the table a gripper may come, by how its fingers stand.
+    """The flattest approach of a gripper over the table, by the roll of its fingers.
 
     Attributes:
         side_by_side_rad: the least pitch with the fingers side by side.

@@ -1,4 +1,4 @@
-"""What plans have learned about the places within the comfort radius, handed on from plan to plan.
+"""Memories of the places within the comfort radius, handed on from plan to plan.
 
 Where an arm reaches depends on the robot alone, and a garment that has changed a little asks about much the same
 places. A memory (see `planner.robots.comfort`) must not be shared between threads, so a plan takes one and leaves it

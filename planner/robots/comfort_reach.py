@@ -122,7 +122,7 @@ class ComfortReach:
 
     @property
     def torso_m(self) -> float:
-        """How far the torso is raised (m)."""
+        """The torso's height (m)."""
         return self._torso_m
 
     @property

@@ -1,4 +1,4 @@
-"""Where each arm's joints are in a configuration.
+"""The order of the arms' joints in a configuration.
 
 A configuration of a robot is one row: the joints of all arms, one arm after the other. So arms may have different
 numbers of joints, and one array, shape (n, joints), holds a whole motion.

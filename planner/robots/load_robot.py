@@ -17,7 +17,7 @@ CLOSED_FORMS = {"pr2": Pr2}
 _ROBOTS_KEPT = 16
 
 _Stamp: TypeAlias = tuple[int, int, int]
-"""What changes when a card's file is written anew."""
+"""The identity of a card's file, which changes when it is written anew."""
 
 
 def load_robot(name_or_path: str) -> Pr2 | CardRobot:

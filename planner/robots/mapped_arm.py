@@ -1,4 +1,4 @@
-"""An arm of any robot: which tool poses it can take, and the joints for them."""
+"""An arm of any robot: the tool poses within its reach, and the joints for them."""
 
 import math
 from functools import lru_cache, partial
@@ -25,7 +25,7 @@ ALL_ROUND = (
 """Directions from which a gripper may pinch, all round: fixed arms may stand on opposite sides of a table."""
 
 _BELOW_M, _ABOVE_M = 0.1, 0.8
-"""How far below and above the table's top a tool may be asked to be (m)."""
+"""The heights below and above the table's top at which a tool may be asked to be (m)."""
 
 _WIDE_RAD = 2 * math.tau - 0.01
 """A joint with this range may wind up along a chain: wherever it began, some whole turns bring it within its limits."""
@@ -37,7 +37,7 @@ joints turn farther for a centimetre.
 
 
 class MappedArm:
-    """An arm with the map of its postures. What it answers does not change, so all users may share one instance.
+    """An arm with the map of its postures. Its answers do not change, so all users may share one instance.
 
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
@@ -65,7 +65,7 @@ class MappedArm:
 
     @property
     def length_m(self) -> float:
-        """How far from its root it can reach at most (m)."""
+        """Its largest reach from its root (m)."""
         return length_of(self._chain)
 
     @property

@@ -1,4 +1,4 @@
-"""Why, and by how much, a place is not within the left arm's comfort radius.
+"""The shortfall of a place that is not within the left arm's comfort radius, and its cause.
 
 Everything is seen from the arm's shoulder (m), parallel to the base. The base may stand in several places: the place is
 given as it is seen from each.

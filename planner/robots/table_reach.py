@@ -1,4 +1,4 @@
-"""How much of its table a robot reaches: a first answer to whether a card fits the bench it describes."""
+"""The share of its table that a robot reaches: a first check of whether a card fits the bench it describes."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""One reason why there is no plan."""
+"""The reasons why there is no plan."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The trajectory of a plan: keyframes of every joint, the base and the cloth, between which everything moves evenly.
+"""The trajectory of a plan: keyframes of every joint, the base and the cloth, with linear interpolation between them.
 
 It describes the motion completely: stage, exports, simulation and checks read nothing else.
 """

@@ -1,4 +1,4 @@
-"""Sentences about hands that cannot get where they must: what is out of reach, what collides, what would help."""
+"""Sentences about points out of reach, collisions, and their remedies."""
 
 from collections.abc import Callable, Mapping, Sequence
 

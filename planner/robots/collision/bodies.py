@@ -1,4 +1,4 @@
-"""Convex bodies, moving with the arms or standing still, and tests for which of them touch.
+"""Convex bodies, moving with the arms or standing still, and tests for contacts between them.
 
 A compiled pass over all postures (`separation`) rules out nearly all pairs. Coal tests the remaining pairs exactly, one
 by one, until a pair touches.

@@ -93,7 +93,7 @@ def _cluster(members: tuple[int, ...], points: FloatArray, filling: "_Filling") 
 
 
 class _Filling:
-    """How much shapes fill together, where some overlap."""
+    """The volume of overlapping shapes together."""
 
     def __init__(self, clouds: Sequence[FloatArray]) -> None:
         """Sample points of each shape, and ask which other shapes they are in."""
@@ -104,7 +104,7 @@ class _Filling:
         self._is_in = [[_are_inside(some, planes) for planes in sides] for some in points]
 
     def volume_m3(self, members: Sequence[int]) -> float:
-        """Return the volume that some shapes fill, what several fill counted once."""
+        """Return the volume of the union of some shapes."""
         filled_m3 = 0.0
         for at, member in enumerate(members):
             is_known = np.any([self._is_in[member][earlier] for earlier in members[:at]], axis=0)

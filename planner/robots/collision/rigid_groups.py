@@ -1,4 +1,4 @@
-"""Which of a robot's links move as one: by the arm's joint that carries them, as its fingers, or with the body."""
+"""Group a robot's links that move as one: by the arm's joint that carries them, as its fingers, or with the body."""
 
 import math
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ SWEEP = 33
 
 @dataclass(frozen=True, slots=True, order=True)
 class Carrier:
-    """What carries a link.
+    """The carrier of a link: an arm's joint, its fingers, or the body.
 
     Attributes:
         arm: the arm's number, or `BODY`.
