@@ -145,6 +145,11 @@ class Document:
         """Store why a version has no answer."""
         self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
+    def prepare(self, share: float | None) -> None:
+        """Store how far the robot's arms are mapped (0 to 1), in steps of a hundredth; None: they are."""
+        prepared = None if share is None else round(share, 2)
+        self._change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
+
     def stop_planning(self) -> None:
         """Stop waiting for an answer to this version, or for a better one."""
         self._change(lambda state: state.stopped(STOPPED))

@@ -19,7 +19,7 @@ from app.jobs.job_pool import Job, JobPool, ShouldStop
 from app.live_search import LiveSearch
 from app.store.plan_store import PlanStore
 from planner.errors import FoldingError, SceneError
-from planner.robots.load_robot import robot_card_file
+from planner.robots.load_robot import prepare_robot, robot_card_file
 from planner.task.plan import Plan
 
 WORK_S, LONGER_WORK_S = 10.0, 60.0
@@ -159,6 +159,7 @@ class Replanner:
 
         task, begun = state.task, None
         if task is not None:
+            self._prepare(task.robot)
             shown = state.plan_on_show
             first += [] if shown is None else [shown]
             begun = self._search.find_soon(task, shown, show, is_unwanted)
@@ -166,6 +167,13 @@ class Replanner:
         if begun is not None and not is_unwanted():
             work_s = LONGER_WORK_S if state.is_thorough else WORK_S
             self._search.find_quickest(begun, work_s, show, is_unwanted)
+
+    def _prepare(self, robot: str) -> None:
+        """Map the robot's arms if nobody has yet, and tell how far that is."""
+        try:
+            prepare_robot(robot, self._document.prepare)
+        finally:
+            self._document.prepare(None)
 
     def _check(self, state: DocumentState) -> None:
         if state.checks is None or state.checks.version != state.version:

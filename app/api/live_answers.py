@@ -57,6 +57,7 @@ class PlanMessage(BaseModel):
     status: Literal["planning", "solved", "infeasible", "budget_exceeded", "illegal", "failed"]
     text: str
     plan: PlanOnShow | None
+    prepared: float | None
     may_look_longer: bool
     start: WorldState | None
     before: PlanBefore | None

@@ -5,7 +5,6 @@ the browser works out the poses beyond it. There is no kinematics here.
 """
 
 import functools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,11 +14,11 @@ import trimesh
 import yourdfpy
 from numpy.typing import NDArray
 
+from app.ui.robot_mesh import creased, read_mesh
 from app.ui.rotation import IDENTITY, Quaternion, from_matrix, product, rotated, turn
 from planner.geometry.pose import FloatArray, Point3
 
 _SMALLEST_SHOWN_M = 0.03
-_CREASE_RAD = math.radians(40.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,8 +149,7 @@ def _visual(visual: yourdfpy.Visual, mesh_path: Callable[[str], str]) -> Visual 
     mesh = _mesh(visual.geometry, mesh_path)
     if mesh is None or max(mesh.extents) < _SMALLEST_SHOWN_M:
         return None
-    creased = trimesh.graph.smooth_shade(mesh, angle=_CREASE_RAD)
-    return Visual(_pose(visual.origin), np.asarray(creased.vertices), np.asarray(creased.faces))
+    return Visual(_pose(visual.origin), *creased(mesh))
 
 
 def _mesh(geometry: yourdfpy.Geometry, mesh_path: Callable[[str], str]) -> trimesh.Trimesh | None:
@@ -163,6 +161,6 @@ def _mesh(geometry: yourdfpy.Geometry, mesh_path: Callable[[str], str]) -> trime
     elif geometry.sphere is not None:
         made = trimesh.creation.icosphere(radius=geometry.sphere.radius)
     elif geometry.mesh is not None:
-        made = trimesh.load_mesh(mesh_path(geometry.mesh.filename))
-        made.apply_scale(1.0 if geometry.mesh.scale is None else geometry.mesh.scale)
+        x, y, z = np.broadcast_to(1.0 if geometry.mesh.scale is None else geometry.mesh.scale, 3).tolist()
+        made = read_mesh(mesh_path(geometry.mesh.filename), (x, y, z))
     return made

@@ -1,6 +1,7 @@
 """A robot as its card and its URDF describe it, ready for planning."""
 
 import math
+import threading
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
 
@@ -17,9 +18,10 @@ from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import AskedArms
 from planner.robots.described_card import robot_card
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.mapped_arm import ALL_ROUND, MappedArm, mapped_arm
+from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
 from planner.robots.mapped_reach import MappedReach
+from planner.robots.posture_maps import Progress
 from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
 
 _MEMORIES_KEPT = 4
@@ -38,6 +40,8 @@ class CardRobot:
         self._described = described
         self._card = robot_card(described)
         self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
+        self._mapping = threading.Lock()
+        self._mapped: tuple[MappedArm, ...] | None = None
 
     @property
     def card(self) -> RobotCard:
@@ -72,9 +76,20 @@ class CardRobot:
         for arm in self._arms:
             arm.forget_samples()
 
-    @cached_property
+    def prepare(self, progress: Progress | None = None) -> tuple[MappedArm, ...]:
+        """Return the arms with their maps of postures, which are read or built at the first call.
+
+        Args:
+            progress: is told how far the maps are that must be built (0 to 1).
+        """
+        with self._mapping:
+            if self._mapped is None:
+                self._mapped = all_arms(self._described, progress)
+            return self._mapped
+
+    @property
     def _arms(self) -> tuple[MappedArm, ...]:
-        return tuple(mapped_arm(self._described, number) for number in range(len(self._described.arms)))
+        return self.prepare()
 
     @cached_property
     def _numbers(self) -> MappedArms:

@@ -9,6 +9,7 @@ from planner.robots.card_file import CardFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import read_card, read_described
 from planner.robots.known_robots import card_path, robot_names
+from planner.robots.posture_maps import Progress
 from planner.robots.pr2 import Pr2
 
 CLOSED_FORMS = {"pr2": Pr2}
@@ -30,6 +31,20 @@ def load_robot(name_or_path: str) -> Pr2 | CardRobot:
     if name_or_path in CLOSED_FORMS:
         return _closed_form(name_or_path)
     return _described(*_found(name_or_path))
+
+
+def prepare_robot(name_or_path: str, progress: Progress) -> None:
+    """Make a robot ready for planning, which takes up to a minute when its arms have never been mapped on this machine.
+
+    Planning does so by itself, but does not tell how far it is. Raises as `load_robot` does.
+
+    Args:
+        name_or_path: the robot's name, or the path of its card.
+        progress: is told how far the maps are that must be built (0 to 1); not called for those that exist.
+    """
+    robot = load_robot(name_or_path)
+    if isinstance(robot, CardRobot):
+        robot.prepare(progress)
 
 
 def robot_card_file(name_or_path: str) -> CardFile:

@@ -1,7 +1,7 @@
 """An arm of any robot: the tool poses within its reach, and the joints for them."""
 
 import math
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -158,7 +158,6 @@ class MappedArm:
         return shoulder
 
 
-@lru_cache(maxsize=16)
 def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = None) -> MappedArm:
     """Return an arm of a robot with its map, which is read from the user's cache or built (in seconds).
 
@@ -169,6 +168,17 @@ def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = N
     """
     arm = robot.arms[number]
     return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights(robot, arm), progress))
+
+
+def all_arms(robot: DescribedRobot, progress: Progress | None = None) -> tuple[MappedArm, ...]:
+    """Return all arms of a robot with their maps, see `mapped_arm`; `progress` is told the share of all of them."""
+    count = len(robot.arms)
+    return tuple(mapped_arm(robot, number, _part(progress, number, count)) for number in range(count))
+
+
+def _part(progress: Progress | None, number: int, count: int) -> Progress | None:
+    """Return what is told the progress of one arm of several."""
+    return None if progress is None else lambda share: progress((number + share) / count)
 
 
 def heights(robot: DescribedRobot, arm: DescribedArm) -> tuple[float, float]:

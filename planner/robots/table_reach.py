@@ -9,7 +9,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.mapped_arm import ALL_ROUND, MappedArm, mapped_arm
+from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.posture_maps import Progress
 
 STEP_M = 0.05
@@ -46,11 +46,11 @@ def table_reach(robot: DescribedRobot, progress: Progress | None = None) -> Tabl
     scene = robot.card.scene
     points = _grid(scene.table)
     reached = np.zeros((len(scene.stations), len(robot.arms), len(points)), dtype=np.bool_)
+    mapped = all_arms(robot, progress)
     for number, described in enumerate(robot.arms):
-        arm = mapped_arm(robot, number, _part(progress, number, len(robot.arms)))
         rotations = _rotations(described.card.gripper.pinch.side_by_side_rad)
         for at, (_, base) in enumerate(scene.stations):
-            reached[at, number] = _reached(arm, base.to_inner(points), rotations, scene.torso_m)
+            reached[at, number] = _reached(mapped[number], base.to_inner(points), rotations, scene.torso_m)
     by_arm = {arm.card.name: _share(reached[:, number].any(axis=0)) for number, arm in enumerate(robot.arms)}
     return TableReach(by_arm, _share(reached.any(axis=(0, 1))), _share((reached.sum(axis=1) >= 2).any(axis=0)))
 
@@ -72,11 +72,6 @@ def _reached(arm: MappedArm, points: FloatArray, rotations: FloatArray, torso_m:
     each = np.repeat(points, len(rotations), axis=0)
     found = arm.can_reach(each, np.tile(rotations, (len(points), 1, 1)), torso_m)
     return np.asarray(found.reshape(len(points), -1).any(axis=1))
-
-
-def _part(progress: Progress | None, number: int, count: int) -> Progress | None:
-    """Return what is told the progress of one arm of several."""
-    return None if progress is None else lambda share: progress((number + share) / count)
 
 
 def _share(points: ArrayLike) -> float:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.api.live_messages import status_text
+from app.api.live_messages import plan_message, status_text
 from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
@@ -226,3 +226,23 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
     desk.rest()
     assert desk.document.state.answer is not None
     assert desk.document.state.answer.version == 4
+
+
+def test_a_robot_whose_arms_must_be_mapped_first_is_told_with_how_far_that_is(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    told: list[float | None] = []
+
+    def prepare(robot: str, progress: Callable[[float], None]) -> None:
+        for share in (0.25, 0.251, 0.75):
+            progress(share)
+
+    monkeypatch.setattr("app.replanner.prepare_robot", prepare)
+    desk.document.subscribe(lambda: told.append(plan_message(desk.document.state)["prepared"]))
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.rest()
+    shares = [share for share in told if share is not None]
+    assert shares == [0.25, 0.75]
+    assert told[-1] is None
+    assert desk.document.state.answer is not None and desk.document.state.answer.version == 2

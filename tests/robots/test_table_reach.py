@@ -25,7 +25,7 @@ class Ball:
 
 @pytest.fixture
 def balls(monkeypatch):
-    monkeypatch.setattr(module, "mapped_arm", lambda robot, number, progress: Ball(robot.arms[number].root))
+    monkeypatch.setattr(module, "all_arms", lambda robot, progress: [Ball(arm.root) for arm in robot.arms])
 
 
 @pytest.mark.usefixtures("balls")

@@ -47,6 +47,9 @@ function told(store, planning) {
   if (store.queue.isHeld && isLive) return ["Not sent yet, trying again...", "lost"];
   if (!isLive) return plan ? ["Connection lost, trying again...", "lost"] : ["Connecting...", "planning"];
   if (!plan || !state) return [null, ""];
+  if (planning.isGoingOn && plan.prepared !== null) {
+    return [`Learning where this robot's arms can reach, once: ${Math.round(100 * plan.prepared)} %`, "planning"];
+  }
   if (planning.isGoingOn) return [planning.wait === "short" ? null : "Planning...", "planning"];
   if (!NO_PLAN.has(plan.status)) return [plan.text, plan.status];
   return [`No plan: ${headline(plan, state).replace(/\.$/, "")}`, plan.status];
