@@ -112,11 +112,13 @@ class HistoryAnswer(BaseModel):
 
 
 class RobotPart(BaseModel):
-    """The robot that folds; its arms by name, from left to right."""
+    """The robot that folds: its arms by name, from left to right, and where its parts stand in the base frame (m)."""
 
     name: str
     title: str
     arms: list[str]
+    base: Literal["fixed", "omni", "differential"]
+    mounts: list[Point]
 
 
 class DocumentAnswer(BaseModel):

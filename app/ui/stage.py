@@ -55,7 +55,7 @@ class Stage:
         self.port = self._server.get_port()
         with self._server.atomic():
             self._look()
-            self._table = TableView(self._server, scene)
+            self._table = self._bring_table()
             self._cloth = ClothView(self._server.scene)
             self._folds = FoldView(self._server)
             self._bring_robot()
@@ -112,6 +112,7 @@ class Stage:
             self._bring_robot()
             self._robot.recolour(self._palette)
             self._grips.recolour(self._palette)
+            self._exchange_table()
         self._marked = None
 
     def show_scene(self, scene: Scene) -> None:
@@ -120,9 +121,7 @@ class Stage:
             return
         self.scene = scene
         with self._server.atomic():
-            self._table.remove()
-            self._table = TableView(self._server, scene)
-            self._table.recolour(self._palette)
+            self._exchange_table()
             for view in (self._robot, self._grips):
                 view.stand_on(-scene.table.height_m)
 
@@ -171,6 +170,14 @@ class Stage:
         camera = self._server.initial_camera
         camera.position, camera.look_at = self.opening.position, self.opening.look_at
         camera.fov = self.opening.fov_rad
+
+    def _bring_table(self) -> TableView:
+        return TableView(self._server, self.scene, has_stations=not self.card.is_fixed)
+
+    def _exchange_table(self) -> None:
+        self._table.remove()
+        self._table = self._bring_table()
+        self._table.recolour(self._palette)
 
     def _bring_robot(self) -> None:
         floor_z_m = -self.scene.table.height_m

@@ -17,13 +17,20 @@ _ARROW = np.array([[0.16, 0.0, 0.0], [-0.10, 0.11, 0.0], [-0.04, 0.0, 0.0], [-0.
 class TableView:
     """Floor, table and stations; built once for a scene."""
 
-    def __init__(self, server: viser.ViserServer, scene: Scene) -> None:
-        """Build the nodes ``/floor``, ``/table`` and ``/stations``."""
+    def __init__(self, server: viser.ViserServer, scene: Scene, *, has_stations: bool) -> None:
+        """Build the nodes ``/floor``, ``/table`` and ``/stations``.
+
+        Args:
+            server: where to build them.
+            scene: table and stations.
+            has_stations: whether to mark the stations: a base that does not drive has none to go to.
+        """
         self._server = server
         self._floor_z_m = -scene.table.height_m
         self._floor = self._add_floor()
         self._top, *self._legs = self._add_table(scene)
-        self._stations = [self._add_station(name, pose) for name, pose in scene.stations]
+        marked = scene.stations if has_stations else ()
+        self._stations = [self._add_station(name, pose) for name, pose in marked]
 
     def remove(self) -> None:
         """Remove all nodes."""

@@ -52,10 +52,11 @@ _SIDES = (
 
 
 def _out_of_reach(values: Values) -> str:
+    is_fixed = values["station"] is None and values["back_off_m"] == 0.0
+    closest = "" if is_fixed else f"; closest: {_stand(values)}, backed off {values['back_off_m']:.2f} m"
     return (
         f"the {values['arm']} grip at {point(values['at'])} m, {height(values['at'][2])} {_MOMENTS[values['moment']]}, "
-        f"{_lack(values)}; closest: {_stand(values)}, backed off {values['back_off_m']:.2f} m{carried(values)}"
-        f"{_advice(values)}"
+        f"{_lack(values)}{closest}{carried(values)}{_advice(values)}"
     )
 
 

@@ -24,7 +24,9 @@ from tests.app.test_garbage import assert_problem
 async def test_another_robot_can_be_asked_for(client: httpx.AsyncClient) -> None:
     state = (await client.post("/api/documents", json={})).json()
     changed = (await client.put(f"/api/documents/{state['id']}/robot", json={"robot": "so101-pair"})).json()
-    assert changed["robot"] == {"name": "so101-pair", "title": "Two SO-101", "arms": ["left", "right"]}
+    arms, mounts = ["left", "right"], [[0.0, 0.15], [0.0, -0.15]]
+    robot = {"name": "so101-pair", "title": "Two SO-101", "arms": arms, "base": "fixed", "mounts": mounts}
+    assert changed["robot"] == robot
     assert changed["drawing"]["robot"] == "so101-pair"
     assert changed["history"]["can_undo"] == "Fold with Two SO-101"
 

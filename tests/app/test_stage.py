@@ -228,3 +228,15 @@ def test_two_stages_stand_side_by_side(stage: Stage) -> None:
         assert other.secret != stage.secret
     finally:
         other.close()
+
+
+def test_stations_are_marked_for_a_robot_that_drives_alone(stage: Stage) -> None:
+    handle = stage._server.scene.get_handle_by_name
+    assert handle("/stations/front") is not None
+    try:
+        stage.show_robot(load_robot("so101-pair").card)
+        assert handle("/stations/front") is None
+        assert handle("/table/top") is not None
+    finally:
+        stage.show_robot(load_robot("pr2").card)
+    assert handle("/stations/front") is not None

@@ -217,3 +217,29 @@ def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_befor
     assert status.inner_text() == "Connection lost, trying again..."
     again[-1].send(held[-1])
     expect(status).not_to_contain_text("Connection lost")
+
+
+def learning(page: WebSocketRoute) -> None:
+    """Fake a server that maps a fixed robot's arms before it plans, and is never done."""
+    server = page.connect_to_server()
+
+    def tell(text: str) -> None:
+        message = json.loads(text)
+        if message["kind"] == "document":
+            message["robot"] |= {"base": "fixed", "mounts": [[0.0, 0.3], [0.0, -0.3]]}
+        if message["kind"] == "plan":
+            message |= {"status": "planning", "prepared": 0.42}
+        page.send(json.dumps(message))
+
+    server.on_message(tell)
+
+
+def test_while_a_robots_arms_are_mapped_that_is_told_and_a_fixed_base_has_no_lane(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.route_web_socket("**/live", learning)
+    page.goto(new_sheet(napkin()).page_url)
+    told = "Learning where this robot's arms can reach, once: 42 %"
+    expect(page.get_by_role("status").filter(has_text=told)).to_be_visible()
+    expect(page.locator(".lane-name").filter(has_text="Left arm")).to_be_visible()
+    expect(page.locator(".lane-name").filter(has_text="Base")).to_be_hidden()

@@ -5,7 +5,7 @@
 
 import { reasonWithPlace } from "./draw_reason.js";
 import { BASE_M } from "./draw_table.js";
-import { toInner } from "./geometry.js";
+import { toInner, toOuter } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 import { place } from "../messages/names.js";
@@ -19,6 +19,8 @@ const LARGEST_PX = 34;
 const SMALLEST_PX = 18;
 const MARGIN_PX = 12;
 const WORDS_PX = 14;
+/** How wide the foot of an arm is about its axis. */
+const FOOT_M = 0.075;
 /** How wide a letter is at most on average (px). */
 const LETTER_PX = 6.5;
 /** Its parts in the base frame, in shares of the base's half width: shoulders and the arms ahead of them. */
@@ -50,6 +52,8 @@ export function drawRobot(board) {
   const away_m = Math.hypot(there[0] - at[0], there[1] - at[1]) / view.scale;
   const r = Math.min(Math.max(BASE_M * view.scale, SMALLEST_PX), LARGEST_PX);
   const words = [stand.station ? place(stand.station) : "", away_m > BASE_M ? `${length(away_m)} further` : ""];
+  const { base, mounts } = board.store.state?.robot ?? { base: "omni", mounts: [] };
+  if (base === "fixed") return feet(mounts.map((mount) => toPx(toOuter(pose, mount))), view.scale);
   return [...silhouette(at, turn, r), label(at, r, words.filter(Boolean).join(", "), board)];
 }
 
@@ -113,6 +117,12 @@ function silhouette([x, y], turn, r) {
     { key: "robot:base", tag: "path", class: "robot-stand", d: path(corners.map(px)) },
     { key: "robot:head", tag: "circle", class: "robot-head", cx: hx, cy: hy, r: r * 0.34 },
   ];
+}
+
+/** Where arms are bolted to their bench. @param {Point[]} places px @param {number} scale px for a metre @returns {Items} */
+function feet(places, scale) {
+  const r = Math.min(Math.max(FOOT_M * scale, SMALLEST_PX / 2), LARGEST_PX);
+  return places.map(([cx, cy], n) => ({ key: `robot:foot:${n}`, tag: "circle", class: "robot-stand", cx, cy, r }));
 }
 
 /** @param {Point} at px @param {number} r px @param {string} text @param {Board} board */

@@ -76,7 +76,8 @@ function block(primitive, index, folds, told) {
   const { start_s: start, duration_s: duration } = primitive;
   const holds = primitive.kind !== "move" && primitive.holds;
   const by = hands(primitive);
-  const parts = [whole(primitive, folds), by && `by ${by}`, `at ${where(primitive)}`, base, holds ? "holds on" : ""];
+  const at = where(primitive);
+  const parts = [whole(primitive, folds), by && `by ${by}`, at && `at ${at}`, base, holds ? "holds on" : ""];
   const when = `${seconds(start)} to ${seconds(start + duration)}`;
   const about = [...parts.filter(Boolean), when].join(", ");
   const isHolding = Boolean(holds) && kind !== "move";

@@ -59,9 +59,12 @@ export class Lanes {
     return this.told.folds;
   }
 
-  /** Have a lane for each arm of the robot. */
+  /** Have a lane for each arm of the robot, and one for its base if that drives. */
   showArms() {
-    const names = this.store.state?.robot.arms ?? [];
+    const { arms: names, base } = this.store.state?.robot ?? { arms: [], base: "omni" };
+    for (const part of [this.base, this.base.previousElementSibling]) {
+      if (part instanceof HTMLElement) part.hidden = base === "fixed";
+    }
     if (names.join() === [...this.arms.keys()].join()) return;
     for (const lane of this.arms.values()) {
       lane.previousElementSibling?.remove();

@@ -125,7 +125,8 @@ export class PlanList {
 function told(primitive, folds) {
   const by = hands(primitive);
   const holds = primitive.kind !== "move" && primitive.holds;
-  const how = [by && `by ${by}`, `at ${where(primitive)}`, holds ? "holds on" : ""];
+  const at = where(primitive);
+  const how = [by && `by ${by}`, at && `at ${at}`, holds ? "holds on" : ""];
   const parts = [whole(primitive, folds), ...how, seconds(primitive.duration_s)];
   return parts.filter(Boolean).join(", ");
 }

@@ -2,7 +2,7 @@
 
 import { moved } from "./directions.js";
 import { area, enough, height, length, listed, onGarment, onTable, point } from "./lengths.js";
-import { called, counted, place } from "./names.js";
+import { called, counted, stand } from "./names.js";
 
 /** @import { Says } from "pleat" */
 
@@ -45,9 +45,11 @@ const countedHands = (count) => (count === 1 ? "one hand" : `${count} hands`);
 export const REASONS = {
   out_of_reach: (says) => {
     const { arm, at, moment, station, back_off_m: backOff } = says;
+    const isFixed = !station && backOff === 0;
     return (
-      `the ${arm} grip at ${onTable(at)}, ${height(at[2])} ${MOMENTS[moment]}, ${lack(says)}. ` +
-      `Closest: ${place(station)}, backed off ${length(backOff)}${carried(says)}${whatToDo(says)}`
+      `the ${arm} grip at ${onTable(at)}, ${height(at[2])} ${MOMENTS[moment]}, ${lack(says)}` +
+      (isFixed ? "" : `. Closest: ${stand(station)}, backed off ${length(backOff)}`) +
+      `${carried(says)}${whatToDo(says)}`
     );
   },
   too_many_grips: ({ points, hands, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
@@ -64,10 +66,10 @@ export const REASONS = {
     `${length(needed)} away and holds what is within ${length(radius)}. A grip radius of ${enough(needed)} would do, ` +
     "or a blue fold",
   arms_cannot_get_there: (says) =>
-    `${dragging(says)}from ${place(says.station)} the hands could be where they must, but the arms cannot get them ` +
+    `${dragging(says)}from ${stand(says.station)} the hands could be where they must, but the arms cannot get them ` +
     `there and along their way without touching the table, the robot or each other${carried(says)}`,
   collision: (says) =>
-    `${dragging(says)}from ${place(says.station)} all is in reach, but with the ${says.arm} gripper at ` +
+    `${dragging(says)}from ${stand(says.station)} all is in reach, but with the ${says.arm} gripper at ` +
     `${onTable(says.at)}, ${height(says.at[2])}, the ${says.parts[0]} would hit the ${says.parts[1]} by ` +
     `${length(says.depth_m)} at least, however the arm is bent${carried(says)}`,
   line_off_table: (says) =>
