@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from app.job_kinds.comparisons import COMPARISONS
 from app.job_kinds.placements import PLACEMENTS
 from app.job_kinds.rehearsals import REHEARSALS
 from app.job_kinds.studies import STUDIES
@@ -9,6 +10,7 @@ from app.job_kinds.suggestions import SUGGESTIONS
 from app.jobs.job_kind import AnyKind
 
 _ALL: tuple[AnyKind, ...] = (
+    COMPARISONS,
     PLACEMENTS,
     REHEARSALS,
     STUDIES,

@@ -51,6 +51,19 @@ async def test_suggestions_as_a_job_have_their_plans(client: httpx.AsyncClient) 
         assert (plan["status"], plan["cost_s"]) == ("solved", one["cost_s"])
 
 
+async def test_robots_are_compared_each_at_its_own_table(client: httpx.AsyncClient) -> None:
+    towel = {"name": "napkin", "outline": [[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]]}
+    towel["folds"] = [{"name": "half", "kind": "blue", "start": [0.1, 0.2], "end": [0.1, 0.0]}]
+    asked = {"garment": towel, "robots": ["so101-pair", "pr2"], "time_limit_s": 5.0}
+    job = await ended(client, (await client.post("/api/comparisons", json=asked)).headers["location"])
+    assert job["status"] == "done", job
+    small, large = job["result"]["robots"]
+    assert [small["robot"], large["robot"]] == ["so101-pair", "pr2"]
+    plan = (await client.post("/api/plans", json={"garment": towel, "robot": "so101-pair"})).json()
+    assert (small["status"], small["cost_s"]) == (plan["status"], plan["cost_s"])
+    assert large["status"] == "solved" and 0.03 <= large["margin_m"] <= 0.1
+
+
 async def test_a_job_can_be_followed_to_its_end_and_again_after_it(client: httpx.AsyncClient) -> None:
     path = (await client.post("/api/jobs/placements", json=MAP)).headers["location"]
     followed = await client.get(f"{path}/events")
@@ -78,6 +91,8 @@ async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncC
         ("placements", {"garment": "nothing"}, 404, None),
         ("suggestions", {}, 422, "garment"),
         ("suggestions", {"garment": "tie", "scene": {"friction": -1.0}}, 422, "scene.friction"),
+        ("../comparisons", {"garment": "tie", "robots": ["pr2", "r2d2"]}, 422, "robots[1]"),
+        ("../comparisons", {"garment": "tie", "robots": []}, 422, "robots"),
         ("nothing", {}, 405, None),
     ],
 )

@@ -1,7 +1,8 @@
 /** Jobs: work that goes on when nobody looks. The list follows them while it is open. */
 
 import { button, element, sayable } from "../dom.js";
-import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
+import { openDialog } from "./dialog.js";
+import { fetched } from "./fetched.js";
 
 /** @import { Job } from "pleat" */
 
@@ -109,13 +110,4 @@ class JobRow {
     this.stop.hidden = !isOpen;
     this.link.hidden = status !== "done";
   }
-}
-
-/** @param {string} url @param {string} method */
-async function fetched(url, method = "GET") {
-  const answer = await fetch(url, { method }).catch(() => {
-    throw new Error(OFFLINE);
-  });
-  if (!answer.ok) throw new Error(sentenceOf(await answer.json()));
-  return answer.json();
 }

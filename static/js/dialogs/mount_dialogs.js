@@ -9,6 +9,7 @@ import { acceptDrops, showImport } from "./import.js";
 import { offerJobs, showJobs } from "./jobs.js";
 import { showNew } from "./new.js";
 import { showRename } from "./rename.js";
+import { showWhoFolds } from "./who_folds.js";
 
 /** @param {import("../store.js").Store} store */
 export function mountDialogs(store) {
@@ -38,6 +39,7 @@ export function mountDialogs(store) {
   addEventListener("focus", () => offerJobs(byId("jobs")));
   put("help", "help", "", verbs.help);
   put("rename", "rename", "", () => showRename(store));
+  byId("compare").addEventListener("click", () => showWhoFolds(store));
   acceptDrops(store);
   return verbs;
 }

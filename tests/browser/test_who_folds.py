@@ -1,0 +1,36 @@
+"""The comparison of robots: a row each as it is found, why not, and a click that changes the robot."""
+
+import re
+from collections.abc import Callable
+
+from playwright.sync_api import Page, Route, expect
+
+from tests.browser.conftest import Garment, Sheet
+from tests.browser.napkin import napkin
+
+ROBOTS = ("pr2", "so101-pair")
+
+
+def few(route: Route) -> None:
+    """Answer with two robots only: the others take their time."""
+    robots = route.fetch().json()
+    route.fulfill(json=[robot for robot in robots if robot["name"] in ROBOTS])
+
+
+def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    page.route("**/api/robots", few)
+    page.goto(new_sheet(napkin()).page_url)
+    page.get_by_role("button", name="Who can fold this?").click()
+    dialog = page.get_by_role("dialog", name="Who can fold this?")
+    rows = dialog.locator("tbody tr")
+    expect(rows.nth(0)).to_contain_text("PR2")
+    expect(rows.nth(0)).to_have_attribute("data-status", "solved", timeout=60_000)
+    expect(rows.nth(0).get_by_role("button")).to_be_hidden()
+    expect(rows.nth(0)).to_contain_text(re.compile(r"\d+\.\d s\d"))
+    expect(rows.nth(1)).to_have_attribute("data-status", "infeasible", timeout=60_000)
+    expect(rows.nth(1)).to_contain_text("hand is")  # it is too large for small arms
+    dialog.get_by_role("button", name="Use Two SO-101").click()
+    expect(dialog).to_be_hidden()
+    expect(page.get_by_role("combobox", name="Robot")).to_have_value("so101-pair")
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_role("combobox", name="Robot")).to_have_value("pr2")
