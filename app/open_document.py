@@ -9,10 +9,10 @@ from app.document import Document
 from app.jobs.job_pool import JobPool
 from app.player import Player
 from app.replanner import Replanner
+from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
-from planner.robots.load_robot import load_robot
 
 
 class OpenDocument:
@@ -39,7 +39,7 @@ class OpenDocument:
         with self._lock:
             if self._shown is None:
                 drawing = self.document.state.drawing
-                stage = Stage(load_robot(drawing.robot).card, drawing.scene)
+                stage = Stage(shown_robot(drawing.robot), drawing.scene)
                 desk = Desk(self.document, stage.server, stage.opening)
                 self._shown = (stage, Player(self.document, stage, desk))
             return self._shown[0]

@@ -6,12 +6,12 @@ import time
 
 from app.document import Document
 from app.document_state import DocumentState, ShownPlan
+from app.shown_robot import shown_robot
 from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
-from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 from planner.task.scene import Scene
 
@@ -195,7 +195,7 @@ class Player:
     def _set(self, robot: str, scene: Scene) -> None:
         """Set the stage with a robot and a scene; both stay where they are the same."""
         self._stage.show_scene(scene)
-        self._stage.show_robot(load_robot(robot).card)
+        self._stage.show_robot(shown_robot(robot))
 
     def _is_to_wait(self, state: DocumentState) -> bool:
         """Return whether a plan for the drawing will come soon, and the stage has something to show until then."""

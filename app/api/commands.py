@@ -28,7 +28,7 @@ from app.drawing.robot_drawing import with_robot
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
-from planner.robots.known_robots import require_shipped
+from planner.robots.known_robots import require_name
 from planner.robots.load_robot import robot_card_file
 from planner.strict_model import first_error
 
@@ -97,7 +97,7 @@ def put_robot(
         StaleVersionError: the change is based on a version that is no longer current.
         RequestError: there is no such robot.
     """
-    require_shipped(robot)
+    require_name(robot)
     before = document.state
     if before.drawing.robot == robot:
         return before

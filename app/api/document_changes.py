@@ -17,10 +17,12 @@ from app.api.document_messages import EditRequest, GarmentRequest, RobotRequest,
 from app.api.live_messages import document_message
 from app.api.problems import ProblemResponse
 from app.document_state import DocumentState
+from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.open_document import OpenDocument
 from planner.errors import FieldError, RequestError
+from planner.robots.known_robots import require_name
 
 router = APIRouter(prefix="/api/documents", tags=["documents"], route_class=DescribedRoute)
 
@@ -35,8 +37,8 @@ _CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **p
 @router.put("/{document_id}/drawing", responses=_CHANGED)
 async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
     """Change the drawing; answers 409, with the current `state`, if somebody else has changed it meanwhile."""
-    edit = _edit(wanted)
     opened = await opened_document(request, document_id)
+    edit = _edit(wanted, opened.document.state.drawing)
     return await _changed(opened, partial(opened.document.edit, edit))
 
 
@@ -88,12 +90,14 @@ async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) ->
     return JSONResponse(await run_in_threadpool(document_message, opened.id, state))
 
 
-def _edit(wanted: EditRequest) -> Edit:
+def _edit(wanted: EditRequest, now: Drawing) -> Edit:
     phase = Phase(wanted.phase)
     if wanted.drawing is None and phase is not Phase.CANCEL:
         raise RequestError("drawing", "is missing")
     try:
         drawing = None if wanted.drawing is None else drawing_from_dict(wanted.drawing)
+        if drawing is not None and drawing.robot != now.robot:
+            require_name(drawing.robot)
     except FieldError as error:
         raise error.within("drawing") from None
     return Edit(wanted.label, drawing, phase, wanted.base_version, wanted.coalesce, wanted.gesture)

@@ -5,6 +5,7 @@ from typing import Any
 from app.document_state import Answer, Checks, DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
+from app.shown_robot import shown_robot
 from planner.errors import FoldingError
 from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Statistics
@@ -12,15 +13,16 @@ from planner.task.plan import Statistics
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
     """Return the drawing, its solution, its problems and its history."""
-    card = robot_card_file(state.drawing.robot)
+    robot = state.drawing.robot
+    card = robot_card_file(shown_robot(robot).name)
     solution, history, gesture = state.solution, state.draft.history, state.draft.gesture
     return {
         "kind": "document",
         "id": document_id,
         "version": state.version,
         "robot": {
-            "name": card.name,
-            "title": card.title,
+            "name": robot,
+            "title": card.title if card.name == robot else robot,
             "arms": [arm.name for arm in card.arms],
             "base": card.base.kind,
             "mounts": [[mount.x_m, mount.y_m] for mount in card.mounts],

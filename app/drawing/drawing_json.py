@@ -25,7 +25,6 @@ from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
 from planner.geometry.given import GivenPose, PlanePoint
-from planner.robots.known_robots import require_shipped
 from planner.strict_model import Positive, StrictModel, first_error
 from planner.task.scene import Scene
 from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
@@ -128,11 +127,10 @@ class DrawingModel(StrictModel):
     scene: dict[str, Any]
     start_station: Annotated[str, Field(max_length=TITLE_MAX)]
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
-    robot: str = DEFAULT_ROBOT
+    robot: Name = DEFAULT_ROBOT
 
     def value(self) -> Drawing:
-        """Return the drawing; raise `FieldError` for duplicate ids, an invalid scene or an unknown robot."""
-        require_shipped(self.robot)
+        """Return the drawing; raise `FieldError` for duplicate ids or an invalid scene."""
         corners = _named("outline", "v", [corner.id for corner in self.outline])
         names = _named("folds", "f", [fold.id for fold in self.folds])
         return Drawing(

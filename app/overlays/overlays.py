@@ -57,7 +57,7 @@ def _reach(moment: Moment) -> list[dict[str, Any]]:
     """Return for each arm the region where it can take cloth on the table, with and without the comfort radius."""
     scene, base = moment.scene, moment.base_in_article
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
-    ask = partial(reach_regions, moment.robot, scene.torso_m, table_height_m=scene.table.height_m)
+    ask = partial(reach_regions, load_robot(moment.robot), scene.torso_m, table_height_m=scene.table.height_m)
     with ThreadPoolExecutor() as both:  # uncached it takes long, mostly outside the interpreter
         with_comfort, bare = both.map(ask, (moment.comfort_m, 0.0))
     return [

@@ -19,9 +19,9 @@ import numpy as np
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
+from planner.motion.robot_port import RobotPort
 from planner.primitives.context import BACK_OFF_STEP_M
 from planner.primitives.reach import Reach
-from planner.robots.load_robot import load_robot
 
 _STEP_M, _LONGEST_M = 0.02, 1.3
 """The spacing of the points tried, and how far from its shoulder any arm reaches at most (m)."""
@@ -72,11 +72,11 @@ CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
 
 
 @lru_cache(maxsize=16)
-def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
+def reach_regions(robot: RobotPort, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
     """Return for each arm, from left to right, where it can take cloth that lies flat on a table, base frame.
 
     Args:
-        robot: the robot's name.
+        robot: the robot.
         torso_m: the height of the lift (m).
         comfort_m: the comfort radius (m).
         table_height_m: the height of the table top (m).
@@ -84,7 +84,7 @@ def reach_regions(robot: str, torso_m: float, comfort_m: float, table_height_m: 
     Raises:
         SceneError: the lift does not reach this height.
     """
-    reach = load_robot(robot).reach(torso_m, comfort_m)
+    reach = robot.reach(torso_m, comfort_m)
     height_m = table_height_m + REST_HEIGHT_M
     return tuple(takeable_region(reach, arm, height_m) for arm in range(len(reach.arm_names)))
 

@@ -23,6 +23,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
+from planner.motion.robot_port import RobotPort
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Reason
 
@@ -76,7 +77,7 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
         return None
-    near = near_reach(moment.robot, moment.scene.torso_m, moment.comfort_m, lack)
+    near = near_reach(load_robot(moment.robot), moment.scene.torso_m, moment.comfort_m, lack)
     base = moment.in_article(lack.base)
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     x, y = base.to_outer(np.array(lack.seen[:2]))
@@ -96,11 +97,11 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
 
 
 @lru_cache(maxsize=16)
-def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
+def near_reach(robot: RobotPort, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
     """Return the reach near a point with a fixed orientation of the hand.
 
     Args:
-        robot: the robot's name.
+        robot: the robot.
         torso_m: the height of the lift (m).
         comfort_m: the comfort radius (m).
         lack: the point, and the orientation of the hand.
@@ -108,7 +109,7 @@ def near_reach(robot: str, torso_m: float, comfort_m: float, lack: Lack) -> Near
     Raises:
         SceneError: the lift does not reach this height.
     """
-    reach = load_robot(robot).reach(torso_m, comfort_m)
+    reach = robot.reach(torso_m, comfort_m)
     x, y, height_m = lack.seen
     can_have = partial(in_approach, reach, lack.arm, height_m, reach.approaches.index(lack.approach))
     had = region_where(can_have, Grid.about((x, y), lack.radius_m, _STEPS))
@@ -122,8 +123,11 @@ def _lack(moment: Moment, reason: Reason) -> Lack | None:
     point, approach, offset_m, short_by_m = reason.point, reason.approach, reason.offset_m, reason.short_by_m
     if point is None or approach is None or offset_m is None or short_by_m is None:
         return None
-    arms = [arm.name for arm in load_robot(moment.robot).card.arms]
-    stations = dict(moment.scene.stations)
+    card = load_robot(moment.robot).card
+    stations: dict[str | None, Pose2] = dict(moment.scene.stations)
+    if card.is_fixed:  # its base is at no station that has a name
+        stations = {None: moment.scene.stations[0][1]}
+    arms = [arm.name for arm in card.arms]
     if reason.arm not in arms or reason.station not in stations:
         return None
     base = stations[reason.station].ahead(-(reason.back_off_m or 0.0))

@@ -2,6 +2,7 @@
 
 import functools
 import math
+from pathlib import Path
 
 import numpy as np
 import trimesh
@@ -17,12 +18,16 @@ MOST_TRIANGLES = 4_000
 _CREASE_RAD = math.radians(40.0)
 
 
-@functools.lru_cache(maxsize=256)
 def read_mesh(path: str, scale: Point3) -> trimesh.Trimesh:
     """Return the mesh in a file, scaled along x, y and z, of at most `MOST_TRIANGLES` triangles.
 
     Arms of a pair, and robots that share an arm, have the same files: each is read once. The mesh must not be changed.
     """
+    return _read(path, scale, Path(path).stat().st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=256)
+def _read(path: str, scale: Point3, _: int) -> trimesh.Trimesh:
     mesh = trimesh.load_mesh(path)
     mesh.merge_vertices(merge_tex=True, merge_norm=True)  # else each triangle of many a file stands alone
     if len(mesh.faces) > MOST_TRIANGLES:

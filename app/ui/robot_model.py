@@ -81,14 +81,18 @@ class Link:
         return Pose3(self.origin.position, product(self.origin.wxyz, turn(self.axis, value)))
 
 
-@functools.lru_cache(maxsize=4)
 def load_robot_model(urdf_path: Path, package_dir: Path) -> tuple[Link, ...]:
-    """Return all links of a robot, parents before children, the root first.
+    """Return all links of a robot, parents before children, the root first; the same ones until its URDF changes.
 
     Args:
         urdf_path: the URDF.
         package_dir: the folder that ``package://`` in its mesh paths stands for.
     """
+    return _model(urdf_path, package_dir, urdf_path.stat().st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=4)
+def _model(urdf_path: Path, package_dir: Path, _: int) -> tuple[Link, ...]:
 
     def mesh_path(fname: str) -> str:
         return str(package_dir / fname.removeprefix("package://"))

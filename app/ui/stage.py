@@ -103,7 +103,7 @@ class Stage:
 
     def show_robot(self, card: RobotCard) -> None:
         """Replace the robot, which takes its place with what is shown next; it stays if it is the same."""
-        if card.name == self.card.name:
+        if card is self.card:
             return
         self.card = card
         with self._server.atomic():

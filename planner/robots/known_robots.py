@@ -55,14 +55,6 @@ def card_path(name_or_path: str) -> Path | None:
 
 def require_name(robot: str) -> None:
     """Raise `RequestError` for a robot that is given by anything but the name of one."""
-    _require(robot, robot_names())
-
-
-def require_shipped(robot: str) -> None:
-    """Raise `RequestError` for a robot that is given by anything but the name of a shipped one."""
-    _require(robot, shipped_robots())
-
-
-def _require(robot: str, known: tuple[str, ...]) -> None:
+    known = robot_names()
     if robot not in known:
         raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(known)}")

@@ -1,4 +1,7 @@
-/** The combobox `Robot` on the stage: who folds. Another robot brings its table and stations along, as one step. */
+/**
+ * The combobox `Robot` on the stage: who folds. Another robot brings its table and stations along, as one step. The
+ * window's event `robots` says that there are others.
+ */
 
 import { byId } from "./dom.js";
 
@@ -20,7 +23,7 @@ export function mountRobots(store) {
   const load = async () => {
     const answer = await fetch("../api/robots").catch(() => null);
     if (!answer?.ok) return;
-    robots = (await answer.json()).filter((/** @type {RobotEntry} */ { shipped }) => shipped);
+    robots = await answer.json();
     select.replaceChildren(...robots.map((robot) => new Option(called(robot), robot.name)));
     show();
   };
@@ -30,6 +33,7 @@ export function mountRobots(store) {
   };
 
   select.addEventListener("change", choose);
+  addEventListener("robots", load);
   store.addEventListener("document", show);
   store.addEventListener("connection", () => (store.isLive && !robots.length ? load() : show()));
 }

@@ -69,6 +69,23 @@ async def test_a_robot_of_ones_own_is_planned_for_by_name_on_the_server_and_the_
     assert {entry["name"]: entry["shipped"] for entry in listed}["bench"] is False
 
 
+async def test_a_document_outlives_the_robot_of_ones_own_that_folds_in_it(client: httpx.AsyncClient) -> None:
+    card = shipped_card("so101-pair").to_dict() | {"name": "bench", "title": "My bench"}
+    await client.put("/api/robots/bench", json=card)
+    path = f"/api/documents/{(await client.post('/api/documents', json={})).json()['id']}"
+    chosen = (await client.put(f"{path}/robot", json={"robot": "bench"})).json()
+    assert (chosen["robot"]["name"], chosen["robot"]["title"]) == ("bench", "My bench")
+    assert (await client.delete("/api/robots/bench")).status_code == 204
+    left = (await client.get(path)).json()
+    assert left["drawing"]["robot"] == left["robot"]["name"] == "bench"
+    drawing = left["drawing"] | {"comfort_radius_m": 0.02}
+    edit = {"label": "Comfort", "base_version": left["version"], "drawing": drawing}
+    changed = await client.put(f"{path}/drawing", json=edit)
+    assert changed.status_code == 200, changed.text
+    back = (await client.put(f"{path}/robot", json={"robot": "pr2"})).json()
+    assert back["robot"]["title"] == "PR2"
+
+
 async def test_a_card_that_is_saved_keeps_the_files_of_its_robot(client: httpx.AsyncClient) -> None:
     assert (await client.put("/api/robots/bench", json=box_card())).status_code == 422
     await client.post(IMPORTS, content=archive(robot_files()))

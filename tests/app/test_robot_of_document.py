@@ -51,7 +51,7 @@ async def test_the_robot_that_folds_already_is_no_step(client: httpx.AsyncClient
 
 @pytest.mark.anyio
 @pytest.mark.parametrize("name", ["robo-9000", "planner/robots/cards/pr2.json", ""])
-async def test_a_robot_that_is_not_shipped_is_refused(client: httpx.AsyncClient, name: str) -> None:
+async def test_a_robot_that_is_not_known_by_name_is_refused(client: httpx.AsyncClient, name: str) -> None:
     state = await created(client)
     refused = await client.put(f"/api/documents/{state['id']}/robot", json={"robot": name})
     assert assert_problem(refused, 422)["errors"][0]["field"] == "robot"

@@ -8,6 +8,7 @@ import viser
 
 from app.document import Document
 from app.document_state import DocumentState
+from app.shown_robot import shown_robot
 from app.ui.colours import DARK, LIGHT
 from app.ui.editor.aids_view import AidsView
 from app.ui.editor.aim import Aim, pixel_angle
@@ -23,7 +24,6 @@ from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from app.ui.viser_patches import PANEL_LABEL
 from planner.geometry.pose import Pose2
-from planner.robots.load_robot import load_robot
 
 _PANEL_PX = 250
 _PANEL_GAP_PX = 15
@@ -131,7 +131,7 @@ class Seat:
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
         """Return the view from the robot's head where it stands now."""
-        scene, aspect, card = state.drawing.scene, self._camera_panel.lens.aspect, load_robot(state.drawing.robot).card
+        scene, aspect, card = state.drawing.scene, self._camera_panel.lens.aspect, shown_robot(state.drawing.robot)
         points = on_table(state.drawing, state.drawing.points) or scene.table.corners
         return robots_eye(card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
 

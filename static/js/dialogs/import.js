@@ -1,4 +1,4 @@
-/** `Import`: a garment file, a plan file, an SVG, a DXF or a picture, chosen or dropped on the page. */
+/** `Import`: a garment file, a plan file, an SVG, a DXF, a picture or a robot, chosen or dropped on the page. */
 
 import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
@@ -7,12 +7,13 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
+import { takeRobot } from "./take_robot.js";
 
 /** @import { Garment, Imported } from "pleat" */
 /** @import { Told } from "../messages/in_words.js" */
 /** @import { Store } from "../store.js" */
 
-const KINDS = ".json,.svg,.dxf,.png,.jpg,.jpeg";
+const KINDS = ".json,.svg,.dxf,.png,.jpg,.jpeg,.zip";
 const UNITS = ["mm", "cm", "m", "in"];
 /** @typedef {NonNullable<Imported["creases"]>} Creases */
 /** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
@@ -66,7 +67,7 @@ function ask(store, body, problem = "") {
       "dialog-text",
       "A garment or a plan of Pleat (.json), a drawing (.svg) or a pattern (.dxf). In drawings the closed path is the " +
         "outline, and blue and red lines are folds. Or a picture (.png, .jpg) of a garment on a table, a sheet of A4 or " +
-        "Letter beside it.",
+        "Letter beside it. Or a robot (.zip) with its card, its URDF and its meshes.",
     ),
     said,
   );
@@ -80,6 +81,12 @@ function ask(store, body, problem = "") {
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
 async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", `Reading ${file.name}...`));
+  if (/\.zip$/i.test(file.name)) {
+    const problem = await takeRobot(store, file);
+    if (problem) ask(store, body, problem);
+    else body.closest("dialog")?.close();
+    return;
+  }
   const query = new URLSearchParams({ filename: file.name });
   for (const [name, value] of Object.entries(how)) query.set(name, String(value));
   const answer = await fetch(`../api/imports?${query}`, { method: "POST", body: file }).catch(() => null);

@@ -47,7 +47,7 @@ export function showWhoFolds(store) {
   };
 
   (async () => {
-    const robots = /** @type {RobotEntry[]} */ (await fetched("../api/robots")).filter(({ shipped }) => shipped);
+    const robots = /** @type {RobotEntry[]} */ (await fetched("../api/robots"));
     robots.sort((one, other) => Number(other.name === robot.name) - Number(one.name === robot.name));
     const rows = robots.map((entry) => new Row(entry, entry.name === robot.name, use, garment.folds));
     body.replaceChildren(...rows.map(({ root }) => root));

@@ -18,12 +18,12 @@ GRID = Grid.beside((0.0, 0.2))
 
 @pytest.fixture(scope="module")
 def comfortable() -> tuple[Region, ...]:
-    return reach_regions("pr2", TORSO_M, 0.03, HEIGHT_M)
+    return reach_regions(load_robot("pr2"), TORSO_M, 0.03, HEIGHT_M)
 
 
 @pytest.fixture(scope="module")
 def bare() -> tuple[Region, ...]:
-    return reach_regions("pr2", TORSO_M, 0.0, HEIGHT_M)
+    return reach_regions(load_robot("pr2"), TORSO_M, 0.0, HEIGHT_M)
 
 
 def test_a_disc_is_found_to_a_sixteenth_of_the_grid():

@@ -38,7 +38,7 @@ def towards(lacking: Lack) -> FloatArray:
 
 
 def near(lacking: Lack) -> NearReach:
-    return near_reach("pr2", TORSO_M, COMFORT_M, lacking)
+    return near_reach(load_robot("pr2"), TORSO_M, COMFORT_M, lacking)
 
 
 @pytest.mark.parametrize(("point", "approach"), [FAR_AHEAD, FAR_ASIDE])

@@ -1,10 +1,12 @@
-"""The comparison of robots: a row each as it is found, why not, and a click that changes the robot."""
+"""Robots in the page: compared, chosen, and brought along as an archive."""
 
+import json
 import re
 from collections.abc import Callable
 
 from playwright.sync_api import Page, Route, expect
 
+from tests.app.robot_archives import archive, box_card, box_urdf
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 
@@ -34,3 +36,21 @@ def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("so101-pair")
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("pr2")
+
+
+def test_a_robot_of_ones_own_is_brought_along_and_one_that_lacks_something_is_refused(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    card = json.dumps(box_card())
+    whole = archive({"robot.json": card, "urdf/box.urdf": box_urdf()})
+    handless = archive({"robot.json": card, "urdf/box.urdf": box_urdf(last="hand")})
+    page.goto(new_sheet(napkin()).page_url)
+    page.get_by_role("button", name="Import").click()
+    dialog = page.get_by_role("dialog", name="Import")
+    given = dialog.get_by_label("File")
+    given.set_input_files({"name": "bench.zip", "mimeType": "application/zip", "buffer": handless})
+    expect(dialog.get_by_role("alert")).to_contain_text("no moving joint 'left_wrist_roll'")
+    given.set_input_files({"name": "bench.zip", "mimeType": "application/zip", "buffer": whole})
+    expect(dialog).to_be_hidden()
+    expect(page.get_by_role("combobox", name="Robot")).to_have_value("bench")
+    expect(page.get_by_role("combobox", name="Robot")).to_contain_text("My bench")
