@@ -4,16 +4,14 @@ Where arms are mirror images, places and approaches are mirrored on the way in, 
 `planner.robots.comfort`) is one arm's. Queries are counted and timed here.
 """
 
-from dataclasses import dataclass
 from time import thread_time
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
-from planner.robots.arm_question import ArmNumbers
+from planner.robots.asked_arms import AskedArms
 from planner.robots.back_offs import anywhere, back_off_masks
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
 from planner.robots.comfort_memories import Memories
@@ -26,37 +24,6 @@ _MOST_BACK_OFFS = 32
 
 _SMALL_BITS = 4
 """Size of a memory that will hardly be used any more, as a power of two."""
-
-
-class ReachingArm(Protocol):
-    """An arm as the compiled queries see it."""
-
-    def shoulder(self, torso_m: float) -> FloatArray:
-        """Return its shoulder in its own frame with the lift raised (m), shape (3,)."""
-        ...
-
-    def mirrored_places(self, places: FloatArray) -> FloatArray:
-        """Return points of the base frame, shape (..., 3), in the arm's own frame; a new array."""
-        ...
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AskedArms:
-    """The arms of a robot, and how the compiled queries are asked about them.
-
-    Attributes:
-        names: the arms from left to right.
-        arms: the same arms.
-        numbers: what the queries compute with; one arm's where the others are its mirror images.
-        approaches: the directions from which the grippers may pinch cloth, base frame.
-        labels: for each arm the memory's label of each approach.
-    """
-
-    names: tuple[str, ...]
-    arms: tuple[ReachingArm, ...]
-    numbers: ArmNumbers
-    approaches: tuple[Approach, ...]
-    labels: tuple[NDArray[np.int64], ...]
 
 
 class ComfortReach:

@@ -115,6 +115,11 @@ class MappedArm:
         points, rotations = tool_poses(self._chain, np.ascontiguousarray(joints))
         return points + self.shoulder(torso_m), rotations
 
+    def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position, shape (3,), and rotation, shape (3, 3), at some joints."""
+        positions, rotations = self.tool_poses(joints[None], torso_m)
+        return positions[0], rotations[0]
+
     def tool_places(self, joints: FloatArray, torso_m: float) -> FloatArray:
         """Return the tool's positions at rows of joints, shape (n, 3)."""
         return self.tool_poses(joints, torso_m)[0]

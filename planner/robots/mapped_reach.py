@@ -2,18 +2,18 @@
 
 import math
 from collections.abc import Callable
-from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Cause, Shortfall, never
+from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import AskedArms, ComfortReach
 from planner.robots.mapped_comfort import MappedArms
 from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
+from planner.robots.shortfall_reach import ShortfallReach
 
 _QUERIES_MAX = 50_000
 """Queries after which a shortfall is told as far as it is known: some tenths of a second."""
@@ -22,8 +22,8 @@ _QUERIES_LATE_MAX = 5_000
 """The same where nobody waits for the answer any more."""
 
 
-class MappedReach(ComfortReach):
-    """The reach of a robot with its lift at one height, for one comfort radius: see `ComfortReach`."""
+class MappedReach(ShortfallReach):
+    """The reach of a robot whose arms have maps of postures; see `ShortfallReach`."""
 
     def __init__(
         self,
@@ -54,16 +54,7 @@ class MappedReach(ComfortReach):
     def at_least_short(
         self, arm: int, ways: FloatArray, _approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
-        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
-
-        It is what the points are beyond the arm's length from the best standoff.
-
-        Args:
-            arm: index into `arm_names`.
-            ways: tool points in the base frame at standoff 0 (m), shape (n, p, 3).
-            count: the number of standoffs.
-            step_m: the distance between standoffs (m).
-        """
+        """Return how far each way's points are beyond the arm's length from the best standoff (see `Shortfalls`)."""
         ahead = np.arange(count)[:, None] * np.array([step_m, 0.0, 0.0])
         seen = (ways - self._shoulders[arm])[:, :, None] + ahead
         away = (
@@ -71,41 +62,20 @@ class MappedReach(ComfortReach):
         )
         return np.asarray(np.maximum(away.min(axis=2).max(axis=1), 0.0))
 
-    def shortfall(
+    def _least_shortfall(
         self,
         arm: int,
         points: FloatArray,
         approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
-    ) -> Shortfall | None:
-        """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
-
-        Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up.
-
-        Args:
-            arm: index into `arm_names`.
-            points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
-            at_most_m: the longest displacement tried (m), if less than that.
-            is_over: once it returns true, a lower bound will do.
-
-        Returns:
-            The smallest shortfall; None where the place is within the comfort radius from somewhere.
-        """
-        if len(approaches) == 0:
-            raise ValueError("without an approach no point is within reach")
-        points = np.reshape(points, (-1, 3))
-        if self.from_anywhere(arm, points, approaches, 1, 0.0).any():
-            return None
-        started = thread_time()
+        at_most_m: float,
+        is_over: Callable[[], bool],
+    ) -> tuple[Shortfall, int]:
         seen, labels = points - self._shoulders[arm], self._asked.labels[arm][approaches]
         furthest = min(at_most_m, FURTHEST_M)
         most = _QUERIES_LATE_MAX if is_over() else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
             self._arms, labels, seen, DIRECTIONS, self._comfort_m, furthest, most
         )
-        self._shortfall_queries += queries
         is_at_least = seen_from < 0
         if is_at_least:
             distances = np.linalg.norm(seen, axis=1)
@@ -120,9 +90,9 @@ class MappedReach(ComfortReach):
             cause, comfort_m = "comfort_only", widest_m
         joint = joint_at_limit(self._arms, int(labels[approach]), point)
         name = None if joint < 0 else self._joint_names[arm][joint]
-        self._query_time_s += thread_time() - started
         chosen = int(approaches[approach])
-        return Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)
+        found = Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)
+        return found, queries
 
     def shortfall_together(
         self,
@@ -132,20 +102,7 @@ class MappedReach(ComfortReach):
         at_most_m: float = math.inf,
         is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
-        """Return the worst of places that are all to be reached in one approach, in the best approach for it.
-
-        Args:
-            arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand (m), shape (p, n,
-                3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement tried (m).
-            is_over: once it returns true, only the approaches examined by then count.
-
-        Returns:
-            The place's index, and its shortfall in that approach; None where some approach brings all within the
-            comfort radius. Where the shortfall is `at_most_m` or more, only this fact is meaningful.
-        """
+        """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
         had = np.stack([self.from_anywhere(arm, place, approaches, 1, 0.0).any(axis=1) for place in places], axis=1)
         if had.all(axis=1).any():
             return None

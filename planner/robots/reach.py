@@ -18,17 +18,18 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
 from planner.robots.arm_gap import least_gaps
+from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import AskedArms, ComfortReach
 from planner.robots.least_worst import least_worst, ranked
 from planner.robots.nearest_comfort import PIECE_QUERIES, Wanted
 from planner.robots.posture_room import Room
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
+from planner.robots.shortfall_reach import ShortfallReach
 from planner.robots.sided_arm import SidedArm
 
 
-class Pr2Reach(ComfortReach):
-    """The reach of a PR2 with its torso at one height, for one comfort radius: see `ComfortReach`."""
+class Pr2Reach(ShortfallReach):
+    """The reach of a PR2; see `ShortfallReach`."""
 
     def __init__(
         self,
@@ -58,57 +59,25 @@ class Pr2Reach(ComfortReach):
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
-        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
-
-        The bound is in closed form, and so makes no query.
-
-        Args:
-            arm: index into `arm_names`.
-            ways: tool points in the base frame at standoff 0 (m), shape (n, p, 3).
-            approaches: indices into `approaches`, shape (k,); the best of them counts.
-            count: the number of standoffs; the best of them counts.
-            step_m: the distance between standoffs (m).
-        """
+        """Return a lower bound in closed form, which takes no query, on each way's shortfall (see `Shortfalls`)."""
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         places = sided.mirrored_places(ways) - sided.shoulder(self._torso_m)
         return np.asarray(least_gaps(sided.shape, places, self._axes[seen], count, float(step_m), self._comfort_m))
 
-    def shortfall(
+    def _least_shortfall(
         self,
         arm: int,
         points: FloatArray,
         approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
-    ) -> Shortfall | None:
-        """Return why, and by how much, a place is not within the comfort radius, in the best of some approaches.
-
-        Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up.
-
-        Args:
-            arm: index into `arm_names`.
-            points: the tool's position as seen from each of the places where the base may stand (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,); raises `ValueError` if there are none.
-            at_most_m: the longest displacement tried (m), if less than that.
-            is_over: once it returns true, what is known after a tenth of a second is the answer.
-
-        Returns:
-            The smallest shortfall, or a lower bound where it is over before any is found; None where the place is
-            within the comfort radius from somewhere.
-        """
-        if len(approaches) == 0:
-            raise ValueError("without an approach no point is within reach")
-        points = np.reshape(points, (-1, 3))
-        if self.from_anywhere(arm, points, approaches, 1, 0.0).any():
-            return None
-        started = thread_time()
+        at_most_m: float,
+        is_over: Callable[[], bool],
+    ) -> tuple[Shortfall, int]:
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         on_grid = self._from_shoulder(sided, points)
         found, queries = left_shortfall(sided.shape, self._wanted(seen), on_grid, at_most_m, is_over)
         x, y, z = sided.mirrored_places(np.array(found.towards))
-        self._shortfall_queries += queries
-        self._query_time_s += thread_time() - started
-        return replace(found, towards=(float(x), float(y), float(z)), approach=int(approaches[found.approach]))
+        approach = int(approaches[found.approach])
+        return replace(found, towards=(float(x), float(y), float(z)), approach=approach), queries
 
     def shortfall_together(
         self,
@@ -118,21 +87,7 @@ class Pr2Reach(ComfortReach):
         at_most_m: float = math.inf,
         is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
-        """Return the worst of places that are all to be reached in one approach, in the best approach for it.
-
-        Args:
-            arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand (m), shape (p, n,
-                3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement tried (m).
-            is_over: once it returns true, only the approaches examined by then count.
-
-        Returns:
-            The place's index, and its shortfall in that approach; None where some approach brings all within the
-            comfort radius. Where the shortfall is `at_most_m` or more, or only a lower bound, only this fact is
-            meaningful.
-        """
+        """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
         sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         started = thread_time()
         on_grid = self._from_shoulder(sided, places)

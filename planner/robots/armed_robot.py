@@ -1,0 +1,120 @@
+"""The part of a robot that does not depend on how its arms' kinematics are solved: card, joint paths, memories."""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+
+from planner.errors import RequestError, SceneError
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.arm_paths import Together, arm_paths, arm_searches
+from planner.robots.card import RobotCard
+from planner.robots.comfort_memories import Memories
+from planner.robots.path_arm import PathArm
+from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
+
+_MEMORIES_KEPT = 4
+"""Lift heights and comfort radii whose memories of reach are kept."""
+
+
+class PosableArm(PathArm, Protocol):
+    """An arm with its forward kinematics."""
+
+    def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame at some joints."""
+        ...
+
+
+class ArmedRobot(ABC):
+    """A robot with arms; implements `planner.motion.robot_port.RobotPort` but for reach and collisions.
+
+    It does not change, so all users may share one instance. Arms are numbered from left to right as the robot sees
+    them. Poses are of the tool frame, in the base frame (x ahead, z up from the floor), in m.
+    """
+
+    def __init__(self, card: RobotCard) -> None:
+        """Take the robot's card."""
+        self._card = card
+        self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
+
+    @property
+    @abstractmethod
+    def _arms(self) -> tuple[PosableArm, ...]: ...
+
+    @property
+    def card(self) -> RobotCard:
+        """The robot's card."""
+        return self._card
+
+    def home(self, arm: int) -> FloatArray:
+        """Return the joints of an arm that is out of the way (rad), shape (joints,)."""
+        return np.array(self._card.arms[arm].home)
+
+    def forget_reach(self) -> None:
+        """Drop the memories of where the arms reach, so that benchmarks measure its computation."""
+        self._memories.cache_clear()
+
+    def _memories_of(self, torso_m: float, comfort_m: float) -> Memories:
+        """Return the memories for a height of the lift and a comfort radius (m).
+
+        Raises:
+            SceneError: the lift does not go there.
+            RequestError: the radius is negative or no number.
+        """
+        low, high = self._card.lift_limits_m
+        if not low <= torso_m <= high:
+            raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
+        if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
+            raise RequestError("comfort_m", f"{comfort_m} m is no radius")
+        return self._memories(float(torso_m), float(comfort_m))
+
+    def arm_path_near(
+        self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray
+    ) -> FloatArray | None:
+        """Return joints that keep an arm's tool on a path, near to known ones, shape (n, joints) (see `near_path`)."""
+        return near_path(self._arms[arm], path, float(torso_m), is_free, known)
+
+    def arm_paths(
+        self,
+        paths: Mapping[int, ToolPath],
+        torso_m: float,
+        floor_m: float,
+        are_free: Mapping[int, IsFree],
+        together: Together,
+    ) -> FloatArray | NoPath:
+        """Return the calmest joints that keep arms' tools on their paths, or that there are none (see `arm_paths`).
+
+        Args:
+            paths: each arm's tool path, in rising order of the arms, with equally many poses.
+            torso_m: the lift's height (m).
+            floor_m: the height over which elbows should preferably stay, base frame (m).
+            are_free: for each of them the check of which joints are collision-free, whatever the others do.
+            together: the check of whether arms collide with each other.
+
+        Returns:
+            Joints within their limits (rad), one arm after the other, shape (n, joints); joints without end are
+            unwound.
+        """
+        return arm_paths(arm_searches(self._arms, self._card, paths, torso_m, floor_m, are_free), together)
+
+    def free_postures(
+        self,
+        arm: int,
+        position: FloatArray,
+        rotation: FloatArray,
+        torso_m: float,
+        is_free: Callable[[FloatArray], BoolArray],
+    ) -> FloatArray:
+        """Return samples of an arm's joints at a tool pose that do not collide (see `free_postures`)."""
+        return free_postures(self._arms[arm], position, rotation, float(torso_m), is_free)
+
+    def tool_places(self, arm: int, joints: FloatArray, torso_m: float) -> FloatArray:
+        """Return the tool's positions in the base frame for rows of joints, shape (n, joints) -> (n, 3), m."""
+        return self._arms[arm].tool_places(joints, float(torso_m))
+
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame at some joints."""
+        return self._arms[arm].tool_pose(joints, float(torso_m))
