@@ -13,11 +13,12 @@ from planner.cloth.garment import DrawnFold
 from planner.explain.suggestion_trial import Proof, Search, Trial
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.reason import Reason
+from planner.task.scene import FRICTION_MAX
 from planner.task.task import Task
 from planner.words.catalogue import worded
 
-FRICTION_STEPS, FRICTION_MAX = 100, 10.0
-"""Steps in a friction coefficient of 1, and the largest coefficient that is tried."""
+FRICTION_STEPS = 100
+"""Steps in a friction coefficient of 1."""
 
 GRIP_RADIUS_STEPS_PER_M, GRIP_RADIUS_MAX_M = 1000, 0.5
 """Steps in a metre, and the largest grip radius that is tried (m)."""

@@ -34,6 +34,9 @@ DEFAULT_STATIONS: MappingProxyType[str, Pose2] = MappingProxyType(
 STATIONS_MAX = 64
 """The most stations that a scene may have."""
 
+FRICTION_MAX = 10.0
+"""The largest friction coefficient between cloth and table."""
+
 SUPPORT_ANGLE_MAX_RAD = math.radians(85.0)
 """The largest support angle (rad): beyond it the cloth beside it would support even the top of a hanging piece."""
 
@@ -65,7 +68,7 @@ class Scene:
     table: Annotated[Table, NULL_IS_DEFAULT] = field(default_factory=Table)
     stations: NamedPoses = tuple(DEFAULT_STATIONS.items())
     torso_m: Annotated[float, Interval(ge=0.0, le=1.0), NULL_IS_DEFAULT] = 0.29
-    friction: Annotated[float, Interval(ge=0.0, le=10.0), NULL_IS_DEFAULT] = 1.0
+    friction: Annotated[float, Interval(ge=0.0, le=FRICTION_MAX), NULL_IS_DEFAULT] = 1.0
     support_angle_rad: Annotated[float, Interval(ge=0.0, le=SUPPORT_ANGLE_MAX_RAD), NULL_IS_DEFAULT] = math.radians(5.0)
     approach_cone_rad: Annotated[float, Interval(ge=0.0, le=math.pi), NULL_IS_DEFAULT] = math.radians(75.0)
     back_off_max_m: Annotated[float, Interval(ge=0.0, le=1.5), NULL_IS_DEFAULT] = 0.8
