@@ -7,7 +7,7 @@ from planner import Scene, load_garment
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.planning import plan_search as planning
+from planner.planning import path_search as planning
 from planner.primitives.obstacle import Obstacle, situation
 from planner.primitives.state import State
 from planner.task.reason import Code

@@ -15,7 +15,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.motion.timeline import Timeline
 from planner.planning import edges
-from planner.planning import plan_search as planning
+from planner.planning import path_search as planning
 from planner.primitives.base_move import BaseMove
 from planner.primitives.context import Context
 from planner.primitives.drag_step import DragStep

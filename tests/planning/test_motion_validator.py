@@ -19,7 +19,7 @@ from planner.motion.robot_port import Clearance, Collisions
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
 from planner.planning import motion_validator as validator
-from planner.planning import plan_search, problem
+from planner.planning import path_search, plan_search, problem
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -209,8 +209,8 @@ def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch
 
 
 def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
-    for name in ("QUICK", "THOROUGH"):
-        monkeypatch.setattr(plan_search, name, replace(getattr(plan_search, name), failures=failures))
+    for search, name in ((path_search, "QUICK"), (plan_search, "THOROUGH")):
+        monkeypatch.setattr(search, name, replace(getattr(search, name), failures=failures))
 
 
 def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
@@ -221,7 +221,7 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
             super().__init__(*given)
             realizers.append(self)
 
-    monkeypatch.setattr(plan_search, "MotionValidator", Seen)
+    monkeypatch.setattr(path_search, "MotionValidator", Seen)
     barred(monkeypatch, lambda arm, base: arm == 0)
     searches = []
     for failures_max in (1, 1_000):

@@ -6,7 +6,7 @@ from itertools import count
 import pytest
 
 from planner import Scene, Task, find_plan, load_garment, make_plan, shipped_garment_names
-from planner.planning import plan_search as planning
+from planner.planning import path_search as planning
 from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold, drag_offsets
 from planner.task.reason import Code
