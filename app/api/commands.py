@@ -101,7 +101,8 @@ def put_robot(
     before = document.state
     if before.drawing.robot == robot:
         return before
-    drawing, title = with_robot(before.solution, robot), robot_card_file(robot).title
+    past = (step.drawing for step in reversed(before.draft.history.past))
+    drawing, title = with_robot(before.solution, robot, past), robot_card_file(robot).title
     base = before.version if base_version is None else base_version
     state = document.edit(Edit(label or f"Fold with {title}", drawing, base_version=base, gesture="robot"))
     document.rewind()

@@ -1,5 +1,6 @@
 """Gives a drawing another robot, with the scene, the start and the placement that suit it."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -17,13 +18,30 @@ INSIDE_M = 0.05
 """The distance of the cloth from the table's near edge for the default robot (m)."""
 
 
-def with_robot(solution: Solution, robot: str) -> Drawing:
+def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> Drawing:
     """Return a solved drawing for another robot: its scene, its first station, and where the article lies for it.
+
+    Where the robot folded the same outline before, all that is as it was then.
+
+    Args:
+        solution: the drawing.
+        robot: the robot's name.
+        past: earlier drawings, the latest first.
 
     Raises:
         RequestError: there is no such robot.
     """
-    drawing, scene = solution.drawing, default_scene(robot)
+    drawing = solution.drawing
+    for known in past:
+        if known.robot == robot and known.outline == drawing.outline:
+            return replace(
+                drawing,
+                robot=robot,
+                scene=known.scene,
+                start_station=known.start_station,
+                placement=known.placement,
+            )
+    scene = default_scene(robot)
     return replace(
         drawing,
         robot=robot,

@@ -42,6 +42,11 @@ def rotated(rotation: Quaternion, point: Point3) -> Point3:
     return (turned[0], turned[1], turned[2])
 
 
+def to_matrix(rotation: Quaternion) -> FloatArray:
+    """Return a rotation as a matrix, shape (3, 3)."""
+    return np.array([rotated(rotation, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
+
+
 def from_matrix(matrix: FloatArray) -> Quaternion:
     """Return the rotation in the upper left of a matrix, shape (3, 3) or (4, 4)."""
     r = matrix[:3, :3]

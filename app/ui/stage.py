@@ -49,7 +49,7 @@ class Stage:
     def __init__(self, card: RobotCard, scene: Scene) -> None:
         """Start a server and build everything that is always there; about half a second the first time."""
         self.scene = scene
-        self.opening: Viewpoint = opening(scene, _SQUARE)
+        self.opening: Viewpoint = opening(scene, _SQUARE, card=card)
         self.card = card
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()

@@ -5,11 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from app.ui.opening import opening, whole
+from app.ui.opening import bench, opening, whole
+from app.ui.robot_box import waiting_box
 from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner import Scene
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.planning.robot_task import default_scene
+from planner.robots.load_robot import load_robot
 
 FRONT = Pose2(-0.95, 0.0, 0.0)
 ASPECTS = [0.46, 0.57, 0.85, 1.0, 1.6, 2.2]
@@ -68,3 +71,20 @@ def test_the_robot_is_in_the_picture_where_it_waits() -> None:
     base = dict(Scene().stations)["left"]
     seen = in_picture(opening(Scene(), 0.46, base), whole(Scene(), base), 0.46)
     assert np.abs(seen).max() < 1.0
+
+
+@pytest.mark.parametrize("robot", ["so101-pair", "ur5e-pair"])
+@pytest.mark.parametrize("aspect", [0.46, 1.6])
+def test_arms_at_a_bench_fill_the_picture_with_all_of_its_top(robot: str, aspect: float) -> None:
+    card, scene = load_robot(robot).card, default_scene(robot)
+    base = scene.stations[0][1]
+    seen = in_picture(opening(scene, aspect, base, card=card), bench(scene, base, card), aspect)
+    assert 0.9 < np.abs(seen).max() < 1.0
+
+
+def test_the_box_of_a_robot_that_waits_is_the_one_of_its_meshes() -> None:
+    card, torso_m = load_robot("pr2").card, 0.29
+    (x0, y0, z0), (x1, y1, z1) = waiting_box(card, torso_m)
+    assert -0.4 < x0 < -0.3 and 0.3 < x1 < 1.0  # its base is 0.67 m square
+    assert y0 == pytest.approx(-y1, abs=0.05) and 0.5 < y1 < 1.0
+    assert abs(z0) < 0.06 and 1.55 < z1 < 1.75

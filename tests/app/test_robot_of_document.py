@@ -42,6 +42,17 @@ def test_another_robot_is_one_step_that_one_undo_takes_back() -> None:
     assert document.undo().drawing == before
 
 
+def test_a_robot_that_folded_the_same_outline_before_finds_all_as_it_was() -> None:
+    document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
+    before = document.state.drawing
+    put_robot(document, "ur5e-pair")
+    put_robot(document, "so101-pair")
+    assert put_robot(document, "pr2").drawing == before
+    put_robot(document, "ur5e-pair")
+    put_garment(document, load_garment("tie"))
+    assert put_robot(document, "pr2").drawing.placement != before.placement
+
+
 @pytest.mark.anyio
 async def test_the_robot_that_folds_already_is_no_step(client: httpx.AsyncClient) -> None:
     state = await created(client)

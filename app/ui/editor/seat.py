@@ -52,6 +52,7 @@ class Seat:
         self._zoom = 0
         self._is_dark = document.state.is_dark
         self._is_from_right = False
+        self._robot = document.state.drawing.robot
         self._following: Following | None = None
         with client.atomic():
             client.gui.set_panel_label(PANEL_LABEL)
@@ -93,14 +94,17 @@ class Seat:
         """Show table and robot whole, whatever the picture's shape, until the visitor moves the camera."""
         state = self._document.state
         scene, panel = state.drawing.scene, self._camera_panel
-        base = self._starting_base(state)
-        panel.open_on(opening_of(scene, panel.lens.aspect, base, is_from_right=self._is_from_right))
+        base, card = self._starting_base(state), shown_robot(state.drawing.robot)
+        panel.open_on(opening_of(scene, panel.lens.aspect, base, is_from_right=self._is_from_right, card=card))
 
     def _follow(self, state: DocumentState) -> None:
         """Move the camera with the robot's head, or to the side of the table where the robot does not stand."""
         if self._camera_panel.is_riding:
             self._camera_panel.ride(self._moving_view(state))
             return
+        if state.drawing.robot != self._robot:
+            self._robot = state.drawing.robot
+            self._open()
         aside_m, beside_m = self._base(state).y_m, state.drawing.scene.table.width_m / 2
         if abs(aside_m) > beside_m and self._is_from_right != (aside_m > 0.0):
             self._is_from_right = aside_m > 0.0
