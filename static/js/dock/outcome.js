@@ -8,6 +8,7 @@ import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
 import { Refining } from "./refining.js";
+import { Rehearsing } from "./rehearsing.js";
 import { StartLine } from "./start_line.js";
 
 /** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
@@ -29,6 +30,8 @@ export class Outcome {
     this.numbers = element("section", "numbers");
     this.numbers.setAttribute("aria-label", "Numbers");
     this.place = new BestPlace(store);
+    this.rehearsing = new Rehearsing(store);
+    this.rehearsing.addEventListener("change", () => this.list.judge(this.rehearsing.verdicts));
     this.none = new NoPlan();
     this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
     this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), "Look longer");
@@ -39,8 +42,8 @@ export class Outcome {
     this.refining = new Refining(store);
     for (const waiting of [this.planning, this.refining]) waiting.addEventListener("change", () => this.offerStop());
     this.offerStop();
-    const head = element("header", "dock-head", this.title, this.place.button, this.stop);
-    const plan = element("div", "plan-scroll", this.place.root, this.empty, this.list.root);
+    const head = element("header", "dock-head", this.title, this.rehearsing.button, this.place.button, this.stop);
+    const plan = element("div", "plan-scroll", this.place.root, this.rehearsing.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
     this.title.tabIndex = -1;
     this.start = new StartLine(store, () => this.title.focus());
@@ -71,6 +74,7 @@ export class Outcome {
     const { plan: message, state } = this.store;
     const plan = message?.plan?.status === "solved" ? message.plan : null;
     this.place.follow();
+    this.rehearsing.follow(message?.version === state?.version && message?.plan?.is_final ? plan : null);
     if (message && message.status === "planning" && !plan) this.wait();
     else if (message && state && NO_PLAN.has(message.status)) this.showNone(message, state);
     else if (plan) this.showPlan(plan, message?.before ?? null);

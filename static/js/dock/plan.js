@@ -6,11 +6,13 @@ import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { layersPicture } from "../repair/folded_picture.js";
+import { inAWord } from "./rehearsing.js";
 import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
 
 /** @import { Fold, Plan, Primitive } from "pleat" */
+/** @import { Verdict } from "./rehearsing.js" */
 
 export class PlanList {
   /**
@@ -59,6 +61,20 @@ export class PlanList {
       const place = row.querySelector(".plan-picture");
       if (!shown || !place) continue;
       place.replaceChildren(layersPicture(shown.layers, shown.placement.yaw_rad + Math.PI / 2));
+    }
+  }
+
+  /** Write in each row what became of its step in a rehearsal. @param {Map<number, Verdict>} verdicts by step */
+  judge(verdicts) {
+    for (const [index, row] of [...this.root.children].entries()) {
+      const shown = /** @type {HTMLElement} */ (row.firstElementChild);
+      shown.querySelector(".plan-verdict")?.remove();
+      const verdict = verdicts.get(index);
+      shown.setAttribute("aria-label", verdict ? `${shown.title}, ${inAWord(verdict)}` : shown.title);
+      if (!verdict) continue;
+      const mark = element("span", "plan-verdict", inAWord(verdict));
+      mark.dataset.isHeld = String(verdict.held);
+      shown.append(mark);
     }
   }
 
