@@ -90,6 +90,8 @@ def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
     expect(page.get_by_role("button", name="Look longer")).to_be_hidden()
     expect(page.locator(".search-words")).to_have_text("No single small change gives a plan.")
     assert work == [10, 60]
+    page.get_by_role("button", name="Other robots").click()
+    expect(page.get_by_role("dialog", name="Who can fold this?")).to_be_visible()
 
 
 def test_an_edit_ends_the_search_for_what_would_help(page: Page, stuck: Sheet) -> None:

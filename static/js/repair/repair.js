@@ -8,6 +8,7 @@ import { button, element } from "../dom.js";
 import { QuickFixes } from "../dock/quick_fixes.js";
 import { explanation, NO_PLAN } from "../dock/reasons.js";
 import { SuggestionSearch } from "../dock/suggestion_search.js";
+import { showWhoFolds } from "../dialogs/who_folds.js";
 import { icon } from "../icons.js";
 import { Cards } from "./cards.js";
 import { SearchNote } from "./search_note.js";
@@ -45,8 +46,11 @@ export class Repair extends EventTarget {
     this.onward = button("chip", () => store.command({ do: "look_longer" }), "Look longer for a plan");
     this.onward.title = "Search on for a plan, six times as long";
     this.longer = button("chip look-longer", () => this.lookLonger());
+    this.others = button("chip", () => showWhoFolds(store), "Other robots");
+    this.others.title = "Plan this garment for every robot";
     this.fold = button("icon-button is-small repair-fold", () => this.choose(!this.isOpen), icon("back"));
-    const head = element("div", "repair-head", this.sentence, this.again, this.onward, this.longer, this.cards.more, this.fold);
+    const asked = [this.again, this.onward, this.longer, this.others, this.cards.more, this.fold];
+    const head = element("div", "repair-head", this.sentence, ...asked);
     this.body = element("div", "repair-body", this.cards.root, this.note.root);
     this.root = element("section", "repair", head, this.body);
     this.root.setAttribute("aria-label", "No plan");
@@ -122,6 +126,7 @@ export class Repair extends EventTarget {
     this.note.show(this.cards.count, typeof this.searched === "number");
     const isNothing = !isRunning && !this.cards.count && typeof this.searched === "number";
     this.longer.hidden = !isNothing || (this.isLong && !fault);
+    this.others.hidden = !isNothing;
     this.longer.textContent = fault ? "Look again" : "Look longer";
     this.tell();
   }
