@@ -53,6 +53,44 @@ def test_hung_cloth_stretches_by_its_weight():
     assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * fabric.stretch_n_m), rel=0.1)
 
 
+def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
+    # Peirce (1930): where a strip of length l hangs over an edge and the line to its end is theta below the horizontal,
+    # its bending length is l (cos(theta / 2) / (8 tan(theta)))^(1/3): half of l at 41.5 degrees.
+    bending, edge = 0.03, 0.005
+    fabric = Fabric(bending_length_m=bending, poisson=0.0, drag_per_s=5.0)
+    points, triangles = woven_mesh(rectangle(2.0 * bending + 2.0 * edge, 2.0 * edge), edge)
+    rest = np.column_stack([points, np.zeros(len(points))])
+    cloth = ClothSimulation(rest, triangles, fabric, Resolution(edge, 0.004))
+    clamped = np.flatnonzero(points[:, 0] < 2.0 * edge)
+    cloth.hold({int(i): rest[i] for i in clamped})
+    cloth.run(1.5)
+    start, end = points[clamped, 0].max(), points[:, 0].max()
+    tip = cloth.positions[points[:, 0] > end - 1e-6].mean(axis=0)
+    drooped = math.atan2(-tip[2], tip[0] - start)
+    length = (end - start) * (math.cos(drooped / 2.0) / (8.0 * math.tan(drooped))) ** (1.0 / 3.0)
+    assert length == pytest.approx(bending, rel=0.1)
+
+
+def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it():
+    # A strip that lies on itself leaves the table without curvature and comes to lie without. Between is a loop of the
+    # heavy elastica: without thickness and tension, as a boundary value problem, .907 bending lengths high.
+    bending, half, edge, duration = 0.03, 0.15, 0.01, 2.0
+    fabric = Fabric(bending_length_m=bending)
+    cloth = lying(2.0 * half, 2.0 * edge, fabric, edge, -half)
+    flat = cloth.positions
+    end = np.flatnonzero(flat[:, 0] > half - 1e-6)
+    for left in np.arange(half, -half, -2.0 * half / duration * cloth.step_s):
+        up = fabric.thickness_m + half - abs(left)
+        cloth.hold({int(i): np.array([left, flat[i, 1], up]) for i in end})
+        cloth.step()
+    cloth.release(frozenset(end.tolist()))
+    cloth.run(1.0)
+    places = cloth.positions
+    loop = places[:, 2].max() - fabric.thickness_m / 2.0
+    assert loop == pytest.approx(0.907 * bending, rel=0.15)
+    assert np.abs(places[:, 0] + np.abs(flat[:, 0])).mean() < 0.005
+
+
 def test_the_distance_of_a_triangle_is_that_of_its_nearest_point():
     triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
     for point, wanted in (((0.2, 0.2), 0.0), ((0.5, -0.5), 0.5), ((1.0, 1.0), math.sqrt(0.5)), ((-3.0, -4.0), 5.0)):
