@@ -1,7 +1,7 @@
 """Describes a step of a plan in words."""
 
 from planner.cloth.garment import Garment
-from planner.task.plan import PlanStep
+from planner.task.plan_step import PlanStep
 
 
 def step_words(step: PlanStep, garment: Garment) -> str:

@@ -14,7 +14,8 @@ from planner.explain.vertex_check import Support
 from planner.geometry.pose import Point2
 from planner.robots.card_file import CardFile
 from planner.robots.table_reach import TableReach
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.words.catalogue import sentence
 
 _POINTS_SHOWN = 4

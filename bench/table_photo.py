@@ -13,6 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from bench.photo_look import Look
+
 FloatArray = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
@@ -22,39 +24,6 @@ SIDE_M = 3.2
 
 A4_M = (0.297, 0.210)
 SIZE = (1280, 960)
-
-
-@dataclass(frozen=True, slots=True)
-class Look:
-    """The conditions of a picture.
-
-    Attributes:
-        table: the table's colour, blue, green, red.
-        cloth: the cloth's colour.
-        wood: how strongly the table is grained, 0..1.
-        pattern: "plain", "stripes" or "checks".
-        shadow: how dark shadows are, 0..1.
-        wrinkles: how strongly the cloth is wrinkled, 0..1.
-        tilt_rad: how far the camera looks away from straight down (rad).
-        height_m: how high over the table it is (m).
-        noise: standard deviation of the noise (of 255).
-        quality: of the JPEG.
-        has_arm: whether an arm reaches into the picture.
-        wobble_m: how far the cloth's edge deviates from straight (m).
-    """
-
-    table: tuple[float, float, float]
-    cloth: tuple[float, float, float]
-    wood: float = 0.3
-    pattern: str = "plain"
-    shadow: float = 0.3
-    wrinkles: float = 0.3
-    tilt_rad: float = 0.2
-    height_m: float = 2.0
-    noise: float = 4.0
-    quality: int = 85
-    has_arm: bool = False
-    wobble_m: float = 0.0015
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,29 +53,6 @@ def mapped(homography: FloatArray, points: FloatArray) -> FloatArray:
     """Return the images of points, shape (n, 2), under a homography."""
     across = np.column_stack([points, np.ones(len(points))]) @ homography.T
     return np.asarray(across[:, :2] / across[:, 2:])
-
-
-def random_look(rng: np.random.Generator, *, has_arm: bool = False) -> Look:
-    """Return a look by chance: colours of table and cloth that differ by 25 of 255 at least."""
-    while True:
-        table, cloth = rng.uniform(30, 245, 3), rng.uniform(20, 250, 3)
-        table = 0.6 * table.mean() + 0.4 * table
-        if np.abs(table - cloth).max() >= 25.0:
-            break
-    return Look(
-        (float(table[0]), float(table[1]), float(table[2])),
-        (float(cloth[0]), float(cloth[1]), float(cloth[2])),
-        wood=float(rng.uniform(0.0, 0.8)),
-        pattern=str(rng.choice(["plain", "plain", "stripes", "checks"])),
-        shadow=float(rng.uniform(0.0, 0.5)),
-        wrinkles=float(rng.uniform(0.0, 0.6)),
-        tilt_rad=float(rng.uniform(0.0, 0.45)),
-        height_m=float(rng.uniform(1.7, 2.4)),
-        noise=float(rng.uniform(1.0, 8.0)),
-        quality=int(rng.integers(60, 95)),
-        has_arm=has_arm,
-        wobble_m=float(rng.uniform(0.0, 0.003)),
-    )
 
 
 def photo(

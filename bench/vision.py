@@ -22,8 +22,9 @@ from app.vision.scale_said import SheetSaid
 from app.vision.seen_garment import drawn
 from app.vision.stack_fit import LOOKS_ALIKE
 from app.vision.vision_errors import NothingToldError
+from bench.photo_look import random_look
 from bench.report import Report, Row, seconds
-from bench.table_photo import Photo, photo, random_look
+from bench.table_photo import Photo, photo
 from planner import load_garment
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.pose import Pose2

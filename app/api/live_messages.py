@@ -8,7 +8,7 @@ from app.drawing.garment_json import garment_to_dict
 from app.shown_robot import shown_robot
 from planner.errors import FoldingError
 from planner.robots.load_robot import robot_card_file
-from planner.task.plan import Statistics
+from planner.task.statistics import Statistics
 
 
 def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:

@@ -13,7 +13,8 @@ from app.files.sheet_page import Disc, Outline, Page, Shape, Spot, Words
 from app.step_words import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray, Pose2
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.world_state import WorldState
 
 WIDTH, HEIGHT = 595.0, 842.0

@@ -11,7 +11,8 @@ from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.phase import Phase
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 
 
 def base_overlay(moment: Moment) -> dict[str, Any] | None:

@@ -15,7 +15,8 @@ from app.rehearsal.world import Performed, StepMotion, World
 from app.vision.fit_stack import fit_stack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Pose2
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.task import Task
 from planner.task.world_state import WorldState
 

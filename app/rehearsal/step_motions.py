@@ -8,7 +8,8 @@ from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.task.phase import Hand
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 

@@ -11,7 +11,8 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import grips_obstacle, held_covers
+from planner.primitives.fold_trial import grips_obstacle
+from planner.primitives.held_covers import held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
 from planner.robots.load_robot import load_robot

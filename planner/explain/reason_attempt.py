@@ -10,8 +10,7 @@ worst point is least out of reach decides. The checks get stricter until one of 
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import replace
 from functools import reduce
 from itertools import product
 from operator import and_
@@ -19,6 +18,7 @@ from operator import and_
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.explain.reason_miss import Demand, Miss, least_miss, worst_miss
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Shortfall
 from planner.primitives.context import BACK_OFF_STEP_M, Context
@@ -30,45 +30,6 @@ _ORIENTATIONS_MAX, _PAIRED_MAX = 8, 4
 
 _FINEST_M = 0.002
 """Shortfalls that differ by less count as equal (m); each is found to a millimetre."""
-
-
-class Demand(StrEnum):
-    """The requirements on a point that is out of reach."""
-
-    ALONE = "alone"
-    ONE_ORIENTATION = "one orientation"
-    DRIVING = "driving"
-    WITH_THE_OTHER_HAND = "with the other hand"
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Miss:
-    """The point of an attempt that is furthest out of reach, seen from where it is least so.
-
-    Attributes:
-        state: the state in which the attempt was made.
-        trial: the attempt.
-        stands: the standoffs at which the base may be when it begins, as a bit mask.
-        grip: the index of the grip.
-        waypoint: the index of the waypoint in the trial.
-        back_off: the standoff from which the point is least out of reach.
-        shortfall: by how much, and why.
-        demand: what the point must satisfy.
-    """
-
-    state: State
-    trial: FoldTrial
-    stands: int
-    grip: int
-    waypoint: int
-    back_off: int
-    shortfall: Shortfall
-    demand: Demand
-
-    @property
-    def short_by_m(self) -> float:
-        """The distance by which the point would have to be displaced (m)."""
-        return self.shortfall.short_by_m
 
 
 def miss_of(context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> Miss | None:
@@ -122,7 +83,7 @@ class _Attempt:
         """Return the miss of the hand that lacks most at some of its waypoints, in one orientation."""
         worst: Miss | None = None
         for hand, waypoints in ways:
-            worst = _worst((worst, self._in_one_orientation(hand, waypoints)))
+            worst = worst_miss((worst, self._in_one_orientation(hand, waypoints)))
             if worst is not None and worst.short_by_m >= self._at_most_m:
                 return worst
         return worst
@@ -165,7 +126,7 @@ class _Attempt:
 
     def _on_the_way(self, masks: list[NDArray[np.uint32]]) -> Miss | None:
         """Return what is lacking although each hand can reach every waypoint in one orientation."""
-        driving = _worst(self._driving(hand, rows) for hand, rows in enumerate(masks))
+        driving = worst_miss(self._driving(hand, rows) for hand, rows in enumerate(masks))
         return driving if driving is not None else self._together(masks)
 
     def _driving(self, hand: int, masks: NDArray[np.uint32]) -> Miss | None:
@@ -175,7 +136,7 @@ class _Attempt:
         complete = np.flatnonzero(masks.all(axis=1))[:_ORIENTATIONS_MAX]
         stuck = ((number, self._stuck(masks[number])) for number in complete)
         misses = (self._lacking(hand, int(n), *at, Demand.DRIVING) for n, at in stuck if at is not None)
-        return _least(misses)
+        return least_miss(misses)
 
     def _stuck(self, row: NDArray[np.uint32]) -> tuple[int, int] | None:
         """Return the waypoint at which the base cannot drive on, and where it is then; None if there is none."""
@@ -211,7 +172,7 @@ class _Attempt:
             if stuck is None:
                 return None
             misses += self._held_up(stuck, rows, orientations)
-        return _least(misses)
+        return least_miss(misses)
 
     def _held_up(
         self, stuck: tuple[int, int], rows: Sequence[NDArray[np.uint32]], orientations: tuple[int, ...]
@@ -243,13 +204,3 @@ def _spread(seed: int, mask: int) -> int:
         if wider == seed:
             return seed
         seed = wider
-
-
-def _worst(misses: Iterable[Miss | None]) -> Miss | None:
-    """Return the miss that lacks most, the first of equals; None if there is none."""
-    return max((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)
-
-
-def _least(misses: Iterable[Miss | None]) -> Miss | None:
-    """Return the miss that lacks least, the first of equals; None if there is none."""
-    return min((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)

@@ -17,13 +17,14 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from planner.explain.reason_attempt import Miss
+from planner.explain.reason_miss import Miss
 from planner.explain.reason_obstacle import lacking, of_obstacle
 from planner.explain.reason_out_of_reach import out_of_reach
 from planner.explain.reason_places import Places
 from planner.explain.reason_reach import from_every_station, miss_in, nearest_miss
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import fold_trials, geometric_obstacles, grips_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacles
+from planner.primitives.fold_trial import fold_trials, grips_obstacle
 from planner.primitives.fold_way import can_follow
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State

@@ -14,7 +14,8 @@ from planner.explain.reason_out_of_reach import dragged
 from planner.explain.reason_reach import from_every_station
 from planner.geometry.pose import Point2
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import can_follow
 from planner.primitives.obstacle import BlockingContact, Obstacle
 from planner.primitives.primitive import Step

@@ -12,8 +12,9 @@ from planner.geometry.pose import Point2, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import plain_points
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import geometric_obstacles, lifted_points
+from planner.primitives.fold_obstacles import geometric_obstacles
 from planner.primitives.grasping import nearest_pair_m
+from planner.primitives.held_covers import lifted_points
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import State
 from planner.task.reason import Code, Reason

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from planner.explain.reason_attempt import Miss, explained
+from planner.explain.reason_attempt import explained
+from planner.explain.reason_miss import Miss
 from planner.explain.reason_remedy import FURTHEST_M, remedy
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD

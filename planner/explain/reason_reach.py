@@ -11,12 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.explain.reason_attempt import Miss, miss_of
+from planner.explain.reason_attempt import miss_of
+from planner.explain.reason_miss import Miss
 from planner.explain.reason_places import Places
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray
 from planner.primitives.context import BACK_OFF_STEP_M, Context
-from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import away_from_shoulders
 from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State

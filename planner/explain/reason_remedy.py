@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from planner.explain.reason_attempt import Miss
+from planner.explain.reason_miss import Miss
 from planner.geometry.pose import FloatArray, Point3
 from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.fold_way import can_follow

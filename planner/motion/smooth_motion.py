@@ -25,7 +25,8 @@ from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.motion_limits import MotionLimits
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Trajectory
 
 STRAIGHT_S = 0.1

@@ -2,9 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
-from itertools import islice, product
 
 import numpy as np
 
@@ -13,13 +11,13 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
-from planner.motion.carrying import Carrier
 from planner.motion.joint_track import CLOSED_M, OPEN_M
-from planner.motion.leads import Cloths
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.moments import Moments, moments_of
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
+from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
+from planner.motion.transfer_paths import TransferPaths
 from planner.motion.transfer_timing import TransferTiming
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.tries import QUICK, Tries
@@ -40,51 +38,6 @@ Lines = tuple[FloatArray | None, FloatArray | None]
 """The lines away from grips and to grips that a path connects, each of shape (n, joints); None at home."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Candidate:
-    """Steps of a transfer that are not validated yet.
-
-    Attributes:
-        steps: the primitives, none but the last of which lets go.
-        carrying: the phases in which cloth is held, each with its primitive's number.
-        moments: the same phases, moment by moment.
-        cloths: the cloth on the table before and after.
-    """
-
-    steps: tuple[Step, ...]
-    carrying: tuple[tuple[int, Phase], ...]
-    moments: Moments
-    cloths: Cloths
-
-    @property
-    def kind(self) -> tuple[object, ...]:
-        """The key it shares with others that do the same with the same arms from the same station."""
-        return tuple(step.task for step in self.steps)
-
-    @property
-    def is_together(self) -> bool:
-        """Whether more than one arm holds cloth."""
-        return bool(self.moments.is_held.any(axis=1).sum() > 1)
-
-
-class _Stuck:
-    """The moments at which transfers were blocked; others of the same kind are mostly blocked nearby."""
-
-    def __init__(self) -> None:
-        self._shares: dict[tuple[object, ...], float] = {}
-
-    def note(self, candidate: "Candidate", found: NoPath) -> None:
-        """Note the middle of the moments at which a candidate is blocked."""
-        if len(found.blocked):
-            middle = found.blocked[len(found.blocked) // 2]
-            self._shares[candidate.kind] = float(middle) / (len(candidate.moments) - 1)
-
-    def suspects(self, candidate: "Candidate") -> list[int]:
-        """Return the moment of a candidate at which the last one of its kind was blocked, if any was."""
-        share = self._shares.get(candidate.kind)
-        return [] if share is None else [round(share * (len(candidate.moments) - 1))]
-
-
 class TransferPlanner:
     """Plans the transfers of one task.
 
@@ -99,10 +52,10 @@ class TransferPlanner:
     def __init__(self, context: Context, machine: RobotPort) -> None:
         """Set up the planner for one context and robot; nothing is planned yet."""
         scene = context.scene
-        carrier, collisions = _carrier(machine, scene.table, scene.torso_m)
+        paths, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
         self._context = context
-        self._carrier = carrier
-        self._stuck = _Stuck()
+        self._paths = paths
+        self._blocked = BlockedMoments()
         self._can_be_there: dict[tuple[object, ...], bool] = {}
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
@@ -148,23 +101,23 @@ class TransferPlanner:
         for steps in choices:
             if self.can_begin_and_end(steps):
                 candidate = self.candidate(steps)
-                if self._carrier.can_hold(candidate.moments, self._stuck.suspects(candidate)):
+                if self._paths.postures.can_hold(candidate.moments, self._blocked.suspects(candidate)):
                     yield candidate
 
     def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
         """Return whether the arms have free postures when each step takes hold and when its motions end."""
         self.glances += 1
-        key = _motion_of(steps)
+        key = motion_of(steps)
         if key not in self._can_be_there:
             phases = [phase for step in steps for phase in step.extremes()]
             moments = moments_of(phases, self._context.scene.table.height_m, only_ends=True)
             ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-            self._can_be_there[key] = self._carrier.can_hold_at(moments, [0, *ends[::-1].tolist()])
+            self._can_be_there[key] = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
         return self._can_be_there[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         """Return the candidate that some steps make, whether or not it is valid. Cached."""
-        key = _motion_of(steps)
+        key = motion_of(steps)
         if key not in self._candidates:
             self._candidates[key] = self._candidate(steps)
         return self._candidates[key]
@@ -180,17 +133,17 @@ class TransferPlanner:
         """Return the transfer of a candidate; None if it has no path. Cached."""
         self.tries += 1
         if candidate not in self._made:
-            self._made[candidate] = self._run(candidate, self._carrier.carried(candidate.moments, candidate.cloths))
+            self._made[candidate] = self._run(candidate, self._paths.carried(candidate.moments, candidate.cloths))
         return self._made[candidate]
 
     def made_like(self, candidate: "Candidate", like: Transfer) -> Transfer | None:
         """Return the transfer of a candidate, with joints near to those of another if possible; None without a path."""
         self.tries += 1
-        return self._run(candidate, self._carrier.adapted(candidate.moments, candidate.cloths, like.carried))
+        return self._run(candidate, self._paths.adapted(candidate.moments, candidate.cloths, like.carried))
 
     def _run(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
-            self._stuck.note(candidate, carried)
+            self._blocked.note(candidate, carried)
             return None
         least, first, last = self.transits.needed_s(carried.joints), carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
@@ -241,19 +194,8 @@ class TransferPlanner:
         return sum(float(self.transits.needed_s(one).sum()) for one in (way, *lines) if one is not None)
 
 
-def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
-    """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find."""
-    yield tuple(steps)
-    yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
-
-
-def _motion_of(steps: Sequence[Step]) -> tuple[object, ...]:
-    """Return the cache key of steps: a second round of tries repeats many of the first."""
-    return tuple(step.motion for step in steps)
-
-
 @lru_cache(maxsize=4)
-def _carrier(machine: RobotPort, table: Table, torso_m: float) -> tuple[Carrier, Collisions]:
+def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[TransferPaths, Collisions]:
     """Return the search for joint paths at a table and the collisions there; both are kept from plan to plan."""
     collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
-    return Carrier(machine, collisions, torso_m, table.height_m), collisions
+    return TransferPaths(machine, collisions, torso_m, table.height_m), collisions

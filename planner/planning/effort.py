@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from planner.primitives.reach import Counted
-from planner.task.plan import Statistics
+from planner.task.statistics import Statistics
 
 
 class Effort:

@@ -10,8 +10,10 @@ from planner.planning.problem import Problem
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.task.plan import Plan, PlanStep, Statistics
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.reason import Reason
+from planner.task.statistics import Statistics
 from planner.task.task import Task
 from planner.task.world_state import HeldPoint, WorldState
 

@@ -24,7 +24,8 @@ from itertools import islice
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s, in_turn, transfers_of
 from planner.motion.transfer import Transfer
-from planner.motion.transfer_planner import Candidate, TransferPlanner, ways_of
+from planner.motion.transfer_candidate import Candidate, ways_of
+from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK, Tries
 from planner.planning.rejection import Rejection
 from planner.primitives.primitive import Step

@@ -14,10 +14,12 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
 from planner.planning.problem import Problem
 from planner.primitives.drag_way import DragWays
-from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.state import State
 from planner.robots.joint_layout import JointLayout
-from planner.task.plan import Plan, PlanStep
+from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 TOOL_M = 0.005

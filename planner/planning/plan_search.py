@@ -16,8 +16,8 @@ from planner.planning.tightened import with_more_comfort, with_narrower_cones
 from planner.planning.trial import Explainer, Trial
 from planner.planning.trial_search import TrialSearch
 from planner.search.a_star import Outcome
-from planner.task.plan import Statistics
 from planner.task.reason import Reason
+from planner.task.statistics import Statistics
 
 GREEDY_AFTER_S = 1.0
 """Work without a plan after which the search looks for some plan to fall back on (s, see `Budget`)."""

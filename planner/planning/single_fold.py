@@ -19,19 +19,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import BoolArray, FloatArray, Point2, Pose2
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.planning.single_fold_cases import Case, Cases
 from planner.primitives.context import BACK_OFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
-from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle, geometric_obstacles
+from planner.primitives.drag_offsets import drag_offsets
+from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
+from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import attempt_of, can_follow
 from planner.primitives.state import State
 
 _SETS_MAX = 64
 """Sets of folds that may precede a fold; a fold with more sets is left to the search."""
 
-_OFFSETS_MAX = 2000
+OFFSETS_MAX = 2000
 """Placements that drags can lead to; where there are more, the search decides."""
 
 _BITS = 32
@@ -45,7 +47,7 @@ _EXTREMES = (1.0, 2.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class _Asked:
+class _ReachKey:
     """The key of a reach query: a tool point of a fold's path, with all that decides whether it is in reach."""
 
     done: int
@@ -65,16 +67,16 @@ class SingleFold:
         self._is_stopped = False
         self._context = context
         self._station = station
-        self._offsets = drag_offsets(context)
+        self._offsets = drag_offsets(context, OFFSETS_MAX)
         self._places = self._offsets
         self._cases = Cases(context, station, self._offsets, self._has_to_stop)
-        self._answers: dict[_Asked, BoolArray] = {}
+        self._answers: dict[_ReachKey, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
         """Return whether a fold can never be done; if so, leave what stopped it as its only obstacles."""
         context = self._context
         sets = context.sequence.dag.sets_before(fold, _SETS_MAX)
-        if sets is None or len(self._offsets) > _OFFSETS_MAX or context.sequence.folds[fold].is_red:
+        if sets is None or len(self._offsets) > OFFSETS_MAX or context.sequence.folds[fold].is_red:
             return False
         before = context.obstacles.taken_away(fold)
         guesses = (case for done in sets for case in islice(self._cases.of(done, fold), _GUESSES))
@@ -160,7 +162,7 @@ class SingleFold:
                 if self._has_to_stop():
                     return stages
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
-                asked = _Asked(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
+                asked = _ReachKey(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
                 found = self._found(asked, trial, points[grip], trial.approaches[grip][rows], left)
                 alive[grip][np.ix_(rows, left)] &= found
                 left = left[alive[grip][:, left].any(axis=0)]
@@ -171,7 +173,7 @@ class SingleFold:
 
     def _found(
         self,
-        asked: _Asked,
+        asked: _ReachKey,
         trial: FoldTrial,
         point: FloatArray,
         approaches: NDArray[np.int64],
@@ -226,27 +228,3 @@ class SingleFold:
 
 def _key(point: FloatArray) -> tuple[int, ...]:
     return tuple(grid_key(float(c)) for c in point)
-
-
-def drag_offsets(context: Context) -> FloatArray:
-    """Return the offsets to which drags can carry the article with a part of it on the table, shape (n, 2), m.
-
-    The search for offsets stops once there are more than the relaxation checks.
-    """
-    table, size = context.scene.table, context.sequence.garment.pattern.bounds
-    corners = context.placement.to_outer(np.array([(size[i], size[j]) for i in (0, 2) for j in (1, 3)]))
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    half = np.array([table.depth_m / 2, table.width_m / 2])
-    (x0, y0), (x1, y1) = (-half - high).tolist(), (half - low).tolist()
-    steps = [dragged(context, (0.0, 0.0), station, 1) for station in range(len(context.scene.stations))]
-    found: dict[tuple[int, int], Point2] = {(0, 0): (0.0, 0.0)}
-    front = [(0.0, 0.0)]
-    while front and len(found) <= _OFFSETS_MAX:
-        x, y = front.pop()
-        for dx, dy in steps:
-            after = (x + dx, y + dy)
-            key = (grid_key(after[0]), grid_key(after[1]))
-            if key not in found and x0 < after[0] < x1 and y0 < after[1] < y1:
-                found[key] = after
-                front.append(after)
-    return np.array(list(found.values()))

@@ -16,7 +16,7 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import towards_robot
-from planner.primitives.fold_trial import is_line_on_table
+from planner.primitives.fold_obstacles import is_line_on_table
 
 
 class Service:

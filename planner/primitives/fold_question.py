@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import FoldWay, attempt_of
 from planner.primitives.state import State
 

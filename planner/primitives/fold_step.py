@@ -11,7 +11,8 @@ from planner.geometry.pose import FloatArray, Point3
 from planner.primitives.base_legs import travel
 from planner.primitives.context import Context
 from planner.primitives.fold_motion import FoldMotion
-from planner.primitives.fold_trial import FoldTrial, fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.grasping import by_nearness, holdings, like_approach

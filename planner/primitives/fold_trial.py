@@ -7,14 +7,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.cloth.grips import Cover, best_covers
+from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2
-from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.fold_obstacles import Depths
 from planner.primitives.grasping import (
     all_approaches,
     approaches_from_outside,
@@ -22,12 +22,12 @@ from planner.primitives.grasping import (
     hand_key,
     nearest_pair_m,
 )
+from planner.primitives.held_covers import held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
-from planner.primitives.state import Held, State
+from planner.primitives.state import State
 from planner.primitives.surroundings import Surroundings
 from planner.task.reason import Code
-from planner.words.catalogue import worded
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,51 +88,6 @@ class FoldTrial:
         return context.reach.following(self.arms, self.in_base(context, station), self.approaches, BACK_OFF_STEP_M)
 
 
-class Depths:
-    """The distances from the fold line that the moving part of each fold covers."""
-
-    def __init__(self, context: Context) -> None:
-        self._context = context
-        self._known: dict[int, tuple[float, float]] = {}
-
-    def of(self, fold: int) -> tuple[float, float]:
-        """Return the smallest and the largest distance from the line, to the left (m)."""
-        if fold not in self._known:
-            moving = self._context.sequence.moving(fold)
-            distances = self._context.sequence.folds[fold].line.left_distances(moving.coordinates)
-            self._known[fold] = (float(distances.min()), float(distances.max()))
-        return self._known[fold]
-
-
-def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
-    """Return the first obstacle to a fold that does not depend on the arms; None if there is none."""
-    return next(geometric_obstacles(context, state, fold), None)
-
-
-def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[Obstacle]:
-    """Yield all obstacles to a fold in a state that do not depend on the arms."""
-    folds = context.sequence.folds
-    if not is_line_on_table(context, fold, state.offset):
-        off = context.table_in_article(state.offset).region.distance_to(folds[fold].line)
-        says = worded("line_off_table", {"off_m": float(off)}, folds, fold)
-        yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
-    behind = -context.kept(Depths).of(fold)[0]
-    if behind > context.behind_max_m + LENGTH_M:
-        says = worded("behind_line", {"behind_m": behind}, folds, fold)
-        yield Obstacle(fold, Code.NOT_A_G_STATE, says, behind, state)
-    unrest = context.unrest(state.done | 1 << fold, state.offset)
-    if unrest is not None:
-        says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
-        yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
-
-
-def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:
-    """Return whether a part of a fold's line is over the table top after drags by `offset`."""
-    line = context.sequence.folds[fold].line
-    is_end_on_table = context.is_on_table(line.start, offset) or context.is_on_table(line.end, offset)
-    return is_end_on_table or bool(context.table_in_article(offset).region.overlaps_with(line))
-
-
 def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
     """Return the grips and arms that may perform a fold in a state, with the grips held or with empty hands.
 
@@ -160,54 +115,6 @@ def _trials(context: Context, state: State, fold: int) -> Iterator[FoldTrial]:
         trial = FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
         keys = _hand_keys(context, state, trial)
         yield trial.in_order(sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand])))
-
-
-def held_covers(context: Context, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
-    """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
-
-    Only hands on the moving part count: on the fold line, or on cloth that stays, a hand lifts nothing.
-    """
-    return context.kept(_HeldCovers).of(fold, held)
-
-
-class _HeldCovers:
-    """The sets of grips already held that suffice for a fold; many states share them, so they are kept.
-
-    Grips that are equal on the grid share an answer though their points differ by a rounding error. So an answer holds
-    the grips' numbers, not their points.
-    """
-
-    def __init__(self, context: Context) -> None:
-        self._context = context
-        self._known: dict[tuple[object, ...], tuple[tuple[int, ...], ...]] = {}
-
-    def of(self, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
-        key = (fold, *(h.key for h in held))
-        if key not in self._known:
-            number = {h.point: i for i, h in enumerate(held)}
-            covers = self._search(fold, held)
-            self._known[key] = tuple(tuple(number[point] for point in cover) for cover in covers)
-        return tuple(tuple(held[i] for i in numbers) for numbers in self._known[key])
-
-    def _search(self, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
-        context = self._context
-        arms = len(context.reach.arm_names)
-        vertices = context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices
-        points = lifted_points(context, fold, held)
-        radius = context.sequence.folds[fold].grip_radius_m
-        return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
-
-
-def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:
-    """Return the grips held that lie on the part that a fold moves, article frame (m)."""
-    line, moving = context.sequence.folds[fold].line, context.sequence.moving(fold)
-    return [h.point for h in held if _is_lifted(h.point, moving, line)]
-
-
-def _is_lifted(point: Point2, moving: Region, line: Segment) -> bool:
-    """Return whether a point of the cloth lies on the moving part, off the fold line."""
-    is_on_part = moving.contains(point) or moving.boundary_distance(point) <= LENGTH_M
-    return is_on_part and float(line.distances(np.array([point]))[0]) > LENGTH_M
 
 
 def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:

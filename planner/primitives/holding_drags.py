@@ -16,7 +16,7 @@ from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_question import FoldQuestions
-from planner.primitives.fold_trial import held_covers
+from planner.primitives.held_covers import held_covers
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 

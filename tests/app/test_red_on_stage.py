@@ -13,7 +13,7 @@ from planner import Plan, Scene, load_garment, make_plan
 from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
-from planner.task.plan import PlanStep
+from planner.task.plan_step import PlanStep
 
 CARD = load_robot("pr2").card
 ABOVE_M = 0.003

@@ -20,7 +20,7 @@ from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
-from planner.primitives.fold_trial import geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.state import State
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, rectangle

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import pytest
 
-from planner.explain.reason_attempt import Demand, Miss, miss_of
+from planner.explain.reason_attempt import miss_of
+from planner.explain.reason_miss import Demand, Miss
 from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.shortfall import Shortfall, never
 from planner.primitives.fold_trial import FoldTrial, fold_trials

@@ -12,7 +12,8 @@ from planner.explain.reason_places import Places
 from planner.explain.reason_reach import nearest_miss
 from planner.planning.found_plan import FoundPlan
 from planner.primitives.context import Context
-from planner.primitives.fold_trial import fold_trials, geometric_obstacle
+from planner.primitives.fold_obstacles import geometric_obstacle
+from planner.primitives.fold_trial import fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.state import State
 from planner.robots.shortfall import DIRECTIONS

@@ -12,7 +12,7 @@ from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.joint_track import CLOSED_M, OPEN_M
 from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
-from planner.task.plan import PlanStep
+from planner.task.plan_step import PlanStep
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
 

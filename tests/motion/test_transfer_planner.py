@@ -7,7 +7,8 @@ import pytest
 
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
-from planner.motion.transfer_planner import TransferPlanner, ways_of
+from planner.motion.transfer_candidate import ways_of
+from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step

@@ -22,7 +22,7 @@ from planner.primitives.drag_step import DragStep
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.task.plan import PlanStep
+from planner.task.plan_step import PlanStep
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, rectangle_points
 from tests.replay.planned import planned

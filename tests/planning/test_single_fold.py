@@ -8,7 +8,8 @@ import pytest
 from planner import Scene, Task, find_plan, load_garment, make_plan, shipped_garment_names
 from planner.planning import path_search as planning
 from planner.planning.problem import Problem
-from planner.planning.single_fold import SingleFold, drag_offsets
+from planner.planning.single_fold import OFFSETS_MAX, SingleFold
+from planner.primitives.drag_offsets import drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
 from tests.replay.planned import planned
@@ -65,7 +66,7 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
 
 def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
     found = found_plan(load_garment("hand-towel"))
-    offsets = drag_offsets(found.problem.context)
+    offsets = drag_offsets(found.problem.context, OFFSETS_MAX)
     half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2
     placement = found.plan.garment.placement
     assert (offsets[0] == 0.0).all()

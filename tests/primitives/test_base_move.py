@@ -8,7 +8,8 @@ import pytest
 
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.primitives.base_move import BaseMove, Route, clear_of_table, route_along, shortest_way
+from planner.primitives.base_move import BaseMove
+from planner.primitives.route import Route, clear_of_table, route_along, shortest_way
 from planner.primitives.state import Held, State
 from planner.task.scene import Scene
 from tests.builders import CIRCLE_M, context, garment, rectangle_points

@@ -12,7 +12,8 @@ from app.vision.scale_said import LengthSaid, MarkerSaid, SheetSaid, read_scale
 from app.vision.seen_garment import Seen, see
 from app.vision.straighten import straighten
 from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
-from bench.table_photo import Look, Photo, photo
+from bench.photo_look import Look
+from bench.table_photo import Photo, photo
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region

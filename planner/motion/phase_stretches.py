@@ -1,0 +1,112 @@
+"""Cut phases into stretches of moments: each hand first turns in its grip where it must, then follows its path."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from planner.geometry.pose import Approach, FloatArray, wrapped_angle
+from planner.geometry.tolerance import ANGLE_RAD, EDGE_RAD, nearest_whole
+from planner.motion.phase_shares import STEP_RAD, shares_of
+from planner.task.phase import Hand, Phase
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """Moments of one phase, of its turning in the grips or of its path.
+
+    Attributes:
+        number: index of the phase.
+        shares: the fraction of the phase that is done, shape (n,).
+        rolls: the roll of each hand beyond what its phase says (rad).
+        turned: each arm's tool axes while it turns in its grip, shape (arms, n, 3, 3); None while it follows its path.
+    """
+
+    number: int
+    shares: FloatArray
+    rolls: tuple[float, ...]
+    turned: FloatArray | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Wrist:
+    """The orientation of a hand: its approach, and its roll about that (rad)."""
+
+    approach: Approach
+    roll_rad: float
+
+    def seen_with(self, heading_rad: float) -> "_Wrist":
+        """Return the same orientation with another heading, for a hand that points straight down.
+
+        The heading of such a hand is nothing but a roll.
+        """
+        turned = self.roll_rad + heading_rad - self.approach.heading_rad
+        return _Wrist(Approach(heading_rad, self.approach.pitch_rad), turned)
+
+
+class StretchSampler:
+    """Cuts phases into moments, knowing each hand's orientation at the end of the phase before."""
+
+    def __init__(self, arms: int, only_ends: bool) -> None:
+        self._only_ends = only_ends
+        self._wrists: list[_Wrist | None] = [None] * arms
+        self._rolls = [0.0] * arms
+
+    def stretches(self, number: int, phase: Phase) -> Iterator[Stretch]:
+        """Yield the turning in the grips, if there is any, and the path; its start only in the first phase."""
+        turns = [self._turn(arm, hand) for arm, hand in enumerate(phase.hands)]
+        angles = [float(np.abs(turn[1] - turn[0]).sum()) for turn in turns if turn is not None]
+        angle = max(angles, default=0.0)
+        rolls = tuple(self._rolls)
+        if angle > ANGLE_RAD:
+            parts = np.linspace(0.0, 1.0, int(np.ceil((angle - EDGE_RAD) / STEP_RAD)) + 1)[1:, None]
+            turned = [
+                np.full((len(parts), 3, 3), np.nan)
+                if turn is None
+                else _rotations(turn[0] + parts * (turn[1] - turn[0]))
+                for turn in turns
+            ]
+            yield Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
+        shares = np.array([0.0, 1.0]) if self._only_ends else shares_of(phase)
+        yield Stretch(number, shares[1 if number else 0 :], rolls, None)
+        for arm, hand in enumerate(phase.hands):
+            self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + rolls_of(hand)[-1])
+
+    def _turn(self, arm: int, hand: Hand | None) -> FloatArray | None:
+        """Return heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3).
+
+        None for an empty hand. The hand keeps its roll, so that a hand with its fingers flat above the table stays so;
+        the roll with which it goes on is settled here.
+        """
+        before = self._wrists[arm]
+        if hand is None:
+            self._rolls[arm] = 0.0
+            return None
+        after = hand.approach
+        if before is None or before.approach == after:
+            self._rolls[arm] = 0.0 if before is None else before.roll_rad - rolls_of(hand)[0]
+            return np.array([(after.heading_rad, after.pitch_rad, self._rolls[arm] + rolls_of(hand)[0])] * 2)
+        if before.approach.is_vertical:
+            before = before.seen_with(after.heading_rad)
+            level = math.pi * nearest_whole(before.roll_rad / math.pi)
+            goal = _Wrist(after, before.roll_rad if after.is_vertical else level)
+        elif after.is_vertical:
+            goal = _Wrist(Approach(before.approach.heading_rad, after.pitch_rad), before.roll_rad)
+        else:
+            goal = _Wrist(after, before.roll_rad)
+        self._rolls[arm] = goal.seen_with(after.heading_rad).roll_rad - rolls_of(hand)[0]
+        start = (before.approach.heading_rad, before.approach.pitch_rad, before.roll_rad)
+        turn = wrapped_angle(goal.approach.heading_rad - before.approach.heading_rad)
+        return np.array([start, (start[0] + turn, goal.approach.pitch_rad, goal.roll_rad)])
+
+
+def _rotations(angles_rad: FloatArray) -> FloatArray:
+    """Return the tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
+    return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
+
+
+def rolls_of(hand: Hand) -> tuple[float, ...]:
+    """Return the roll at each of a hand's points (rad)."""
+    return hand.rolls_rad or (0.0,) * len(hand.points)

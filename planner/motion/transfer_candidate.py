@@ -1,0 +1,68 @@
+"""Transfers that are not validated yet: the combinations of steps, and where others of their kind were blocked."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice, product
+
+from planner.motion.leads import Cloths
+from planner.motion.moments import Moments
+from planner.motion.tries import Tries
+from planner.primitives.primitive import Step
+from planner.robots.tool_path import NoPath
+from planner.task.phase import Phase
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """Steps of a transfer that are not validated yet.
+
+    Attributes:
+        steps: the primitives, none but the last of which lets go.
+        carrying: the phases in which cloth is held, each with its primitive's number.
+        moments: the same phases, moment by moment.
+        cloths: the cloth on the table before and after.
+    """
+
+    steps: tuple[Step, ...]
+    carrying: tuple[tuple[int, Phase], ...]
+    moments: Moments
+    cloths: Cloths
+
+    @property
+    def kind(self) -> tuple[object, ...]:
+        """The key it shares with others that do the same with the same arms from the same station."""
+        return tuple(step.task for step in self.steps)
+
+    @property
+    def is_together(self) -> bool:
+        """Whether more than one arm holds cloth."""
+        return bool(self.moments.is_held.any(axis=1).sum() > 1)
+
+
+class BlockedMoments:
+    """The moments at which transfers were blocked; others of the same kind are mostly blocked nearby."""
+
+    def __init__(self) -> None:
+        self._shares: dict[tuple[object, ...], float] = {}
+
+    def note(self, candidate: "Candidate", found: NoPath) -> None:
+        """Note the middle of the moments at which a candidate is blocked."""
+        if len(found.blocked):
+            middle = found.blocked[len(found.blocked) // 2]
+            self._shares[candidate.kind] = float(middle) / (len(candidate.moments) - 1)
+
+    def suspects(self, candidate: "Candidate") -> list[int]:
+        """Return the moment of a candidate at which the last one of its kind was blocked, if any was."""
+        share = self._shares.get(candidate.kind)
+        return [] if share is None else [round(share * (len(candidate.moments) - 1))]
+
+
+def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+    """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find."""
+    yield tuple(steps)
+    yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
+
+
+def motion_of(steps: Sequence[Step]) -> tuple[object, ...]:
+    """Return the cache key of steps: a second round of tries repeats many of the first."""
+    return tuple(step.motion for step in steps)

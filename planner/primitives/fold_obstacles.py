@@ -1,0 +1,56 @@
+"""Obstacles to a fold that do not depend on the arms: its line, the cloth behind it, and the cloth afterwards."""
+
+from collections.abc import Iterator
+
+from planner.geometry.pose import Point2
+from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.context import Context
+from planner.primitives.obstacle import Obstacle
+from planner.primitives.state import State
+from planner.task.reason import Code
+from planner.words.catalogue import worded
+
+
+class Depths:
+    """The distances from the fold line that the moving part of each fold covers."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._known: dict[int, tuple[float, float]] = {}
+
+    def of(self, fold: int) -> tuple[float, float]:
+        """Return the smallest and the largest distance from the line, to the left (m)."""
+        if fold not in self._known:
+            moving = self._context.sequence.moving(fold)
+            distances = self._context.sequence.folds[fold].line.left_distances(moving.coordinates)
+            self._known[fold] = (float(distances.min()), float(distances.max()))
+        return self._known[fold]
+
+
+def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
+    """Return the first obstacle to a fold that does not depend on the arms; None if there is none."""
+    return next(geometric_obstacles(context, state, fold), None)
+
+
+def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[Obstacle]:
+    """Yield all obstacles to a fold in a state that do not depend on the arms."""
+    folds = context.sequence.folds
+    if not is_line_on_table(context, fold, state.offset):
+        off = context.table_in_article(state.offset).region.distance_to(folds[fold].line)
+        says = worded("line_off_table", {"off_m": float(off)}, folds, fold)
+        yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
+    behind = -context.kept(Depths).of(fold)[0]
+    if behind > context.behind_max_m + LENGTH_M:
+        says = worded("behind_line", {"behind_m": behind}, folds, fold)
+        yield Obstacle(fold, Code.NOT_A_G_STATE, says, behind, state)
+    unrest = context.unrest(state.done | 1 << fold, state.offset)
+    if unrest is not None:
+        says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
+        yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
+
+
+def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:
+    """Return whether a part of a fold's line is over the table top after drags by `offset`."""
+    line = context.sequence.folds[fold].line
+    is_end_on_table = context.is_on_table(line.start, offset) or context.is_on_table(line.end, offset)
+    return is_end_on_table or bool(context.table_in_article(offset).region.overlaps_with(line))
