@@ -3,6 +3,7 @@
 import math
 import tempfile
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from hashlib import blake2b
 from pathlib import Path
 from xml.etree.ElementTree import Element, fromstring
@@ -11,7 +12,7 @@ import pinocchio as pin
 from platformdirs import user_cache_path
 
 from planner.robots.card import ArmCard, GripperCard, LinearGripper, ParallelogramGripper, RobotCard
-from planner.robots.card_file import ArmFile
+from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import GripperFile, ParallelogramDrive
 from planner.robots.described_robot import DescribedRobot
 
@@ -20,22 +21,36 @@ _MOVING = ("revolute", "continuous", "prismatic")
 
 def robot_card(robot: DescribedRobot) -> RobotCard:
     """Return the card of a described robot; its composed URDF is written to the user's cache."""
-    card, model = robot.card, pin.buildModelFromXML(robot.urdf)
-    arms = tuple(_arm_card(model, arm.card) for arm in robot.arms)
-    moved = {name for arm in arms for name in (*arm.joint_names, arm.gripper.joint_name)} | {card.lift}
-    path = _kept_urdf(robot.urdf)
+    model = pin.buildModelFromXML(robot.urdf)
+    card = card_on(robot.card, model, robot.lift_limits_m, _kept_urdf(robot.urdf))
+    moved = {name for arm in card.arms for name in (*arm.joint_names, arm.gripper.joint_name)} | {card.lift_joint}
+    return replace(card, resting=tuple(_resting(fromstring(robot.urdf), moved, dict(card.resting))))
+
+
+def card_on(
+    card: CardFile, model: pin.Model, lift_limits_m: tuple[float, float], urdf: Path, package: Path | None = None
+) -> RobotCard:
+    """Return the card that a JSON card makes with numbers from its URDF.
+
+    Args:
+        card: the JSON card.
+        model: the kinematic tree that the URDF describes.
+        lift_limits_m: the lowest and highest value of the lift.
+        urdf: the URDF's path.
+        package: the directory to which the URDF's ``package://`` addresses are relative; None: the URDF's own.
+    """
     return RobotCard(
         name=card.name,
         title=card.title,
-        arms=arms,
+        arms=tuple(_arm_card(model, arm) for arm in card.arms),
         base_kind=card.base.kind,
         base_size_m=card.base.size_m,
         base_radius_m=card.base.radius_m,
         lift_joint=card.lift,
-        lift_limits_m=robot.lift_limits_m,
-        resting=tuple(_resting(fromstring(robot.urdf), moved, dict(card.resting))),
-        urdf_path=path,
-        package_dir=path.parent,
+        lift_limits_m=lift_limits_m,
+        resting=card.resting,
+        urdf_path=urdf,
+        package_dir=urdf.parent if package is None else package,
         base_acceleration_m_s2=card.base.acceleration_m_s2,
     )
 

@@ -81,7 +81,7 @@ class DescribedRobot:
                 arms.append(_arm(model, card, arm))
             except FieldError as error:
                 raise RobotError(f"arms[{number}].{error.field}", error.says or error.message) from None
-        return DescribedRobot(card, urdf, tuple(arms), _lift_limits(model, card))
+        return DescribedRobot(card, urdf, tuple(arms), lift_limits(model, card))
 
 
 def shipped_robots() -> tuple[str, ...]:
@@ -199,7 +199,12 @@ def _tool(tool: ToolFile) -> pin.SE3:
     return pin.SE3(np.column_stack([x, y, np.cross(x, y)]), np.array(tool.offset_m))
 
 
-def _lift_limits(model: pin.Model, card: CardFile) -> tuple[float, float]:
+def lift_limits(model: pin.Model, card: CardFile) -> tuple[float, float]:
+    """Return the lowest and highest value of a robot's lift (m); (0, 0) without one.
+
+    Raises:
+        RobotError: the lift is no joint of the robot, or does not slide straight up.
+    """
     if card.lift is None:
         return 0.0, 0.0
     joint = _joint(model, card.lift, "lift")
