@@ -15,7 +15,7 @@ import numpy as np
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.errors import FieldError
 from planner.explain.suggestion_fold_line import redrawn
-from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_trial import Search, Trial, each_cheaper
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
@@ -35,24 +35,12 @@ _CORNERS_MAX = 6
 
 def splits(task: Task, folds: Sequence[int]) -> Search:
     """Look for one of some folds that can be done in two parts, the evenest parts first; then for cheaper ones."""
-    return _cheaper(_split_trials(task, folds))
+    return each_cheaper(_split_trials(task, folds))
 
 
 def halvings(task: Task, folds: Sequence[int]) -> Search:
     """Look for one of some folds that can be done once the cloth is halved across its line; then for cheaper ones."""
-    return _cheaper(_halving_trials(task, folds))
-
-
-def _cheaper(trials: Iterator[Trial]) -> Search:
-    to_beat = None
-    for trial in trials:
-        plan = yield trial
-        if plan is None:
-            return
-        proof = Proof.of(trial, plan)
-        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
-            yield proof.suggestion
-            to_beat = proof.cost_s
+    return each_cheaper(_halving_trials(task, folds))
 
 
 def _split_trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:

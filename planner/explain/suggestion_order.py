@@ -10,7 +10,7 @@ from itertools import combinations
 
 from planner.cloth.garment import Garment
 from planner.errors import FieldError
-from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_trial import Search, Trial, each_cheaper
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.message import Message
@@ -51,17 +51,12 @@ class _Order:
 
 def orders(task: Task) -> Search:
     """Look for another order that gives a plan, the fewest swaps first; then for cheaper ones."""
-    to_beat = None
-    for order, garment in _other_orders(task.garment):
-        says = _in_words(task.garment, order)
-        trial = Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
-        plan = yield trial
-        if plan is None:
-            return
-        proof = Proof.of(trial, plan)
-        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
-            yield proof.suggestion
-            to_beat = proof.cost_s
+    return each_cheaper(_trial(task, order, garment) for order, garment in _other_orders(task.garment))
+
+
+def _trial(task: Task, order: _Order, garment: Garment) -> Trial:
+    says = _in_words(task.garment, order)
+    return Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
 
 
 def _other_orders(garment: Garment) -> Iterator[tuple[_Order, Garment]]:

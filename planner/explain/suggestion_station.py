@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_trial import Search, Trial, each_cheaper
 from planner.geometry.pose import Pose2, wrapped_angle
 from planner.task.scene import STATIONS_MAX, Scene
 from planner.task.task import Task
@@ -22,16 +22,7 @@ _SAME_RAD = 0.1
 
 def stations(task: Task) -> Search:
     """Look for one more station that gives a plan; then for one that gives a cheaper plan."""
-    to_beat = None
-    for name, pose in _others(task.scene):
-        trial = _trial(task, name, pose)
-        plan = yield trial
-        if plan is None:
-            return
-        proof = Proof.of(trial, plan)
-        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
-            yield proof.suggestion
-            to_beat = proof.cost_s
+    return each_cheaper(_trial(task, name, pose) for name, pose in _others(task.scene))
 
 
 def _trial(task: Task, name: str, pose: Pose2) -> Trial:

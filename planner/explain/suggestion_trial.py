@@ -5,7 +5,7 @@ found one. So a search is written as if it had unlimited time, while the caller 
 When time is up, the caller sends None instead of a plan: the search may yield what it still has, and returns.
 """
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
@@ -64,6 +64,19 @@ Search: TypeAlias = Generator[Trial | Suggestion, Plan | None, None]
 
 Narrowing: TypeAlias = Generator[Trial | Suggestion, Plan | None, Proof]
 """A part of a search that returns the best proof it found."""
+
+
+def each_cheaper(trials: Iterable[Trial]) -> Search:
+    """Suggest the first trial that gives a plan; then each that gives a cheaper one."""
+    to_beat = None
+    for trial in trials:
+        plan = yield trial
+        if plan is None:
+            return
+        proof = Proof.of(trial, plan)
+        if proof is not None and (to_beat is None or proof.is_worth_more_than(to_beat)):
+            yield proof.suggestion
+            to_beat = proof.cost_s
 
 
 def narrowed(
