@@ -121,6 +121,13 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "assume_comfort", "comfort_m": 0.01, "now_m": 0.03},
     {"code": "assume_friction", "friction": 1.5, "now": 1.0},
     {"code": "assume_grip_radius", "grip_radius_m": 0.15, "folds": [0, 1]},
+    {
+        "code": "assume_together",
+        "parts": [
+            {"code": "assume_friction", "friction": 0.11, "now": 0.0},
+            {"code": "assume_comfort", "comfort_m": 0.01, "now_m": 0.03},
+        ],
+    },
     {"code": "make_blue", "fold": 1},
     {"code": "put_onto_cloth", "fold": 0},
     {"code": "put_onto_flap", "fold": 0},

@@ -38,7 +38,7 @@ PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment
 
 
 Kind = Literal[
-    "placement", "fold_line", "split", "halve", "order", "station", "friction", "grip_radius", "comfort_radius"
+    "placement", "fold_line", "split", "halve", "order", "station", "friction", "grip_radius", "comfort_radius", "together"
 ]
 
 

@@ -7,7 +7,7 @@ go. So if the furthest gives no plan, nothing less does; if it does, the least i
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from planner.cloth.garment import DrawnFold
 from planner.explain.suggestion_trial import Proof, Search, Trial
@@ -27,29 +27,59 @@ COMFORT_STEP_M = 0.001
 """Step between comfort radii (m)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Lever:
+    """An assumption that can be made in steps.
+
+    Attributes:
+        now: the number of steps as it is.
+        most: the number of steps at most.
+        trial_at: makes the trial of a task with so many steps of it.
+    """
+
+    now: int
+    most: int
+    trial_at: Callable[[Task, int], Trial]
+
+
 def comforts(task: Task) -> Search:
     """Look for the largest comfort radius below the requested one that gives a plan."""
-    now = task.limits.comfort_radius_m
-    steps = math.ceil(now / COMFORT_STEP_M - LENGTH_M)
-    return _least(lambda step: _comfort(task, max(round(now - step * COMFORT_STEP_M, 6), 0.0)), 0, steps)
+    return _least(task, _comforts(task))
 
 
 def frictions(task: Task, reasons: Sequence[Reason]) -> Search:
     """Look for the smallest friction coefficient above the scene's that gives a plan."""
-    now = _step_below(task.scene.friction * FRICTION_STEPS)
     needed = [r.needed_friction for r in reasons if r.needed_friction is not None and r.set is not None]
-    first = [_step_above(mu * FRICTION_STEPS) for mu in needed]
-    most = round(FRICTION_MAX * FRICTION_STEPS)
-    return _least(lambda step: _friction(task, step / FRICTION_STEPS), now, most, first)
+    return _least(task, _frictions(task), [_step_above(mu * FRICTION_STEPS) for mu in needed])
 
 
 def grip_radii(task: Task, folds: Sequence[int], reasons: Sequence[Reason]) -> Search:
     """Look for the smallest grip radius of some folds that gives a plan."""
-    smallest = min((task.garment.folds[i].grip_radius_m for i in folds), default=GRIP_RADIUS_MAX_M)
     needed = [r.needed_grip_radius_m for r in reasons if r.needed_grip_radius_m is not None]
     first = [_step_above(radius * GRIP_RADIUS_STEPS_PER_M) for radius in needed]
+    return _least(task, _grip_radii(task, folds), first)
+
+
+def levers(task: Task, folds: Sequence[int]) -> tuple[Lever, ...]:
+    """Return all assumptions that can be made for a task; `folds`: those whose grips may hold more."""
+    return _comforts(task), _frictions(task), _grip_radii(task, folds)
+
+
+def _comforts(task: Task) -> Lever:
+    now = task.limits.comfort_radius_m
+    steps = math.ceil(now / COMFORT_STEP_M - LENGTH_M)
+    return Lever(0, steps, lambda task, step: _comfort(task, max(round(now - step * COMFORT_STEP_M, 6), 0.0)))
+
+
+def _frictions(task: Task) -> Lever:
+    now, most = _step_below(task.scene.friction * FRICTION_STEPS), round(FRICTION_MAX * FRICTION_STEPS)
+    return Lever(now, most, lambda task, step: _friction(task, step / FRICTION_STEPS))
+
+
+def _grip_radii(task: Task, folds: Sequence[int]) -> Lever:
+    smallest = min((task.garment.folds[i].grip_radius_m for i in folds), default=GRIP_RADIUS_MAX_M)
     now, most = _step_below(smallest * GRIP_RADIUS_STEPS_PER_M), round(GRIP_RADIUS_MAX_M * GRIP_RADIUS_STEPS_PER_M)
-    return _least(lambda step: _grip_radius(task, folds, step / GRIP_RADIUS_STEPS_PER_M), now, most, first)
+    return Lever(now, most, lambda task, step: _grip_radius(task, folds, step / GRIP_RADIUS_STEPS_PER_M))
 
 
 def _step_above(steps: float) -> int:
@@ -62,19 +92,20 @@ def _step_below(steps: float) -> int:
     return math.floor(steps + LENGTH_M)
 
 
-def _least(trial_at: Callable[[int], Trial], fails: int, most: int, first: Sequence[int] = ()) -> Search:
-    """Look for the fewest steps that work, beyond some that fail; try some steps first, then the most."""
+def _least(task: Task, lever: Lever, first: Sequence[int] = ()) -> Search:
+    """Look for the fewest steps that work, beyond those that fail; try some steps first, then the most."""
+    fails, most = lever.now, lever.most
     best: Proof | None = None
     works, is_known = most + 1, False
     for step in sorted({step for step in (*first, most) if fails < step <= most}):
-        best = Proof.of(trial := trial_at(step), (yield trial))
+        best = Proof.of(trial := lever.trial_at(task, step), (yield trial))
         if best is not None:
             works, is_known = step, step in first
             break
         fails = step
     while works - fails > 1 and best is not None:
         middle, is_known = works - 1 if is_known else (fails + works) // 2, False
-        trial = trial_at(middle)
+        trial = lever.trial_at(task, middle)
         plan = yield trial
         if plan is None:
             break

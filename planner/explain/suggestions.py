@@ -17,6 +17,7 @@ from planner.explain.suggestion_fold_line import fold_lines
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_placement import placements
 from planner.explain.suggestion_station import stations
+from planner.explain.suggestion_together import together
 from planner.explain.suggestion_trial import Search, Trial
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels
@@ -75,10 +76,10 @@ def suggestions(
 
 def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Suggestions:
     """Give every kind of change its turns, and in the end its last word."""
+    folds = () if known.is_solved else _blocking(known)
     if known.is_solved:
         changes, assumptions = [_Lane(placements(task, known.cost_s))], []
     else:
-        folds = _blocking(known)
         changes = _lanes(
             placements(task, None),
             fold_lines(task, folds),
@@ -90,6 +91,9 @@ def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[
         assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
     yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else 1.0)
     yield from _by_turns(assumptions, budget, on_trial, 1.0)
+    if assumptions and not any(lane.has_found for lane in assumptions):
+        assumptions += _lanes(together(task, folds))
+        yield from _by_turns(assumptions, budget, on_trial, 1.0)
     yield from _by_turns(changes, budget, on_trial, 1.0)
     lanes = (*changes, *assumptions)
     is_complete = all(lane.is_done for lane in lanes) and not budget.has_unknown
@@ -139,6 +143,11 @@ class _Lane:
         self._search = search
         self._trial: Trial | None = None
         self._told = 0
+
+    @property
+    def has_found(self) -> bool:
+        """Whether it has made a suggestion."""
+        return self._told > 0
 
     def go_on(self, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Iterator[Suggestion]:
         """Plan the next trial, and yield the suggestions that result."""

@@ -82,6 +82,11 @@ def _assume_grip_radius(values: Values, folds: Folds) -> str:
     return f"Assume that one grip holds the cloth within {in_cm(values['grip_radius_m'])} in {names}"
 
 
+def _assume_together(values: Values, folds: Folds) -> str:
+    first, *others = [FOLDS[part["code"]](part, folds) for part in values["parts"]]
+    return " and ".join((first, *(other[0].lower() + other[1:] for other in others)))
+
+
 FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "red_unheld": _red_unheld,
     "red_held_too_far": _red_held_too_far,
@@ -98,5 +103,6 @@ FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "assume_comfort": _assume_comfort,
     "assume_friction": _assume_friction,
     "assume_grip_radius": _assume_grip_radius,
+    "assume_together": _assume_together,
 }
 """Sentences about folds and changes by the message's code."""

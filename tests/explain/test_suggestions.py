@@ -9,12 +9,13 @@ import pytest
 from planner import FoldSequence, Garment, Scene, Task, find_plan, load_garment, make_plan
 from planner.errors import FoldError, RequestError
 from planner.explain.suggestion import Suggestion
-from planner.explain.suggestion_assumption import frictions, grip_radii
+from planner.explain.suggestion_assumption import comforts, frictions, grip_radii
 from planner.explain.suggestion_fold_line import chord, fold_lines, redrawn
 from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.explain.suggestion_map import placement_map
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_station import stations
+from planner.explain.suggestion_together import together
 from planner.explain.suggestion_trial import Search, Trial
 from planner.explain.suggestions import Suggestions, suggestions
 from planner.geometry.pose import Pose2
@@ -119,6 +120,30 @@ def test_the_grip_radius_that_is_suggested_is_the_least_in_whole_millimetres():
     for reasons in (known.reasons, ()):
         found = least_of(grip_radii(asked(ribbon), (0,), reasons))
         assert found.change["garment"]["folds"][0]["grip_radius_m"] == pytest.approx(0.025)
+
+
+def test_assumptions_that_are_enough_only_together_are_suggested_together_each_the_least():
+    # A ribbon that hangs over the table's edge, and whose corners are too near for two hands.
+    line = fold((0.3, 0.0), (0.3, 0.05), radius_m=0.01)
+    ribbon = garment(rectangle_points(1.2, 0.05), line, placement=Pose2(-0.6, 0.6, -math.pi / 2))
+    task = asked(ribbon, Scene(friction=0.0))
+    for alone in (comforts(task), frictions(task, ()), grip_radii(task, (0,), ())):
+        with pytest.raises(StopIteration):
+            least_of(alone)
+    found = least_of(together(task, (0,)))
+    assert found.is_assumption
+    assert found.change["scene"]["friction"] == pytest.approx(0.11)
+    assert found.change["garment"]["folds"][0]["grip_radius_m"] == pytest.approx(0.025)
+    assert "comfort_radius_m" not in found.change
+    assert found.message.startswith("Assume a friction coefficient of 0.11, not 0 and assume that one grip holds")
+    assert planned_with(found.change, ribbon, task.scene).is_solved
+
+
+def test_assumptions_of_which_one_is_enough_are_not_suggested_together():
+    line = fold((0.05, 0.15), (0.0, 0.15), radius_m=0.01)
+    ribbon = garment(rectangle_points(0.05, 0.3), line, placement=Pose2(-0.7, 0.21, -math.pi / 2))
+    with pytest.raises(StopIteration):
+        least_of(together(asked(ribbon), (0,)))
 
 
 def test_what_is_planned_already_is_not_planned_again():

@@ -113,7 +113,8 @@ const SAME_M = 0.01;
 const WORTH_S = 1;
 
 /** What is easily done, and leaves the cloth folded as it is drawn, comes first. */
-const EASE = ["placement", "order", "split", "fold_line", "halve", "station", "friction", "grip_radius", "comfort_radius"];
+const CHANGED = ["placement", "order", "split", "fold_line", "halve", "station"];
+const EASE = [...CHANGED, "friction", "grip_radius", "comfort_radius", "together"];
 
 /**
  * The order in which suggestions are offered: of each kind the smallest change first, then those that save more; what

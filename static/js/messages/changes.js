@@ -36,6 +36,8 @@ export const CHANGES = {
   assume_grip_radius: ({ grip_radius_m: radius, folds: wider }, folds) =>
     `assume that one grip holds the cloth within ${length(radius)} in ` +
     listed(wider.map((/** @type {number} */ index) => called(folds, index))),
+  assume_together: ({ parts }, folds) =>
+    parts.map((/** @type {Says} */ part) => CHANGES[part.code](part, folds)).join(" and "),
   make_blue: ({ fold }, folds) => `make ${called(folds, fold)} blue`,
   put_onto_cloth: ({ fold }, folds) => `put ${called(folds, fold)} onto the cloth`,
   put_onto_flap: ({ fold }, folds) => `put ${called(folds, fold)} onto the flap`,

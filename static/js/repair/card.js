@@ -19,6 +19,7 @@ const GROUP_OF = {
   friction: "assume",
   grip_radius: "assume",
   comfort_radius: "assume",
+  together: "assume",
 };
 
 /** @param {Suggestion} one */
