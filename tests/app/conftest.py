@@ -13,6 +13,9 @@ from app.settings import Settings
 
 OWN_URL = "http://127.0.0.1:8000"
 
+REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
+"""A shared client: `httpx.get` reads the system's certificates at each call, which takes longer than the call."""
+
 
 @pytest.fixture
 def anyio_backend() -> str:
@@ -55,7 +58,7 @@ class Served:
     @property
     def document(self) -> str:
         """The id of the document that the page shows first."""
-        return httpx.get(f"{self.url}/").headers["location"].rpartition("/")[2]
+        return REST.get(f"{self.url}/").headers["location"].rpartition("/")[2]
 
     @property
     def port(self) -> int:

@@ -13,7 +13,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from tests.app.conftest import Served
+from tests.app.conftest import REST, Served
 from tests.app.samples import towel
 
 SUBPROTOCOL = "viser-v1.1.1"
@@ -58,7 +58,7 @@ def test_the_first_document_is_the_t_shirt_planned(served: Served) -> None:
     assert shown.pop("is_stale") is False
     assert shown.pop("is_final") is True
     assert shown.pop("at_least_s") is None, "it is known to be the quickest"
-    assert httpx.get(f"{served.url}/api/plans/{shown['id']}").json() == shown
+    assert REST.get(f"{served.url}/api/plans/{shown['id']}").json() == shown
 
 
 def test_play_seek_speed_and_pause_are_obeyed(served: Served) -> None:
@@ -111,7 +111,7 @@ def test_another_garment_can_be_chosen_and_an_unknown_one_cannot(served: Served)
 
 @pytest.mark.parametrize("pace", ["", "/by-software"])
 def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served, pace: str) -> None:
-    answer = httpx.get(f"{served.url}{stage_path(served)}{pace}", follow_redirects=True)
+    answer = REST.get(f"{served.url}{stage_path(served)}{pace}", follow_redirects=True)
     assert answer.status_code == 200
     assert str(answer.url) == f"{served.url}{stage_path(served)}{pace}/"
     assert "text/html" in answer.headers["content-type"]
@@ -153,9 +153,9 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
     slow = {"garment": "shirt", "time_limit_s": 60, "comfort_radius_m": 0.06, "heuristic": "zero"}
     for _ in range(8):
         with pytest.raises(httpx.ReadTimeout):
-            httpx.post(f"{served.url}/api/plans", json=slow, timeout=0.05)
+            REST.post(f"{served.url}/api/plans", json=slow, timeout=0.05)
     start = time.monotonic()
-    answer = httpx.post(f"{served.url}/api/plans", json={"garment": towel(folds=many)}, timeout=PATIENCE_S)
+    answer = REST.post(f"{served.url}/api/plans", json={"garment": towel(folds=many)}, timeout=PATIENCE_S)
     assert answer.status_code == 200
     assert time.monotonic() - start < 10.0
 
@@ -171,7 +171,7 @@ def test_ctrl_c_ends_it_whatever_is_open(tmp_path: Path) -> None:
             until(page, "document")
             stage.recv(timeout=PATIENCE_S)
             with pytest.raises(httpx.ReadTimeout):
-                httpx.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
+                REST.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
             server.process.send_signal(signal.SIGINT)
             output, _ = server.process.communicate(timeout=PATIENCE_S)
         assert server.process.returncode == 0

@@ -5,9 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import httpx
-
-from tests.app.conftest import Served
+from tests.app.conftest import REST, Served
 
 
 def serve(data: Path) -> subprocess.CompletedProcess[str]:
@@ -25,7 +23,7 @@ def test_a_second_server_on_a_folder_says_who_has_it_and_ends_until_the_first_is
         assert "Traceback" not in second.stderr
         for word in (first.url, str(first.process.pid), str(tmp_path)):
             assert word in second.stderr.replace("\n", "")
-        assert httpx.get(f"{first.url}/api/health").json()["status"] == "ok"
+        assert REST.get(f"{first.url}/api/health").json()["status"] == "ok"
     finally:
         first.stop()
     third = Served(tmp_path)

@@ -4,12 +4,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import httpx
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import PATIENCE_MS, Sheet
+from tests.browser.conftest import PATIENCE_MS, REST, Sheet
 
 
 class Desk(Sheet):
@@ -17,13 +16,13 @@ class Desk(Sheet):
 
     def __init__(self, page: Page, server: Served) -> None:
         """Create a document on a blank board."""
-        made = httpx.post(f"{server.url}/api/documents", json={}).raise_for_status()
+        made = REST.post(f"{server.url}/api/documents", json={}).raise_for_status()
         super().__init__(server.url, made.json()["id"])
         self.page = page
 
     def garment(self, name: str) -> dict[str, Any]:
         """Return a garment's file."""
-        found: dict[str, Any] = httpx.get(self.page_url.partition("/d/")[0] + f"/api/garments/{name}").json()
+        found: dict[str, Any] = REST.get(self.page_url.partition("/d/")[0] + f"/api/garments/{name}").json()
         return found
 
     def lay(self, garment: dict[str, Any]) -> None:
@@ -36,7 +35,7 @@ class Desk(Sheet):
         hand.tool("Draw outline")  # it shows the cloth spread out
         for garment_or_nothing in ({"name": "nothing", "outline": [[0, 0], [1, 0], [0, 1]]}, garment):
             body = {"garment": garment_or_nothing, "label": "Begin"}
-            httpx.put(f"{self.path}/garment", json=body).raise_for_status()
+            REST.put(f"{self.path}/garment", json=body).raise_for_status()
         expect_step(page, "Begin")
         expect(page.locator(".corner")).to_have_count(len(garment["outline"]))
         expect(page.locator(".fold-focus")).to_have_count(len(garment["folds"]))

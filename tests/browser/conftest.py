@@ -2,14 +2,13 @@
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, Playwright, expect, sync_playwright
 
-from tests.app.conftest import Served
+from tests.app.conftest import REST, Served
 from tests.app.conftest import served as served
 from tests.browser.status_pill import expect_planned
 
@@ -31,30 +30,57 @@ IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
 
 Garment = str | dict[str, Any] | None
 
-REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
-"""A shared client: `httpx.get` reads the system's certificates at each call, which takes longer than the call."""
+
+class Browsers:
+    """Browsers that stay open from one module to the next: to start one takes as long as several tests."""
+
+    def __init__(self) -> None:
+        self._open = ExitStack()
+        self._playwright: Playwright | None = None
+        self._by_flags: dict[tuple[str, ...], Browser] = {}
+
+    def opened(self, path: str | None, flags: list[str]) -> Browser:
+        """Return the browser with these flags; start it, and Playwright, where that is not done."""
+        if self._playwright is None:
+            self._playwright = self._open.enter_context(sync_playwright())
+        key = tuple(flags)
+        if key not in self._by_flags or not self._by_flags[key].is_connected():
+            self._by_flags[key] = self._playwright.chromium.launch(executable_path=path, args=flags)
+        return self._by_flags[key]
+
+    def close(self) -> None:
+        """Close them all: a process can have only one Playwright, and no other event loop can run beside it."""
+        self._open.close()
+        self._playwright = None
+        self._by_flags.clear()
+
+
+BROWSERS = Browsers()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Iterator[None]:
+    """Close the browsers after a module, unless the next one begins with a test in one of them."""
+    yield
+    if nextitem is None or (nextitem.path != item.path and not {"chromium", "browser"} & set(_fixtures_of(nextitem))):
+        BROWSERS.close()
+
+
+def _fixtures_of(item: pytest.Item) -> list[str]:
+    """Return the names of the fixtures that a test asks for, itself or through others."""
+    names: list[str] = getattr(item, "fixturenames", [])
+    return names
 
 
 @pytest.fixture(scope="module")
-def playwright() -> Iterator[Playwright]:
-    """Start Playwright: a process can have only one, and no other event loop can run beside it."""
-    with sync_playwright() as started:
-        yield started
+def chromium(chromium_path: str | None) -> Browser:
+    return BROWSERS.opened(chromium_path, FLAT)
 
 
 @pytest.fixture(scope="module")
-def chromium(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    opened = playwright.chromium.launch(executable_path=chromium_path, args=FLAT)
-    yield opened
-    opened.close()
-
-
-@pytest.fixture(scope="module")
-def browser(playwright: Playwright, chromium_path: str | None) -> Iterator[Browser]:
-    """Start a browser that can draw in three dimensions."""
-    opened = playwright.chromium.launch(executable_path=chromium_path, args=BY_SOFTWARE)
-    yield opened
-    opened.close()
+def browser(chromium_path: str | None) -> Browser:
+    """Return a browser that can draw in three dimensions."""
+    return BROWSERS.opened(chromium_path, BY_SOFTWARE)
 
 
 @pytest.fixture(scope="module")

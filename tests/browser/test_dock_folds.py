@@ -3,11 +3,10 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
-from tests.browser.conftest import Garment, Sheet, windows
+from tests.browser.conftest import REST, Garment, Sheet, windows
 from tests.browser.napkin import napkin
 
 NAPKIN = ["left", "right", "half"]
@@ -35,7 +34,7 @@ def sheet(opened: tuple[Page, Sheet]) -> Sheet:
     """Reset the napkin, with nothing selected."""
     page, sheet = opened
     title = f"Napkin {sheet.state['version']}"  # another one, or it would be no step
-    httpx.put(f"{sheet.path}/garment", json={"garment": napkin(title=title), "label": OPENED}).raise_for_status()
+    REST.put(f"{sheet.path}/garment", json={"garment": napkin(title=title), "label": OPENED}).raise_for_status()
     expect_order(page, NAPKIN)
     for selected in page.locator(".fold-row.is-selected .fold-name").all():
         selected.click()

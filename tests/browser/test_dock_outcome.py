@@ -5,13 +5,12 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.app.conftest import Served
 from tests.app.samples import towel
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.conftest import REST, Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import cost_s, expect_planned
@@ -270,7 +269,7 @@ def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: 
 def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, stuck: Sheet) -> None:
     drawing = stuck.drawing
     folds = [*drawing["folds"], {**drawing["folds"][0], "id": "f9", "name": "again"}]
-    wanted = httpx.get(stuck.path).json()["garment"]["folds"][0]
+    wanted = REST.get(stuck.path).json()["garment"]["folds"][0]
     shifted = {**wanted, "name": "again", "start": [0.4, 0.2], "end": [0.0, 0.2], "grip_radius_m": 0.3}
     changed = page.evaluate(
         """async ([drawing, folds]) => {

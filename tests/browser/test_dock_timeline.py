@@ -4,12 +4,11 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import Garment, Sheet, windows
+from tests.browser.conftest import REST, Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
@@ -24,7 +23,7 @@ def planned(
         page = context.new_page()
         page.goto(sheet.page_url)
         expect_planned(page)
-        answer = httpx.post(f"{designer.url}/api/plans", json={"garment": napkin(), "time_limit_s": 60}, timeout=90.0)
+        answer = REST.post(f"{designer.url}/api/plans", json={"garment": napkin(), "time_limit_s": 60}, timeout=90.0)
         primitives = answer.json()["primitives"]
         last = primitives[-1]
         yield page, [one["start_s"] for one in primitives] + [last["start_s"] + last["duration_s"]]

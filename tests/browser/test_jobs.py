@@ -3,7 +3,7 @@
 import httpx
 from playwright.sync_api import Page, expect
 
-from tests.app.conftest import Served
+from tests.app.conftest import REST, Served
 
 QUICK = {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 20.0}
 LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
@@ -25,4 +25,4 @@ def test_jobs_are_listed_cancelled_by_keyboard_and_lead_to_their_results(page: P
     expect(rows.nth(1).get_by_role("link")).to_have_attribute("href", f"..{done}")
     rows.nth(0).get_by_role("button", name="Cancel").press("Enter")
     expect(rows.nth(0).get_by_role("status")).to_have_text("Cancelled")
-    assert httpx.get(f"{served.url}{running}").json()["status"] == "cancelled"
+    assert REST.get(f"{served.url}{running}").json()["status"] == "cancelled"

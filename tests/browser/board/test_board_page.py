@@ -5,13 +5,12 @@ import zlib
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.conftest import REST, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 
 
@@ -192,12 +191,12 @@ def test_a_garment_opened_elsewhere_is_seen_whole_and_what_is_pulled_elsewhere_m
 ) -> None:
     before = scale(page)
     shirt = towel.garment("t-shirt")
-    httpx.put(f"{towel.path}/garment", json={"garment": shirt, "label": "Begin"}).raise_for_status()
+    REST.put(f"{towel.path}/garment", json={"garment": shirt, "label": "Begin"}).raise_for_status()
     expect(page.locator(".corner")).to_have_count(len(shirt["outline"]))
     expect(page.get_by_role("application", name="Drafting board")).not_to_have_attribute("data-px-per-m", str(before))
     assert is_all_seen(page, shirt)
     fitted, wide = scale(page), {**shirt, "outline": [[2 * x, 2 * y] for x, y in shirt["outline"]], "folds": []}
-    httpx.put(f"{towel.path}/garment", json={"garment": wide, "label": "Widen"}).raise_for_status()
+    REST.put(f"{towel.path}/garment", json={"garment": wide, "label": "Widen"}).raise_for_status()
     expect_step(page, "Widen")
     page.evaluate("new Promise(requestAnimationFrame)")
     assert scale(page) == fitted
