@@ -6,7 +6,6 @@ from pathlib import PurePath
 from typing import Any
 
 from app.files.crease_reading import Creases
-from app.files.dxf_sketch import read_dxf
 from app.files.garment_json import read_garment_json
 from app.files.import_errors import ImportedFileError
 from app.files.sketch import Sketch
@@ -29,7 +28,15 @@ LARGEST_PLAN_FILE = 8 << 20
 SCALES = (1e-3, 1e3)
 """Range of the scale."""
 
-_SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": read_dxf}
+
+def _read_dxf(data: bytes) -> Sketch:
+    """Return the drawing in a DXF file."""
+    from app.files.dxf_sketch import read_dxf  # here, because this import takes a third of a second
+
+    return read_dxf(data)
+
+
+_SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": _read_dxf}
 _JSON = "json"
 _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from scipy.stats import beta
+from scipy.special import betaincinv
 
 from app.rehearsal.judge import StepVerdict
 
@@ -105,6 +105,6 @@ class RehearsalResult:
 def success_bounds(held: int, of: int) -> tuple[float, float]:
     """Return the 95 % confidence bounds of a rate of success by Clopper and Pearson, which never promise too much."""
     tail = (1.0 - _CONFIDENCE) / 2.0
-    low = 0.0 if held == 0 else float(beta.ppf(tail, held, of - held + 1))
-    high = 1.0 if held == of else float(beta.ppf(1.0 - tail, held + 1, of - held))
+    low = 0.0 if held == 0 else float(betaincinv(held, of - held + 1, tail))
+    high = 1.0 if held == of else float(betaincinv(held + 1, of - held, 1.0 - tail))
     return low, high
