@@ -38,7 +38,16 @@ PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment
 
 
 Kind = Literal[
-    "placement", "fold_line", "split", "halve", "order", "station", "friction", "grip_radius", "comfort_radius", "together"
+    "placement",
+    "fold_line",
+    "split",
+    "halve",
+    "order",
+    "station",
+    "friction",
+    "grip_radius",
+    "comfort_radius",
+    "together",
 ]
 
 
