@@ -8,6 +8,7 @@ import html
 import re
 
 from app.jobs.job_pool import ShouldStop
+from app.step_words import step_words
 from app.ui.stage import Stage
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
@@ -37,7 +38,7 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
     Raises:
         UnsolvedPlanError: the plan is not solved, so there is nothing to play.
     """
-    timeline = Timeline.of(plan)
+    timeline, captions = Timeline.of(plan), _captions(plan)
     stage = Stage(load_robot(plan.task.robot).card, plan.scene)
     try:
         stage.set_theme(is_dark=is_dark)
@@ -50,6 +51,7 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
                 return b""
             recorder.insert_sleep(frame.t_s - before_s)
             stage.show(frame)
+            stage.caption(captions[frame.primitive])
             before_s = frame.t_s
         recorder.insert_sleep(HOLD_S)
         page = recorder.as_html(dark_mode=is_dark)
@@ -57,3 +59,10 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         stage.close()
     title = f"<title>{html.escape(plan.garment.title)} - Pleat</title>"
     return _TITLE.sub(lambda _: title, page, count=1).encode("utf-8", "replace")
+
+
+def _captions(plan: Plan) -> list[str]:
+    """Return what is to be read during each step."""
+    count = len(plan.steps)
+    words = [": ".join(part for part in (step.kind, step_words(step, plan.garment)) if part) for step in plan.steps]
+    return [f"{number} of {count}, {text}" for number, text in enumerate(words, 1)]

@@ -18,6 +18,7 @@ from app.ui.fold_view import FoldView
 from app.ui.grip_view import GripView
 from app.ui.lighting import add_lights
 from app.ui.opening import opening
+from app.ui.robot_box import waiting_box
 from app.ui.robot_view import RobotView
 from app.ui.table_view import TableView
 from app.ui.viewpoint import Viewpoint
@@ -61,6 +62,7 @@ class Stage:
             self._folds = FoldView(self._server)
             self._bring_robot()
         self._palette = LIGHT
+        self._caption: viser.LabelHandle | None = None
         self._steps: tuple[PlanStep, ...] = ()
         self._marked: PlanStep | None = None
         self._lock = threading.Lock()
@@ -157,6 +159,16 @@ class Stage:
             if self._steps:
                 self._show_step(frame)
         self._server.flush()
+
+    def caption(self, text: str) -> None:
+        """Show a line of text over the table, as high as the waiting robot; an empty one shows none."""
+        if self._caption is None:
+            height_m = float(waiting_box(self.card, self.scene.torso_m)[1, 2]) - self.scene.table.height_m
+            self._caption = self._server.scene.add_label(
+                "/caption", text, position=(0.0, 0.0, height_m), font_screen_scale=1.4, anchor="center-center"
+            )
+        self._caption.text = text
+        self._caption.visible = bool(text)
 
     def record(self) -> StateSerializer:
         """Return a recording of what is shown now and of all later changes; the caller inserts pauses."""

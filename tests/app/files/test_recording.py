@@ -52,6 +52,20 @@ def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]):
     assert "SetCameraPositionMessage" in kinds
 
 
+def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[str, Any]):
+    told = [
+        (t_s, text)
+        for t_s, message in film["messages"]
+        if message.get("name") == "/caption"
+        for text in [message.get("props", message.get("updates", {})).get("text")]
+        if text is not None
+    ]
+    assert [text.split(" of ")[0] for _, text in told if text] == [str(n) for n in range(1, len(plan.steps) + 1)]
+    for (t_s, text), step in zip(told, plan.steps, strict=True):
+        assert step.start_s <= t_s <= step.start_s + 0.5
+        assert step.kind in text
+
+
 def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str):
     assert "<title>Hand towel - Pleat</title>" in page
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="(?!data:)', page)
