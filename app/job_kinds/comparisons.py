@@ -14,7 +14,7 @@ from planner.cloth.garment import Garment
 from planner.errors import RequestError
 from planner.robots.known_robots import require_name, robot_names
 from planner.strict_model import StrictModel
-from planner.task.task import Limits
+from planner.task.task import DEFAULT_ROBOT, Limits
 
 _ROBOTS_MAX = 32
 
@@ -66,7 +66,7 @@ COMPARISONS = JobKind(
     name="comparisons",
     does="Plan a garment for several robots: who can fold it, how quickly, and what it would take otherwise, as a job.",
     body=ComparisonRequest,
-    example={"garment": "hand-towel", "robots": ["pr2"], "time_limit_s": 2.0},
+    example={"garment": "hand-towel", "robots": [DEFAULT_ROBOT], "time_limit_s": 2.0},
     prepare=_prepare,
     work=compare,
     finish=as_it_is,
