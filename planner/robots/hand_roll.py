@@ -49,20 +49,20 @@ def roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> fl
     across = np.cross(wanted, ahead)
     cosine = wanted[0] * ahead[0] + wanted[1] * ahead[1] + wanted[2] * ahead[2]
     tilted = closing + np.cross(across, closing) + np.cross(across, np.cross(across, closing)) / max(1.0 + cosine, 1e-9)
-    roll = _angle(frame, tilted)
+    roll = roll_between(frame, tilted)
     level = math.hypot(wanted[0], wanted[1])
     if with_heading and level > 1e-9:
         turn = math.atan2(ahead[1], ahead[0]) - math.atan2(wanted[1], wanted[0])
         c, s = math.cos(turn), math.sin(turn)
         turned = np.array([c * closing[0] - s * closing[1], s * closing[0] + c * closing[1], closing[2]])
-        more = _angle(frame, turned) - roll
+        more = roll_between(frame, turned) - roll
         more -= math.tau * math.floor(more / math.tau + 0.5)
         roll += min(1.0, _BLENDED * level) * more
     return roll
 
 
 @njit(cache=True, nogil=True)
-def _angle(frame: FloatArray, closing: FloatArray) -> float:
+def roll_between(frame: FloatArray, closing: FloatArray) -> float:
     """Return the angle from a frame's y axis to a direction, about its x axis (rad)."""
     along = frame[0, 1] * closing[0] + frame[1, 1] * closing[1] + frame[2, 1] * closing[2]
     aside = frame[0, 2] * closing[0] + frame[1, 2] * closing[1] + frame[2, 2] * closing[2]

@@ -12,7 +12,8 @@ from planner.robots.newton import solve_from
 from planner.robots.posture_following import followed
 from planner.robots.posture_map import PostureMap, reachable_poses
 from planner.robots.posture_maps import Progress, posture_map
-from planner.robots.posture_samples import posture_samples
+from planner.robots.posture_samples import axis_samples, posture_samples
+from planner.robots.rolled_samples import gives_roll_alone, rolled_samples, unrolled
 from planner.robots.sample_memory import SampleMemory
 
 _PITCHES_DEG = (15, 30, 45, 60, 75)
@@ -51,7 +52,9 @@ class MappedArm:
         self._known = known
         is_wide = arm.chain.turns & (arm.chain.high - arm.chain.low >= _WIDE_RAD)
         self.periods: FloatArray = np.where(arm.is_endless | is_wide, math.tau, 0.0)
-        self._memory = SampleMemory(partial(posture_samples, self._chain, self._known, self.periods))
+        self._gives_roll_alone = gives_roll_alone(arm.chain)
+        sampled = axis_samples if self._gives_roll_alone else posture_samples
+        self._memory = SampleMemory(partial(sampled, self._chain, self._known, self.periods))
 
     @property
     def chain(self) -> Chain:
@@ -130,7 +133,12 @@ class MappedArm:
         """Return samples of the joints at each tool pose, shape (n, m, joints), and their costs; see `PathArm`."""
         shoulder = self.shoulder(torso_m)
         points, axes = np.ascontiguousarray(positions - shoulder), np.ascontiguousarray(rotations)
-        return self._memory.samples(points, axes, floor_m - float(shoulder[2]))
+        floor = floor_m - float(shoulder[2])
+        if not self._gives_roll_alone:
+            return self._memory.samples(points, axes, floor)
+        of_axes = self._memory.samples(points, unrolled(axes), floor)
+        found: tuple[FloatArray, FloatArray] = rolled_samples(self._chain, self.periods, axes, *of_axes)
+        return found
 
     def forget_samples(self) -> None:
         """Drop the samples that searches have left, so that benchmarks measure their computation."""
