@@ -13,6 +13,7 @@ from app.jobs.apart import Tell
 from app.jobs.job_kind import Progress
 from app.store.storage_error import storing
 from planner import make_plan
+from planner.cloth.garment import Garment
 from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
@@ -116,9 +117,10 @@ def read_file(
     scale: float,
     creases: Creases | None,
     measured: str | None,
+    like: str | Garment | None,
 ) -> Imported:
     """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases, measured)
+    return import_file(filename, data, units, scale, creases, measured, like)
 
 
 def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:

@@ -11,7 +11,7 @@ from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import GarmentAnswer, Says
-from app.api.asked import workspace_of
+from app.api.asked import HasGarments, workspace_of
 from app.api.body import read_bytes
 from app.api.described import problems
 from app.api.problems import ProblemResponse
@@ -20,11 +20,14 @@ from app.document_state import DocumentState
 from app.files.crease_reading import Creases
 from app.files.export import Export, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
-from app.files.import_errors import UnitsNeededError
+from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
+from app.templates.catalogue import find_template
+from planner.cloth.garment import Garment
+from planner.errors import UnknownGarmentError
 
 router = APIRouter(prefix="/api", tags=["files"])
 
@@ -47,6 +50,14 @@ Measured = Annotated[
         max_length=60,
         description="what gives the scale of a picture: a4, letter, marker:50mm, or a length of the garment, as "
         "0.60m:longest, 24in:width, 70cm:height; without it a sheet of A4 or Letter is looked for",
+    ),
+]
+LikeName = Annotated[
+    str | None,
+    Query(
+        max_length=80,
+        description="what the garment in a picture is like, by the name of a template or a garment: its measures are "
+        "fitted, and its folds come along",
     ),
 ]
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
@@ -95,6 +106,7 @@ async def post_import(
     scale: Scale = 1.0,
     creases: Lines = None,
     measured: Measured = None,
+    like: LikeName = None,
 ) -> Response:
     """Import a garment from a file in the body: a garment or plan file, SVG, DXF, PNG or JPEG, by its name's ending.
 
@@ -105,8 +117,9 @@ async def post_import(
     folded, on which more of them are legal. If nothing in a picture gives its scale, the problem is about the field
     `measured`.
     """
+    known = None if like is None else await run_in_threadpool(_liked, workspace_of(request), like)
     data = await read_bytes(request, largest(filename))
-    work = partial(_read, filename, data, units, scale, creases, measured)
+    work = partial(_read, filename, data, units, scale, creases, measured, known)
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
@@ -153,9 +166,20 @@ def _read(
     scale: float,
     creases: Creases | None,
     measured: str | None,
+    like: str | Garment | None,
     should_stop: ShouldStop,
 ) -> Imported:
-    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases, measured)
+    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases, measured, like)
+
+
+def _liked(within: HasGarments, name: str) -> str | Garment:
+    """Return the name of a template, or a garment; raise `ImportedFileError` if there is neither."""
+    if find_template(name) is not None:
+        return name
+    try:
+        return within.garments.garment(name)
+    except UnknownGarmentError:
+        raise ImportedFileError("like", f"there is no template and no garment {name!r}") from None
 
 
 def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:

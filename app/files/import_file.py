@@ -12,6 +12,7 @@ from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
 from app.files.sketch_size import UNITS_M, Sizes
 from app.files.svg_sketch import read_svg
+from app.templates.catalogue import find_template
 from app.vision.picture import LARGEST_PICTURE
 from app.vision.seen_garment import see
 from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
@@ -76,6 +77,7 @@ def import_file(
     scale: float = 1.0,
     creases: Creases | None = None,
     measured: str | None = None,
+    like: str | Garment | None = None,
 ) -> Imported:
     """Return the garment in a file.
 
@@ -86,10 +88,12 @@ def import_file(
         scale: the factor by which to enlarge everything.
         creases: the cloth on which the drawing's fold lines are; None for the reading that makes more of them legal.
         measured: what gives the scale of a picture, as `app.vision.scale_said` reads it; None to look for a sheet.
+        like: the template, by name, or the garment whose measures are fitted to a picture and whose folds come along;
+            None to take the outline as it is seen.
 
     Raises:
-        ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale`` or
-            ``measured``.
+        ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale``,
+            ``measured`` or ``like``.
         UnitsNeededError: the drawing's unit is unknown, or the one in the file is impossible.
         GarmentError: the garment is invalid; the field is that of a garment file.
         RequestError: the file claims to be a plan but is invalid; the field is that of a plan file.
@@ -103,7 +107,7 @@ def import_file(
     if ending == _JSON:
         return Imported(_JSON, *read_garment_json(data))
     if ending in _PICTURES:
-        return _picture(_PICTURES[ending], path.stem, data, measured)
+        return _picture(_PICTURES[ending], path.stem, data, measured, like)
     if ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES, *_PICTURES))
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
@@ -115,10 +119,13 @@ def _ending(filename: str) -> str:
     return PurePath(filename.replace("\\", "/")).suffix[1:].lower()
 
 
-def _picture(kind: str, name: str, data: bytes, measured: str | None) -> Imported:
+def _picture(kind: str, name: str, data: bytes, measured: str | None, like: str | Garment | None) -> Imported:
     """Return the garment in a picture."""
+    known = find_template(like) if isinstance(like, str) else like
+    if like is not None and known is None:
+        raise ImportedFileError("like", f"there is no template {like!r}")
     try:
-        found = see(data, name, measured)
+        found = see(data, name, measured, known)
     except PictureError as error:
         field = "measured" if error.field == "scale" else error.field
         raise ImportedFileError(field, error.says or error.message) from None

@@ -6,6 +6,7 @@ import { button, element } from "../dom.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
+import { likeness } from "./likeness.js";
 import { picture } from "./picture.js";
 import { takeRobot } from "./take_robot.js";
 
@@ -75,7 +76,7 @@ function ask(store, body, problem = "") {
 
 /**
  * What is to be said beside the file to read it; without it the file says so itself.
- * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string}} How
+ * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string, like?: string}} How
  */
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
@@ -88,7 +89,7 @@ async function read(store, body, file, how) {
     return;
   }
   const query = new URLSearchParams({ filename: file.name });
-  for (const [name, value] of Object.entries(how)) query.set(name, String(value));
+  for (const [name, value] of Object.entries(how)) if (value !== undefined) query.set(name, String(value));
   const answer = await fetch(`../api/imports?${query}`, { method: "POST", body: file }).catch(() => null);
   const told = answer ? await answer.json() : null;
   if (answer?.ok) found(store, body, file, how, told);
@@ -188,7 +189,7 @@ function scaledTo(width_m, sizes, scale) {
  * @param {How} how
  * @param {Imported} imported
  */
-function found(store, body, file, how, { garment, notes, says, creases, sizes }) {
+function found(store, body, file, how, { garment, notes, says, creases, sizes, seen }) {
   const said = element("p", "dialog-problem");
   const here = button("main-button", () => open(store, body, file, garment), "Open here");
   const anew = button("plain-button", () => create(garment, said), "As a new document");
@@ -208,6 +209,7 @@ function found(store, body, file, how, { garment, notes, says, creases, sizes })
         element("ul", "notes", ...notes.map((message, n) => note({ says: says[n], message }, garment.folds))),
       ),
     ),
+    ...(seen ? [likeness(how.like, (like) => read(store, body, file, { ...how, like }))] : []),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
     ...replaces(store),
     said,

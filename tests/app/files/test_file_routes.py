@@ -92,6 +92,7 @@ async def test_without_units_the_problem_says_how_large_it_would_be(client: http
         ({}, "filename"),
         ({"filename": "towel.gif"}, "filename"),
         ({"filename": "towel.png"}, "file"),
+        ({"filename": "towel.png", "like": "a-tent"}, "like"),
         ({"filename": "towel.jpg", "measured": "wide"}, "measured"),
         ({"filename": "towel"}, "filename"),
         ({"filename": ""}, "filename"),

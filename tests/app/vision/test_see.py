@@ -1,6 +1,7 @@
 import struct
 
 import cv2
+import httpx
 import numpy as np
 import pytest
 
@@ -154,3 +155,15 @@ def test_a_jpeg_is_turned_upright_as_its_exif_says():
     turned = JPEG[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + JPEG[2:]
     assert read_picture(JPEG).shape[:2] == (200, 300)
     assert read_picture(turned).shape[:2] == (300, 200)
+
+
+@pytest.mark.anyio
+async def test_a_picture_that_is_imported_may_be_like_a_template_or_a_garment(
+    shirt_photo: Photo, client: httpx.AsyncClient
+) -> None:
+    for like in ("t-shirt", "big-towel"):
+        query = {"filename": "mine.jpg", "like": like}
+        answer = await client.post("/api/imports", params=query, content=shirt_photo.jpeg)
+        assert answer.status_code == 200, answer.text
+        folds = answer.json()["garment"]["folds"]
+        assert [fold["name"] for fold in folds] == [fold.name for fold in load_garment(like).folds]
