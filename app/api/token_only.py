@@ -1,4 +1,4 @@
-"""Refusal of whoever does not know the server's token.
+"""Refusal of requests without the server's token.
 
 Programs send it as `Authorization: Bearer TOKEN`. A person opens a page with `?token=TOKEN` once: the answer leads to
 the same page without it, and gives the browser a cookie that no script can read and no other site can use.
@@ -26,7 +26,7 @@ _DETAIL = "This server asks for its token: `Authorization: Bearer TOKEN`, or ope
 
 
 class TokenOnly:
-    """Middleware that lets in those who know the token, to HTTP and websockets alike."""
+    """Middleware that admits only requests with the token, for HTTP and websockets alike."""
 
     def __init__(self, app: ASGIApp, token: AccessToken, port: int) -> None:
         """Ask for this token; browsers send cookies to all ports of a host, so the cookie is named for the port."""

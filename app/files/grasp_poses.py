@@ -1,4 +1,4 @@
-"""The poses of a plan's grips, for robots that find their own way from pose to pose.
+"""The poses of a plan's grips, for robots that plan their own motions.
 
 In each step, a hand has up to five poses: before the grasp, the grasp, the highest on the cloth's way, the place where
 that ends, and after the retreat. Each is given in the frame of the robot's base, as that stands at this moment (it may

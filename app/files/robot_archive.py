@@ -1,7 +1,7 @@
-"""Robots from zip archives: `robot.json` with its URDF and meshes, at the top or in the one folder at the top.
+"""Unpack robots from zip archives: `robot.json` with its URDF and meshes, at the top level or in its only folder.
 
-Everything is refused before anything is unpacked: the archive's directory says how many files there are and how large
-they get, and no more than it says is ever read.
+The archive's directory is checked before anything is unpacked: the number, sizes and paths of its files. No more is
+read than it declares.
 """
 
 import io

@@ -1,4 +1,4 @@
-"""Makes a document's state from a garment or a plan that no document holds, for export."""
+"""Makes a document's state from a garment or a plan without a document, for export."""
 
 from dataclasses import replace
 

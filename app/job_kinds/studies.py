@@ -29,7 +29,7 @@ STUDY_FILES = {
 
 @dataclass(frozen=True, slots=True)
 class StudyRequest:
-    """A study as its file has it (docs/studies.md), in JSON; garments are named or drawn, no files are read."""
+    """A study in JSON, with its file's fields (docs/studies.md); garments are named or drawn, not read from files."""
 
     __pydantic_config__ = STRICT
 

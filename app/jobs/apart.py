@@ -1,4 +1,4 @@
-"""Runs one piece of work in a process of its own, and kills it when nobody needs the answer any more.
+"""Runs one piece of work in a process of its own, and kills it when its answer is no longer needed.
 
 Threads share one interpreter: two searches at once take half as long again in total, and everything else waits for
 them. Processes do not, and can be ended at any point, even inside a library; their memory is freed then. A template

@@ -1,4 +1,4 @@
-"""A world with errors of robot and camera: what is asked for is done a little elsewhere, or not at all."""
+"""A world with errors of robot and camera: motions end a little elsewhere, or fail."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""A world that was recorded: what was seen, said and true after each step, played again."""
+"""A recorded world: replays the observation, the report and the truth of each step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class Recorded:
 
 
 class ReplayWorld:
-    """Plays the record of one step for each step performed, whatever is asked for."""
+    """Replays the record of one step for each step performed, regardless of its motion."""
 
     def __init__(self, before: Observation, steps: Sequence[Recorded]) -> None:
         """Begin with what was seen before the first step."""

@@ -1,4 +1,4 @@
-"""The port behind which cells are planned: in this process, in a pool of processes, or on a cluster."""
+"""The protocol of workers that plan a study's cells: in this process, in a pool of processes, or on a cluster."""
 
 from collections.abc import Generator, Iterable
 from functools import cache
@@ -9,7 +9,7 @@ from app.studies.cell import Cell
 
 
 class Workers(Protocol):
-    """Whatever plans the cells of a study."""
+    """Workers that plan the cells of a study."""
 
     def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         """Yield the answers to cells as they come, in any order; take cells only as they are needed.

@@ -1,4 +1,4 @@
-"""Errors of a picture that shows no garment that could be told."""
+"""Errors of pictures in which no garment can be recognised."""
 
 from planner.errors import FieldError, FoldingError
 from planner.message import Message
@@ -12,7 +12,7 @@ class PictureError(FieldError):
 
 
 class NothingToldError(FoldingError):
-    """The picture is good, but what it shows cannot be told.
+    """The picture is readable, but shows nothing that can be recognised.
 
     Attributes:
         says: why, as data.

@@ -35,7 +35,7 @@ _BESIDE_M = ((0.6, 0.2, 0.9), (0.6, -0.2, 0.9))
 
 
 class _InTheWay:
-    """Arms that never pass each other, though each pose seems to leave room."""
+    """A stand-in for collisions in which two arms never pass each other, although each posture is free by itself."""
 
     def arms_apart(self, _arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         """Return that the arms are apart at no joint values."""

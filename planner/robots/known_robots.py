@@ -1,4 +1,4 @@
-"""The robots that can be named: those that are shipped, then those of one's own."""
+"""The names of robots: the shipped ones, then the user's own."""
 
 from contextlib import suppress
 from pathlib import Path

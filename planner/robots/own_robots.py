@@ -1,4 +1,4 @@
-"""Robots of one's own: folders by name below one folder, each with its card and whatever the card names.
+"""The user's own robots: a folder for each, by name, with its card and the files that the card names.
 
 It is `robots` in Pleat's data folder: that of the server, or of `PLEAT_DATA`, or the user's. Work that a server does
 in other processes is told which (`app.jobs.apart`).

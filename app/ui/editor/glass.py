@@ -1,4 +1,4 @@
-"""The glass that catches the pointer while a visitor draws: a box round everything, too far away to be seen.
+"""The glass: an invisible box round the scene that catches the pointer while a visitor draws.
 
 viser's camera stays where it is while a node is dragged. With the box every point of the picture belongs to a node, so
 no gesture with the left button can turn the camera. The box lies beyond what the camera sees, and so does the arrow
