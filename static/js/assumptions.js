@@ -4,6 +4,8 @@
  */
 
 import { button, element } from "./dom.js";
+import { inEnglish, say } from "./language/say.js";
+import { short } from "./messages/changes.js";
 import { length } from "./messages/lengths.js";
 import { present } from "./present.js";
 
@@ -14,7 +16,8 @@ export const USUAL = { friction: 1, comfort_m: 0.03, grip_radius_m: 0.127 };
 
 const SAME = 1e-9;
 
-/** @typedef {{kind: string, text: string, off: (drawing: Drawing) => void}} Assumption */
+/** @typedef {[import("./language/say.js").Key, Record<string, string>]} Words */
+/** @typedef {{kind: string, words: Words, off: (drawing: Drawing) => void}} Assumption */
 
 /** @param {Drawing} drawing @returns {Assumption[]} */
 export function assumptions(drawing) {
@@ -25,17 +28,17 @@ export function assumptions(drawing) {
   const all = [
     wide.length > 0 && {
       kind: "grip_radius",
-      text: `grip ${length(widest)}`,
+      words: ["assumption.grip", { radius: length(widest) }],
       off: narrow,
     },
     scene.friction > USUAL.friction + SAME && {
       kind: "friction",
-      text: `friction ${Number(scene.friction.toPrecision(3))}`,
+      words: ["assumption.friction", { friction: short(scene.friction) }],
       off: (changed) => void (changed.scene.friction = USUAL.friction),
     },
     comfort < USUAL.comfort_m - SAME && {
       kind: "comfort_radius",
-      text: `comfort ${length(comfort)}`,
+      words: ["assumption.comfort", { radius: length(comfort) }],
       off: (changed) => void (changed.comfort_radius_m = USUAL.comfort_m),
     },
   ];
@@ -65,8 +68,8 @@ function narrow(drawing) {
 /** A mark of an assumption, pressed to take it off. @param {string} text @param {() => void} onClick */
 export function assumptionChip(text, onClick) {
   const made = button("chip assumed", onClick, text, element("span", "assumed-off", "\u2715"));
-  made.setAttribute("aria-label", `Assumed: ${text}. Take it off`);
-  made.title = `Assumed: ${text}. Click to take it off.`;
+  made.setAttribute("aria-label", say("assumption.label", { what: text }));
+  made.title = say("assumption.hint", { what: text });
   return made;
 }
 
@@ -75,12 +78,15 @@ export function mountAssumptions(store, root) {
   let shown = "";
   const show = () => {
     const found = store.state ? assumptions(store.state.drawing) : [];
-    const wanted = found.map(({ kind, text }) => `${kind} ${text}`).join();
+    const wanted = found.map(({ words }) => say(...words)).join();
     if (wanted === shown) return;
     shown = wanted;
     root.hidden = !found.length;
     root.replaceChildren(
-      ...found.map(({ text, off }) => assumptionChip(text, () => store.edit(`Assume no ${text}`, off))),
+      ...found.map(({ words, off }) => {
+        const step = inEnglish("step.assume_no", { what: inEnglish(...words) });
+        return assumptionChip(say(...words), () => store.edit(step, off));
+      }),
     );
   };
   store.addEventListener("document", show);

@@ -4,6 +4,7 @@
  */
 
 import { element } from "./dom.js";
+import { say } from "./language/say.js";
 
 /** How long a word is there at most (ms). */
 const READING_MS = 14_000;
@@ -23,21 +24,21 @@ const GAP_PX = 10;
 const MARKS = [
   {
     name: "outline",
-    text: "Click where the corners of the garment are. The first one again closes it.",
+    text: say("coach.outline"),
     at: "#drafting-board",
     side: "over",
     isDue: ({ drawing, tools }) => !drawing.outline.length && !tools.outline.isBusy,
   },
   {
     name: "fold",
-    text: "Now fold it: press F, then drag from edge to edge, or a point of the cloth to where it shall land.",
+    text: say("coach.fold"),
     at: '[data-tool="fold"]',
     side: "beside",
     isDue: ({ drawing }) => drawing.outline.length > 0 && !drawing.folds.length,
   },
   {
     name: "play",
-    text: "The robot can do it. Space lets it run.",
+    text: say("coach.play"),
     at: ".main-button.play",
     side: "above",
     isDue: ({ store, drawing }) =>
@@ -95,7 +96,11 @@ function place(root, mark) {
   const { offsetWidth: width, offsetHeight: height } = root;
   const middle = box.left + box.width / 2 - width / 2;
   const left = mark.side === "beside" && box.right + GAP_PX + width < innerWidth ? box.right + GAP_PX : middle;
-  const tops = { beside: box.top + box.height / 2 - height / 2, above: box.top - GAP_PX - height, over: box.top + 3 * GAP_PX };
+  const tops = {
+    beside: box.top + box.height / 2 - height / 2,
+    above: box.top - GAP_PX - height,
+    over: box.top + 3 * GAP_PX,
+  };
   const isBelow = mark.side === "beside" && left === middle;
   const top = isBelow ? box.top - GAP_PX - height : tops[mark.side];
   root.dataset.side = isBelow ? "above" : mark.side;

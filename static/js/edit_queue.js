@@ -7,14 +7,15 @@
  */
 
 import { sayable } from "./dom.js";
+import { inEnglish, say } from "./language/say.js";
 import { inWords } from "./messages/in_words.js";
 
 /** @import { DocumentState, Drawing, Fold, Garment, Problem } from "pleat" */
 
 const TRIES = 3;
 const RETRY_MS = 1000;
-const OFFLINE = "The server cannot be reached; nothing was changed.";
-const KEPT = "The server cannot be reached. Your change is kept and sent when it is back.";
+const OFFLINE = say("server.nothing_changed");
+const KEPT = say("server.change_kept");
 
 /** @typedef {(drawing: Drawing) => Drawing|void} Change alters the drawing it is given, or returns another one */
 /** @typedef {{ok: boolean, status: number, told: any}} Answer */
@@ -86,7 +87,12 @@ export class EditQueue {
   /** @param {string} gesture */
   cancel(gesture) {
     this.drop((other) => other.gesture === gesture);
-    return this.push((job) => this.put(job), { ...NO_CHANGE, phase: "cancel", label: "Cancel", gesture });
+    return this.push((job) => this.put(job), {
+      ...NO_CHANGE,
+      phase: "cancel",
+      label: inEnglish("step.cancel"),
+      gesture,
+    });
   }
 
   /** @param {"undo"|"redo"} verb */
@@ -195,7 +201,7 @@ export class EditQueue {
       base = newer;
       if (job.phase === "cancel") return this.forgotten();
     }
-    throw new Error("The drawing is being changed elsewhere; this change was not made.");
+    throw new Error(say("server.changed_elsewhere"));
   }
 
   /**
@@ -255,5 +261,5 @@ function body({ label, change, phase, coalesce, gesture }, base) {
 function sentence(problem, folds) {
   const first = problem.errors?.[0];
   if (first?.says) return `${inWords(first, folds)}.`;
-  return first ? `${first.field}: ${first.message}` : (problem.detail ?? problem.title ?? "This was refused.");
+  return first ? `${first.field}: ${first.message}` : (problem.detail ?? problem.title ?? say("server.was_refused"));
 }

@@ -7,6 +7,7 @@ import { goTo, goToNew } from "./dialogs/documents.js";
 import { sentenceOf } from "./dialogs/dialog.js";
 import { byId, element } from "./dom.js";
 import { titleOf, when } from "./gallery/tile.js";
+import { say, translated } from "./language/say.js";
 
 /** @import { DocumentEntry as Entry, GarmentEntry } from "pleat" */
 
@@ -35,8 +36,14 @@ export function mountGarments(store) {
     const counts = new Map();
     for (const entry of drawn) counts.set(titleOf(entry), (counts.get(titleOf(entry)) ?? 0) + 1);
     select.replaceChildren(
-      group("Documents", drawn.map((entry) => new Option(called(entry, counts), DOCUMENT + entry.id))),
-      group("New, of", garments.map((entry) => new Option(entry.title, GARMENT + entry.name))),
+      group(
+        say("garments.documents"),
+        drawn.map((entry) => new Option(called(entry, counts), DOCUMENT + entry.id)),
+      ),
+      group(
+        say("garments.new_of"),
+        garments.map((entry) => new Option(translated(entry.title), GARMENT + entry.name)),
+      ),
     );
     select.value = DOCUMENT + store.id;
   };
@@ -85,7 +92,7 @@ function called(entry, counts) {
 export async function listed(address, before) {
   /** @type {T[]} */
   const found = [];
-  for (let page = /** @type {string|null} */ (address); page; ) {
+  for (let page = /** @type {string|null} */ (address); page;) {
     /** @type {Response|null} */
     const answer = await fetch(page).catch(() => null);
     if (!answer?.ok) return before;
@@ -108,6 +115,6 @@ function following(answer) {
  */
 async function make(store, garment) {
   const answer = await goToNew({ garment }).catch(() => null);
-  if (!answer) store.refuse("The server cannot be reached; nothing was opened.");
+  if (!answer) store.refuse(say("server.nothing_opened"));
   else if (answer.status !== 201) store.refuse(sentenceOf(await answer.json()));
 }

@@ -2,6 +2,7 @@
 
 import { byId } from "./dom.js";
 import { icon } from "./icons.js";
+import { say, translated } from "./language/say.js";
 
 /**
  * @param {import("./store.js").Store} store
@@ -16,11 +17,12 @@ export function mountHistory(store, verbs) {
   redo.addEventListener("click", verbs.redo);
   const show = () => {
     const { can_undo: step = null, can_redo: again = null } = store.state?.history ?? {};
-    const back = store.begun || step;
+    const back = store.begun || (step && translated(step));
     undo.disabled = !back;
     redo.disabled = again === null;
-    undo.title = back ? `Undo: ${back} (Ctrl+Z)` : "Nothing to undo";
-    redo.title = again === null ? "Nothing to redo" : `Redo: ${again} (Ctrl+Shift+Z)`;
+    undo.title = back ? say("history.undo_step", { step: back }) : say("history.nothing_to_undo");
+    redo.title =
+      again === null ? say("history.nothing_to_redo") : say("history.redo_step", { step: translated(again) });
   };
   for (const name of ["document", "begun"]) store.addEventListener(name, show);
 }

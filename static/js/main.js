@@ -7,9 +7,12 @@ import { mountDialogs } from "./dialogs/mount_dialogs.js";
 import { mountDock } from "./dock/dock.js";
 import { mountStatus } from "./dock/status.js";
 import { byId } from "./dom.js";
+import { titleOf } from "./gallery/tile.js";
 import { mountGarments } from "./garments.js";
 import { mountHistory } from "./history.js";
 import { keyHandler } from "./keys.js";
+import { fillIn } from "./language/fill_in.js";
+import { say } from "./language/say.js";
 import { notice } from "./notices.js";
 import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
@@ -22,6 +25,7 @@ import { StepPictures } from "./step_pictures.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
 
+fillIn(document);
 const store = new Store(location.pathname.split("/").at(-1) ?? "");
 const theme = new Theme();
 const tellTheme = () => store.command({ do: "theme", dark: theme.isDark });
@@ -61,9 +65,8 @@ store.addEventListener("refused", (event) => notice(/** @type {CustomEvent} */ (
 store.addEventListener("opened", (event) => {
   board.framing.fitNext();
   const replaced = /** @type {CustomEvent} */ (event).detail;
-  if (replaced?.outline.length) notice(`\u201C${replaced.title || replaced.name}\u201D was replaced; Undo brings it back.`);
+  if (replaced?.outline.length) notice(say("garments.replaced", { title: titleOf(replaced) }));
 });
 store.addEventListener("document", () => {
-  const { title, name } = store.state?.drawing ?? { title: "", name: "" };
-  document.title = `${title || name} - Pleat`;
+  document.title = `${titleOf(store.state?.drawing ?? { title: "", name: "" })} - Pleat`;
 });

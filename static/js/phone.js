@@ -1,6 +1,7 @@
 /** On a phone one of board and stage is large and the other a small inset; the dock is a sheet that pulls up. */
 
 import { byId } from "./dom.js";
+import { say } from "./language/say.js";
 
 const PHONE = "(max-width: 720px)";
 const PULL_PX = 24;
@@ -14,13 +15,13 @@ export function mountPhone() {
   const show = () => {
     const isStageLarge = work.classList.contains("is-stage-large");
     swap.hidden = !phone.matches;
-    swap.setAttribute("aria-label", isStageLarge ? "Show the board large" : "Show the stage large");
+    swap.setAttribute("aria-label", isStageLarge ? say("phone.board_large") : say("phone.stage_large"));
   };
   /** @param {boolean} isOpen */
   const open = (isOpen) => {
     document.body.classList.toggle("is-sheet-open", isOpen);
     grip.setAttribute("aria-expanded", String(isOpen));
-    grip.setAttribute("aria-label", isOpen ? "Hide folds and timeline" : "Show folds and timeline");
+    grip.setAttribute("aria-label", isOpen ? say("phone.hide_sheet") : say("phone.show_sheet"));
   };
   const isOpen = () => document.body.classList.contains("is-sheet-open");
 

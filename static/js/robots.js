@@ -4,6 +4,7 @@
  */
 
 import { byId } from "./dom.js";
+import { word } from "./messages/names.js";
 
 /** @import { RobotEntry } from "pleat" */
 
@@ -39,4 +40,4 @@ export function mountRobots(store) {
 }
 
 /** A robot's title and its arms, as in `Two UR5e: left, right`. @param {RobotEntry} robot */
-const called = ({ title, arms }) => `${title}: ${arms.map((arm) => arm.replaceAll("_", " ")).join(", ")}`;
+const called = ({ title, arms }) => `${title}: ${arms.map((arm) => word("arm_name", arm)).join(", ")}`;

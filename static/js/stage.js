@@ -5,6 +5,7 @@
 
 import { svg } from "./board/sheet.js";
 import { byId, element } from "./dom.js";
+import { say } from "./language/say.js";
 
 /** What the frame says when it is ready, see app/api/stage_routes.py. */
 const SEATED = "pleat-seated";
@@ -52,5 +53,5 @@ export function mountStage(store, onKey) {
 function picture() {
   const drawn = svg("svg", { viewBox: "0 0 120 104", "aria-hidden": "true" });
   drawn.append(svg("path", { d: TABLE }), svg("path", { d: CLOTH, class: "stage-cover-cloth" }));
-  return element("div", "stage-cover", drawn, element("p", "", "The stage is being set\u2026"));
+  return element("div", "stage-cover", drawn, element("p", "", say("stage.being_set")));
 }

@@ -2,15 +2,16 @@
 
 import { icon } from "./dock/icons.js";
 import { byId } from "./dom.js";
+import { say } from "./language/say.js";
 
 /** @param {import("./store.js").Store} store @param {() => void} togglePlay */
 export function mountStagePlay(store, togglePlay) {
   const made = /** @type {HTMLButtonElement} */ (byId("stage-play"));
   const show = () => {
     const { playing = false, duration_s: duration = 0 } = store.playback ?? {};
-    const name = playing ? "Pause" : "Play";
+    const name = playing ? say("play.pause") : say("play.play");
     made.replaceChildren(icon(playing ? "pause" : "play"));
-    made.setAttribute("aria-label", `${name} on the stage`);
+    made.setAttribute("aria-label", say("play.on_stage", { what: name }));
     made.disabled = duration <= 0 || !store.isLive;
   };
   made.addEventListener("click", togglePlay);

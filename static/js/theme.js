@@ -2,6 +2,7 @@
 
 import { byId } from "./dom.js";
 import { icon } from "./icons.js";
+import { say } from "./language/say.js";
 
 const KEY = "pleat-theme";
 
@@ -27,11 +28,11 @@ export class Theme extends EventTarget {
   }
 
   apply() {
-    const other = this.isDark ? "Light" : "Dark";
+    const other = this.isDark ? "light" : "dark";
     document.documentElement.dataset.theme = this.isDark ? "dark" : "light";
     this.button.replaceChildren(icon(this.isDark ? "sun" : "moon"));
-    this.button.setAttribute("aria-label", other);
-    this.button.title = `${other} colours`;
+    this.button.setAttribute("aria-label", say(`theme.${other}`));
+    this.button.title = say(`theme.${other}_hint`);
     this.dispatchEvent(new Event("change"));
   }
 }

@@ -1,6 +1,7 @@
 /** What stands on a board with nothing on it. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 
 export class Blank {
   /** @param {import("./board.js").Board} board @param {{startNew: () => void, startImport: () => void}} verbs */
@@ -11,12 +12,12 @@ export class Blank {
     this.root = element(
       "div",
       "blank",
-      element("p", "", "Draw, or begin with a garment that is nearly right:"),
+      element("p", "", say("blank.begin")),
       element(
         "div",
         "blank-buttons",
-        button("plain-button", startNew, "From a template"),
-        button("plain-button", startImport, "From a file"),
+        button("plain-button", startNew, say("blank.template")),
+        button("plain-button", startImport, say("blank.file")),
       ),
     );
     this.root.hidden = true;
@@ -35,12 +36,12 @@ export class Blank {
 
   /** There is no document at this address. */
   showGone() {
-    const link = element("a", "main-button", "Go to the last one");
+    const link = element("a", "main-button", say("blank.go_to_last"));
     link.setAttribute("href", "../");
     this.root.classList.add("is-gone");
     this.root.replaceChildren(
-      element("p", "blank-title", "Nothing is kept under this address"),
-      element("p", "", "The document was removed, or the address is mistyped."),
+      element("p", "blank-title", say("blank.gone")),
+      element("p", "", say("blank.gone_why")),
       element("div", "blank-buttons", link),
     );
     this.root.hidden = false;

@@ -1,6 +1,7 @@
 /** The drafting board: an SVG that shows the document's drawing, and the tools that change it. */
 
 import { element } from "../dom.js";
+import { inEnglish, say } from "../language/say.js";
 import { Callout } from "./callout.js";
 import { drawAll, LAYERS } from "./draw_all.js";
 import { mirrorCorners, mirrorOutline } from "./edits.js";
@@ -108,7 +109,18 @@ export class Board extends Shown {
   }
 
   listen() {
-    for (const name of ["document", "plan", "playback", "selection", "step", "overlays", "preview", "hover-time", "connection", "held"])
+    for (const name of [
+      "document",
+      "plan",
+      "playback",
+      "selection",
+      "step",
+      "overlays",
+      "preview",
+      "hover-time",
+      "connection",
+      "held",
+    ])
       this.store.addEventListener(name, () => this.render());
     new ResizeObserver(() => this.framing.resize()).observe(this.svg);
   }
@@ -274,8 +286,8 @@ export class Board extends Shown {
     }
     const { kind, ids = [] } = this.store.selection ?? {};
     if (!this.drawing.outline.length || this.paint.mirror()) return;
-    if (kind === "vertex") this.store.edit("Mirror vertices", (drawing) => mirrorCorners(drawing, ids));
-    else this.store.edit("Mirror outline", mirrorOutline);
+    if (kind === "vertex") this.store.edit(inEnglish("step.mirror_vertices"), (drawing) => mirrorCorners(drawing, ids));
+    else this.store.edit(inEnglish("step.mirror_outline"), mirrorOutline);
   }
 
   toggleSnap() {
@@ -300,7 +312,7 @@ function drawingArea() {
     class: "board",
     id: "drafting-board",
     role: "application",
-    "aria-label": "Drafting board",
+    "aria-label": say("board.label"),
     tabindex: 0,
     "data-px-per-m": 1,
     "data-origin-px": "0,0",

@@ -1,5 +1,6 @@
 /** The first problem in words, beside the place where it is. */
 
+import { foldName } from "../dock/words.js";
 import { element } from "../dom.js";
 import { inWords } from "../messages/in_words.js";
 
@@ -20,7 +21,7 @@ export class Callout {
     const problem = isShown ? board.state?.problems.find(({ points }) => points.length) : undefined;
     this.root.hidden = !problem;
     if (!problem) return;
-    const name = problem.fold === null ? "" : board.drawing.folds[problem.fold]?.name || `fold ${problem.fold + 1}`;
+    const name = problem.fold === null ? "" : foldName(board.drawing.folds[problem.fold], problem.fold);
     const words = inWords(problem, board.drawing.folds);
     const text = name ? `${name}: ${words}` : words;
     this.root.textContent = text[0].toUpperCase() + text.slice(1);

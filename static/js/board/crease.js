@@ -1,5 +1,6 @@
 /** Asks the server where a fold would be; while the hand moves, again and again, of which only the newest counts. */
 
+import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 
 /** @import { Crease, Fold, FoldKind, Point, Problem } from "pleat" */
@@ -72,12 +73,12 @@ export class CreaseQuestion {
       if (answer.ok) return { ok: true, told };
       return { ok: false, told: { detail: sentence(told, this.board.drawing.folds) } };
     } catch {
-      return { ok: false, told: { detail: "The server cannot be reached." } };
+      return { ok: false, told: { detail: say("server.unreachable") } };
     }
   }
 }
 
 /** @param {Problem} problem @param {Fold[]} folds */
 function sentence({ errors, detail }, folds) {
-  return `No fold there: ${inWords(errors?.[0] ?? { message: detail }, folds)}.`;
+  return say("crease.none", { why: inWords(errors?.[0] ?? { message: detail }, folds) });
 }

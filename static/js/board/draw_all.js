@@ -1,5 +1,6 @@
 /** Everything on the board, from the table up to the cursor. */
 
+import { say } from "../language/say.js";
 import { offlineHint } from "../offline.js";
 import { drawCloth } from "./draw_cloth.js";
 import { drawChecks, drawProblems } from "./draw_findings.js";
@@ -33,7 +34,7 @@ export const LAYERS = /** @type {const} */ ([
 
 /** @typedef {typeof LAYERS[number]} LayerName */
 
-const UNCLOSED = "The outline is not closed yet: P goes on with it.";
+const UNCLOSED = say("hint.unclosed");
 
 /** @param {import("./board.js").Board} board */
 export function drawAll(board) {

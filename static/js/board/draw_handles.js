@@ -1,5 +1,6 @@
 /** What can be taken hold of: corners, middles of edges, ends of folds. Each can have the focus and has a name. */
 
+import { say, translated } from "../language/say.js";
 import { between, distance, left, minus, plus, times, unit as direction } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length, number } from "./units.js";
@@ -27,7 +28,7 @@ function corners(board) {
     const [cx, cy] = view.toPx(point);
     const isHovered = board.hover?.id === id;
     const state = `${board.isSelected("vertex", id) ? " is-selected" : ""}${isHovered ? " is-hovered" : ""}`;
-    const label = `Vertex ${index + 1}: ${number(point[0])}, ${length(point[1])}`;
+    const label = say("handle.vertex", { number: index + 1, x: number(point[0]), y: length(point[1]) });
     return {
       key: `v:${id}`,
       tag: "circle",
@@ -47,7 +48,11 @@ function foldHandles(board) {
     if (index < step) return [];
     const ends = [view.toPx(fold.start.point), view.toPx(fold.end.point)];
     const isSelected = board.isSelected("fold", fold.id);
-    const label = `Fold ${index + 1}: ${fold.name || "no name"}, ${fold.kind}`;
+    const label = say("handle.fold", {
+      number: index + 1,
+      name: translated(fold.name) || say("handle.no_name"),
+      colour: say(`colour.${fold.kind}.small`),
+    });
     const state = `is-${fold.kind}${isSelected ? " is-selected" : ""}${step > 0 && index > step ? " is-later" : ""}`;
     return [
       {

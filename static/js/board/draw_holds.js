@@ -3,6 +3,7 @@
  * point that is left. Which points the hands take is chosen here so that they hold as many as they can.
  */
 
+import { say } from "../language/say.js";
 import { crossAt, diamond } from "./draw_findings.js";
 import { distance } from "./geometry.js";
 
@@ -74,7 +75,7 @@ function unheld(key, [x, y], width) {
       x: x + (isRight ? BESIDE_PX : -BESIDE_PX),
       y: y - BESIDE_PX / 2,
       "text-anchor": isRight ? "start" : "end",
-      text: "no hand left",
+      text: say("holds.none_left"),
     },
   ];
 }

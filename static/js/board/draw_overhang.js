@@ -3,6 +3,7 @@
  * under it is a double line, and an arrow says how far it has to come.
  */
 
+import { say } from "../language/say.js";
 import { dimension } from "./draw_dimension.js";
 import { crossAt, double } from "./draw_findings.js";
 import { between, crossings, distance, edgesOf, isInside, leftPart, toInner, toOuter } from "./geometry.js";
@@ -67,7 +68,9 @@ function tableIn({ placement, scene: { table } }) {
  */
 function under([a, b], ring) {
   const stops = [0, ...crossings(a, b, [ring]).filter((t) => t > 0 && t < 1), 1];
-  const lines = stops.slice(1).map((t, n) => /** @type {[Point, Point]} */ ([between(a, b, stops[n]), between(a, b, t)]));
+  const lines = stops
+    .slice(1)
+    .map((t, n) => /** @type {[Point, Point]} */ ([between(a, b, stops[n]), between(a, b, t)]));
   return lines.filter(([p, q]) => isInside(between(p, q), [ring]));
 }
 
@@ -92,7 +95,7 @@ function howFar(view, drawing, ring, reason) {
   const from = view.toPx(at);
   const items = reason.point ? [] : [crossAt("over", from, CROSS_PX)];
   if (away(at) <= ON_M) return items;
-  const text = `${length(away(at))} ${isBeside ? "beside the table" : "over the edge"}`;
+  const text = say(isBeside ? "overhang.beside" : "overhang.over", { length: length(away(at)) });
   const [arrow, words] = dimension("over:by", from, view.toPx(foot(at)), text);
   const below = { x: from[0], y: from[1] + BELOW_PX, "text-anchor": "middle" };
   return [...items, arrow, isOn(view, words) ? words : { ...words, ...below }];

@@ -1,5 +1,7 @@
 /** What the robot can do and does: where its arms reach, the base's way, the hands' paths, the slip limit. */
 
+import { say } from "../language/say.js";
+import { word } from "../messages/names.js";
 import { between, boxOf, plus, turned } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
@@ -109,7 +111,7 @@ function slip({ view }, found) {
         class: "length",
         x: x + 6,
         y: y - 6,
-        text: `${length(at_m)} over the ${edge} edge`,
+        text: say("slip.over", { length: length(at_m), edge: word("edge", edge) }),
       },
     ];
   });

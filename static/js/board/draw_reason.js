@@ -5,12 +5,14 @@
  * where it starts: all is drawn as far back as it was dragged, and a dashed arrow says whereto and how far that was.
  */
 
+import { say } from "../language/say.js";
 import { dimension } from "./draw_dimension.js";
 import { crossAt } from "./draw_findings.js";
 import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 import { armLetter } from "../messages/arms.js";
+import { word } from "../messages/names.js";
 
 /** @import { Point, Point3, Reason } from "pleat" */
 /** @import { Board } from "./board.js" */
@@ -27,6 +29,12 @@ const DRAGGED_M = 1e-3;
 /** How far words are below the hatching, and half as far as below the cross; how wide a letter is at most (px). */
 const BELOW_PX = 14;
 const LETTER_PX = 7.5;
+
+/** What of a hand ends there: on the table, and over it. */
+const WHOSE = /** @type {const} */ ({
+  comfort: ["reason.out_of_hands_comfort", "reason.out_of_comfort_at_height"],
+  reach: ["reason.out_of_hands_reach", "reason.out_of_reach_at_height"],
+});
 
 /** @typedef {Reason & {point: Point3}} Placed */
 
@@ -84,8 +92,10 @@ function beyondReach({ overlays, state, view }, { cause }) {
     );
   const rings = found.beyond.flatMap(({ outer, holes }) => [outer, ...holes]);
   const [x, y] = view.toPx(flat(found.point));
-  const what = cause === "comfort_only" ? "comfort" : "reach";
-  const text = `out of the ${found.arm} hand\u2019s ${what}${found.point[2] >= ON_TABLE_M ? " at that height" : ""}`;
+  const isHigh = found.point[2] >= ON_TABLE_M;
+  const text = say(WHOSE[cause === "comfort_only" ? "comfort" : "reach"][isHigh ? 1 : 0], {
+    hand: word("hand", found.arm),
+  });
   return [
     { key: "beyond", tag: "path", class: "beyond", d: rings.map((ring) => px(ring, true)).join("") },
     ...found.edge.map((line, n) => ({ key: `edge${n}`, tag: "path", class: "beyond-edge", d: px(line, false) })),
@@ -110,14 +120,14 @@ function beyondReach({ overlays, state, view }, { cause }) {
  */
 function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtLeast }, from, toPx) {
   if (!towards || !short) return [];
-  const by = `${isAtLeast ? "at least " : ""}${length(short)}`;
-  const high = point[2] >= ON_TABLE_M ? `, ${length(point[2])} up` : "";
+  const by = isAtLeast ? say("amount.at_least", { length: length(short) }) : length(short);
+  const up = point[2] >= ON_TABLE_M ? say("reason.up", { length: length(point[2]) }) : "";
   if (Math.hypot(towards[0], towards[1]) < LEVEL) {
-    const text = `${by} too ${towards[2] < 0 ? "high" : "low"}${high}`;
+    const text = say(towards[2] < 0 ? "reason.too_high" : "reason.too_low", { by, up });
     return [{ key: "missing", tag: "text", class: "reason-text", ...below(from, text, view) }];
   }
   const tip = toPx(plus(flat(point), times(flat(towards), short)));
-  const [arrow, words] = dimension("missing", from, tip, `${by} short${high}`);
+  const [arrow, words] = dimension("missing", from, tip, say("reason.short", { by, up }));
   return [arrow, isOn(tip, view) ? words : { ...words, ...below(from, words.text, view) }];
 }
 
@@ -131,7 +141,12 @@ function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtL
 function dragged({ drawing, view }, { point, offset_m: offset }, from) {
   if (!offset || Math.hypot(...offset) < DRAGGED_M) return [];
   const tip = view.toPx(toInner(drawing.placement, flat(point)));
-  const [arrow, words] = dimension("dragged", from, tip, `dragged ${length(Math.hypot(...offset))}`);
+  const [arrow, words] = dimension(
+    "dragged",
+    from,
+    tip,
+    say("reason.dragged", { length: length(Math.hypot(...offset)) }),
+  );
   const where = isOn(tip, view) ? {} : below(from, words.text, view, 3);
   const [shaft, ...head] = String(arrow.d).split(/(?=M)/);
   return [

@@ -3,6 +3,7 @@
  * the time that is shown otherwise. Where that is beyond what is seen it stands at the board's edge, pointing the way.
  */
 
+import { say } from "../language/say.js";
 import { reasonWithPlace } from "./draw_reason.js";
 import { BASE_M } from "./draw_table.js";
 import { toInner, toOuter } from "./geometry.js";
@@ -51,9 +52,16 @@ export function drawRobot(board) {
   const at = within(there, board);
   const away_m = Math.hypot(there[0] - at[0], there[1] - at[1]) / view.scale;
   const r = Math.min(Math.max(BASE_M * view.scale, SMALLEST_PX), LARGEST_PX);
-  const words = [stand.station ? place(stand.station) : "", away_m > BASE_M ? `${length(away_m)} further` : ""];
+  const words = [
+    stand.station ? place(stand.station) : "",
+    away_m > BASE_M ? say("robot.further", { length: length(away_m) }) : "",
+  ];
   const { base, mounts } = board.store.state?.robot ?? { base: "omni", mounts: [] };
-  if (base === "fixed") return feet(mounts.map((mount) => toPx(toOuter(pose, mount))), view.scale);
+  if (base === "fixed")
+    return feet(
+      mounts.map((mount) => toPx(toOuter(pose, mount))),
+      view.scale,
+    );
   return [...silhouette(at, turn, r), label(at, r, words.filter(Boolean).join(", "), board)];
 }
 

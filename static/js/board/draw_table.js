@@ -1,5 +1,6 @@
 /** The table from above with the places where the robot may stand; only while the garment is being placed. */
 
+import { say } from "../language/say.js";
 import { toInner } from "./geometry.js";
 import { place } from "../messages/names.js";
 import { path } from "./sheet.js";
@@ -63,7 +64,7 @@ function station(view, name, { x_m, y_m, yaw_rad }, isStart) {
       x,
       y: y + BASE_M * view.scale * 0.55,
       "text-anchor": "middle",
-      text: place(name) + (isStart ? " (start)" : ""),
+      text: isStart ? say("place.start", { place: place(name) }) : place(name),
     },
   ];
 }

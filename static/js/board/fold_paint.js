@@ -1,5 +1,6 @@
 /** How folds are drawn: which layers they take, which side moves; of the selected folds, or else of the next. */
 
+import { inEnglish } from "../language/say.js";
 import { flipFolds, mirrorFolds, paintFolds } from "./edits.js";
 
 /** @import { FoldKind } from "pleat" */
@@ -37,7 +38,7 @@ export class FoldPaint {
   put(kind) {
     const ids = this.chosen;
     this.kind = kind;
-    const label = kind === "red" ? "Make fold red" : "Make fold blue";
+    const label = kind === "red" ? inEnglish("step.make_red") : inEnglish("step.make_blue");
     if (ids.length) this.board.store.edit(label, (drawing) => paintFolds(drawing, ids, kind));
     else this.askAgain();
     this.board.render();
@@ -46,7 +47,7 @@ export class FoldPaint {
   /** The other side moves: of the selected folds, the one being drawn, the one drawn last, or the next one. */
   flip() {
     const ids = this.meant;
-    if (ids.length) this.board.store.edit("Flip fold", (drawing) => flipFolds(drawing, ids));
+    if (ids.length) this.board.store.edit(inEnglish("step.flip_fold"), (drawing) => flipFolds(drawing, ids));
     else this.turnOver(!this.isFlipped);
     this.board.render();
   }
@@ -66,7 +67,7 @@ export class FoldPaint {
     if (!ids.length) return false;
     const isDrawing = board.tool.name === "fold";
     board.store
-      .edit("Mirror fold", (drawing) => mirrorFolds(drawing, ids))
+      .edit(inEnglish("step.mirror_fold"), (drawing) => mirrorFolds(drawing, ids))
       .then(() => {
         if (isDrawing) board.store.showStep(board.store.moments - 1);
       });

@@ -1,6 +1,7 @@
 /** What the overlays' shades and lines mean, in the corner of the board where the least cloth is. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { isInside } from "./geometry.js";
 import { legendRows, SWATCH } from "./legend_rows.js";
 import { svg } from "./sheet.js";
@@ -21,7 +22,7 @@ export class Legend {
     this.board = board;
     this.root = element("ul", "legend");
     this.root.setAttribute("role", "list"); // a list without bullets is none to some readers otherwise
-    this.root.setAttribute("aria-label", "Legend");
+    this.root.setAttribute("aria-label", say("legend.title"));
     this.root.hidden = true;
     /** What is shown, on a board of which size. */
     this.shown = "";

@@ -1,5 +1,7 @@
 /** What the shades and lines of the overlays mean: a row for each kind of them that is drawn, and for no other. */
 
+import { seconds } from "../dock/words.js";
+import { say } from "../language/say.js";
 import { present } from "../present.js";
 import { drawChecks } from "./draw_findings.js";
 import { fullness } from "./draw_overlays.js";
@@ -40,17 +42,17 @@ const cell = (className, x, width = 15) =>
 
 /** What means the same at every moment. @type {{words: string, marks: (Mark & {class: string})[]}[]} */
 const PLAIN = [
-  { words: "Slip limit: so much may hang over that edge", marks: [line("slip")] },
-  { words: "The base at this moment", marks: [cell("robot-base", 9)].map((mark) => ({ ...mark, rx: 1 })) },
-  { words: "Way of the base", marks: [line("base-way")] },
-  { words: "Where it stands and looks", marks: [line("base-stand", "M8 9a4 4 0 1 0 8 0a4 4 0 1 0 -8 0M12 9L28 9")] },
+  { words: say("legend.slip"), marks: [line("slip")] },
+  { words: say("legend.base"), marks: [cell("robot-base", 9)].map((mark) => ({ ...mark, rx: 1 })) },
+  { words: say("legend.base_way"), marks: [line("base-way")] },
+  { words: say("legend.base_stand"), marks: [line("base-stand", "M8 9a4 4 0 1 0 8 0a4 4 0 1 0 -8 0M12 9L28 9")] },
   {
-    words: "Way of the hand L or R at this moment, and its end",
+    words: say("legend.hand_now"),
     marks: [line("hand-path is-now", "M1 9L20 9"), end("hand-end is-now")],
   },
-  { words: "Ways of the hands at other times", marks: [line("hand-path", "M1 9L20 9"), end("hand-end")] },
-  { words: "Must be held", marks: [line("must-hold", "M17 2L24 9L17 16L10 9Z")] },
-  { words: "Where a hand takes it", marks: [{ tag: "circle", class: "grip", cx: 17, cy: 9, r: 8 }] },
+  { words: say("legend.hand_other"), marks: [line("hand-path", "M1 9L20 9"), end("hand-end")] },
+  { words: say("legend.must_hold"), marks: [line("must-hold", "M17 2L24 9L17 16L10 9Z")] },
+  { words: say("legend.grip"), marks: [{ tag: "circle", class: "grip", cx: 17, cy: 9, r: 8 }] },
 ];
 
 /** @param {string} className */
@@ -69,24 +71,24 @@ function reach(found, drawn) {
   const letters = arms.map(({ arm }) => armLetter(arm));
   const comfort = found?.reach?.[0]?.comfort_m ?? 0;
   const shades = arms.flatMap((_, n) => [cell("reach", 2 + 10 * n, 20), cell("reach-line", 2 + 10 * n, 20)]);
-  const both = arms.length > 1 ? "; stronger: both" : "";
-  const ease = comfort > 0 ? ` with ${length(comfort)} of comfort` : "";
+  const told = { hands: letters.join(", "), comfort: length(comfort) };
+  const words = say(`legend.can_grip${comfort > 0 ? "_comfort" : ""}${arms.length > 1 ? "_both" : ""}`, told);
   return present([
-    arms.length > 0 && { words: `${letters.join(", ")}: can grip${ease}${both}`, marks: shades },
+    arms.length > 0 && { words, marks: shades },
     comfort > 0 &&
-      drawn.has("reach-line is-bare") && { words: "Limit of reach, without comfort", marks: [line("reach-line is-bare")] },
+      drawn.has("reach-line is-bare") && { words: say("legend.bare"), marks: [line("reach-line is-bare")] },
   ]);
 }
 
 /** @param {Places|null} places @returns {Row[]} */
 function costs(places) {
   const known = (places?.cells ?? []).map(({ cost_s }) => cost_s).filter((cost) => cost !== null);
-  const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => `${cost.toFixed(1)}\u00A0s`);
+  const [least, most] = [Math.min(...known), Math.max(...known)].map((cost) => seconds(cost).replace(" ", "\u00A0"));
   const shades = [0, 1, 2, 3].map((n) => ({ ...cell("cost", 1 + 8 * n, 8), "fill-opacity": fullness(1 - n / 3) }));
-  const range = least === most ? `takes ${least}` : `takes ${least} (strongest) to ${most}`;
+  const words = say(least === most ? "legend.cost" : "legend.costs", { least, most });
   return present([
-    known.length > 0 && { words: `The plan ${range}, the cloth\u2019s middle there`, marks: shades },
-    places && known.length < places.cells.length && { words: "Empty: no plan from there", marks: [cell("cost is-none", 9)] },
-    places && !places.complete && { words: "No square: not tried yet", marks: [] },
+    known.length > 0 && { words, marks: shades },
+    places && known.length < places.cells.length && { words: say("legend.no_plan"), marks: [cell("cost is-none", 9)] },
+    places && !places.complete && { words: say("legend.untried"), marks: [] },
   ]);
 }

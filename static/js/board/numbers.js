@@ -1,6 +1,8 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
 import { element } from "../dom.js";
+import { numeral } from "../language/numeral.js";
+import { inEnglish, say } from "../language/say.js";
 import { placeOf, sideOf } from "./beside.js";
 import { middleOf, moveCorners, moveFold } from "./edits.js";
 import { between, distance, toOuter } from "./geometry.js";
@@ -23,7 +25,7 @@ export class Numbers {
     this.board = board;
     this.root = element("div", "numbers-at");
     this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", "Numbers");
+    this.root.setAttribute("aria-label", say("numbers.label"));
     this.root.hidden = true;
     this.shown = "";
     /** @type {Field[]} */
@@ -122,7 +124,7 @@ export class Numbers {
     /** @param {0|1} axis @returns {Field} */
     const field = (axis) => ({
       label: "xy"[axis],
-      name: `${"xy"[axis]} of the vertex`,
+      name: say("numbers.coordinate", { axis: "xy"[axis] }),
       value: number(corner.point[axis]),
       put: (text) =>
         this.move(
@@ -145,14 +147,14 @@ export class Numbers {
     const [a, b] = [outline[index].point, next.point];
     /** @type {Field} */
     const field = {
-      label: "length",
-      name: "Length of the edge",
+      label: say("numbers.length"),
+      name: say("numbers.edge_length"),
       value: number(distance(a, b)),
       put: (text) =>
         this.move(
           text,
           (metres, drawing) => moveCorners(drawing, new Map([[next.id, atLength(a, b, metres)]])),
-          "Set edge length",
+          inEnglish("step.edge_length"),
           0.001,
         ),
     };
@@ -188,10 +190,10 @@ export class Numbers {
       });
     return [
       {
-        label: end,
-        name: `${end} of the fold along its edge`,
+        label: say(`numbers.${end}`),
+        name: say(`numbers.${end}_along`),
         value: number(on.fraction * whole),
-        put: (text) => this.move(text, put, "Move fold", 0),
+        put: (text) => this.move(text, put, inEnglish("step.move_fold"), 0),
       },
     ];
   }
@@ -205,8 +207,8 @@ export class Numbers {
     const centre = toOuter(placement, middle);
     /** @param {0|1} axis @returns {Field} */
     const place = (axis) => ({
-      label: ["ahead", "left"][axis],
-      name: ["Ahead of the table's middle", "Left of the table's middle"][axis],
+      label: [say("numbers.ahead"), say("numbers.left")][axis],
+      name: [say("numbers.ahead_of_middle"), say("numbers.left_of_middle")][axis],
       value: number(centre[axis]),
       put: (text) =>
         this.move(
@@ -214,19 +216,19 @@ export class Numbers {
           (metres, changed) => {
             changed.placement = laid(withPart(centre, axis, metres), middle, placement.yaw_rad);
           },
-          "Place garment",
+          inEnglish("step.place_garment"),
         ),
     });
     /** @type {Field} */
     const turn = {
-      label: "turn \u00B0",
-      name: "Turn in degrees",
-      value: (placement.yaw_rad / DEGREE).toFixed(1).replace(/\.0$/, ""),
+      label: say("numbers.turn"),
+      name: say("numbers.turn_name"),
+      value: numeral(placement.yaw_rad / DEGREE, 1, 0),
       put: (text) => {
-        const degrees = evaluated(text.replace("\u00B0", "").trim());
-        if (degrees === null) return `\u201C${text}\u201D is no number of degrees. Write 90 or 180/4.`;
+        const degrees = evaluated(text.replace("\u00B0", "").trim().replaceAll(",", "."));
+        if (degrees === null) return say("numbers.no_degrees", { text });
         this.board.store.edit(
-          "Turn garment",
+          inEnglish("step.turn_garment"),
           (changed) => void (changed.placement = laid(centre, middle, degrees * DEGREE)),
         );
         return "";

@@ -1,5 +1,7 @@
 /** The photo under the board: kept by this browser for this document, never sent anywhere. */
 
+import { say } from "../language/say.js";
+
 const STORE = "photos";
 const FIRST_WIDTH_M = 0.8;
 
@@ -39,7 +41,7 @@ export class Photo {
   async put(blob) {
     const picture = await createImageBitmap(blob).catch(() => null);
     if (!picture) {
-      this.refuse("This file is no picture that the browser can show.");
+      this.refuse(say("photo.no_picture"));
       return;
     }
     const { width, height } = picture;

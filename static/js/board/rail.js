@@ -2,18 +2,18 @@
 
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
-import { DRAW_FOLD, DRAW_OUTLINE } from "./rules.js";
+import { say } from "../language/say.js";
 
 /** @import { ToolName } from "./tools/tool.js" */
 
 /** Name, label, key. @type {[ToolName, string, string][]} */
 const TOOLS = [
-  ["select", "Select", "V"],
-  ["outline", DRAW_OUTLINE, "P"],
-  ["fold", DRAW_FOLD, "F"],
-  ["place", "Place", "M"],
-  ["measure", "Measure", "T"],
-  ["photo", "Photo", "I"],
+  ["select", say("tool.select"), "V"],
+  ["outline", say("tool.outline"), "P"],
+  ["fold", say("tool.fold"), "F"],
+  ["place", say("tool.place"), "M"],
+  ["measure", say("tool.measure"), "T"],
+  ["photo", say("tool.photo"), "I"],
 ];
 
 export class Rail {
@@ -27,10 +27,10 @@ export class Rail {
       made.dataset.tool = name;
       this.tools.set(name, made);
     }
-    const what = "Mirror what is selected, or the outline's left half, over the garment's axis (S)";
-    this.mirror = railButton("mirror", "Mirror", what, () => board.mirror());
+    const what = say("rail.mirror_hint");
+    this.mirror = railButton("mirror", say("rail.mirror"), what, () => board.mirror());
     this.showAxisAtHand();
-    this.snap = railButton("snap", "Snap", "Snapping on or off (N); Ctrl suspends it", () => board.toggleSnap());
+    this.snap = railButton("snap", say("rail.snap"), say("rail.snap_hint"), () => board.toggleSnap());
     const [select, outline, fold, place, measure, photo] = this.tools.values();
     root.append(select, outline, fold, place, divider(), this.mirror, this.snap, divider(), measure, photo);
   }

@@ -16,6 +16,7 @@ import {
   turned,
   unit as direction,
 } from "./geometry.js";
+import { say } from "../language/say.js";
 import { spacing } from "./draw_grid.js";
 import { FRACTIONS, REACH_PX } from "./rules.js";
 
@@ -108,7 +109,7 @@ const CANDIDATES = {
     rings.flatMap(edgesOf).flatMap(([a, b]) =>
       FRACTIONS.map(([part, whole]) => ({
         at: between(a, b, part / whole),
-        name: whole === 2 ? "midpoint" : `${part}/${whole} of edge`,
+        name: whole === 2 ? "midpoint" : say("snap.fraction", { part, whole }),
         key: `${part}/${whole}${a}${b}`,
         isOnCloth: true,
       })),
@@ -128,7 +129,7 @@ const CANDIDATES = {
 };
 
 /** @param {Point} at @param {Point} where @returns {Snapped} */
-const onto = (at, where) => ({ at, where, name: "edge onto edge", key: `o${at}`, isOnCloth: false });
+const onto = (at, where) => ({ at, where, name: say("snap.edge_onto_edge"), key: `o${at}`, isOnCloth: false });
 
 /**
  * A place on an edge, moved to where the edge crosses a line of the grid if that is near.
@@ -164,7 +165,12 @@ function inLine(p, guides) {
     guides.reduce((best, g) => (Math.abs(g[axis] - p[axis]) < Math.abs(best[axis] - p[axis]) ? g : best), first);
   const [plumb, level] = [nearest(0), nearest(1)];
   return [
-    { at: /** @type {Point} */ ([plumb[0], level[1]]), name: "in line", key: `i${plumb}${level}`, isOnCloth: false },
+    {
+      at: /** @type {Point} */ ([plumb[0], level[1]]),
+      name: say("snap.in_line"),
+      key: `i${plumb}${level}`,
+      isOnCloth: false,
+    },
     { at: /** @type {Point} */ ([plumb[0], p[1]]), name: "plumb", key: `x${plumb}`, isOnCloth: false },
     { at: /** @type {Point} */ ([p[0], level[1]]), name: "level", key: `y${level}`, isOnCloth: false },
   ];
@@ -181,8 +187,8 @@ function onGrid(p, view) {
   const [x, y] = [Math.round(p[0] / step) * step, Math.round(p[1] / step) * step];
   return [
     { at: /** @type {Point} */ ([x, y]), name: "grid", key: `g${x},${y}`, isOnCloth: false },
-    { at: /** @type {Point} */ ([x, p[1]]), name: "grid line", key: `gx${x}`, isOnCloth: false },
-    { at: /** @type {Point} */ ([p[0], y]), name: "grid line", key: `gy${y}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([x, p[1]]), name: say("snap.grid_line"), key: `gx${x}`, isOnCloth: false },
+    { at: /** @type {Point} */ ([p[0], y]), name: say("snap.grid_line"), key: `gy${y}`, isOnCloth: false },
   ];
 }
 

@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
+import { say, translated } from "../language/say.js";
 import { unit } from "./units.js";
 
 /** @import { FoldKind } from "pleat" */
@@ -11,28 +12,38 @@ export class Strip {
   constructor(board) {
     this.board = board;
     const { store } = board;
-    this.back = iconButton("back", "Step before", () => store.showStep(store.step - 1));
-    this.next = iconButton("next", "Step after", () => store.showStep(store.step + 1));
+    this.back = iconButton("back", say("strip.step_before"), () => store.showStep(store.step - 1));
+    this.next = iconButton("next", say("strip.step_after"), () => store.showStep(store.step + 1));
     this.moment = element("span", "strip-moment");
     this.moment.setAttribute("aria-live", "polite");
-    this.blue = paint("blue", "Blue: all layers", "Blue", () => board.paint.put("blue"));
-    this.red = paint("red", "Red: last flap", "Red", () => board.paint.put("red"));
-    this.flip = button("strip-button", () => board.paint.flip(), icon("flip"), element("span", "word", "Flip"));
-    this.flip.setAttribute("aria-label", "Flip");
-    this.flip.title = "Flip: the other side moves (X)";
-    this.grab = button("strip-button", () => board.paint.grab(), icon("grab"), element("span", "word", "Grab"));
-    this.grab.setAttribute("aria-label", "Grab");
-    this.grab.title = "Grab the cloth, also at its edges and corners, and drop it where it shall land (G)";
+    this.blue = paint("blue", say("colour.blue_all_layers"), say("colour.blue"), () => board.paint.put("blue"));
+    this.red = paint("red", say("colour.red_last_flap"), say("colour.red"), () => board.paint.put("red"));
+    this.flip = button(
+      "strip-button",
+      () => board.paint.flip(),
+      icon("flip"),
+      element("span", "word", say("strip.flip")),
+    );
+    this.flip.setAttribute("aria-label", say("strip.flip"));
+    this.flip.title = say("strip.flip_hint");
+    this.grab = button(
+      "strip-button",
+      () => board.paint.grab(),
+      icon("grab"),
+      element("span", "word", say("strip.grab")),
+    );
+    this.grab.setAttribute("aria-label", say("strip.grab"));
+    this.grab.title = say("strip.grab_hint");
     this.unit = button("strip-button", () => this.swapUnit(), "");
-    this.fit = iconButton("fit", "Fit", () => board.framing.fit());
-    this.fit.title = "Show the whole cloth (0)";
+    this.fit = iconButton("fit", say("strip.fit"), () => board.framing.fit());
+    this.fit.title = say("strip.fit_hint");
     board.root.append(
       element(
         "div",
         "strip",
-        group("Moment", this.back, this.moment, this.next),
-        group("Fold", this.blue, this.red, this.flip, this.grab),
-        group("View", this.unit, this.fit),
+        group(say("strip.moment"), this.back, this.moment, this.next),
+        group(say("strip.fold"), this.blue, this.red, this.flip, this.grab),
+        group(say("strip.view"), this.unit, this.fit),
       ),
     );
   }
@@ -44,17 +55,22 @@ export class Strip {
     this.back.disabled = board.step === 0;
     this.next.disabled = board.isPlacing || store.step >= last;
     const done = board.drawing.folds[board.step - 1];
-    const after = `After ${board.step}${done?.name ? `: ${done.name}` : ""}`;
-    this.moment.textContent = board.isPlacing ? "On the table" : board.isSpread ? "Spread out" : after;
-    this.moment.title = board.isPlacing ? "" : `Moment ${store.step} of ${last}`;
+    const told = { step: board.step, name: translated(done?.name ?? "") };
+    const after = say(told.name ? "strip.after_fold" : "strip.after", told);
+    this.moment.textContent = board.isPlacing
+      ? say("strip.on_table")
+      : board.isSpread
+        ? say("strip.spread_out")
+        : after;
+    this.moment.title = board.isPlacing ? "" : say("strip.moment_of", { step: store.step, last });
     const kind = board.paint.shown;
     this.blue.setAttribute("aria-pressed", String(kind === "blue"));
     this.red.setAttribute("aria-pressed", String(kind === "red"));
     this.flip.setAttribute("aria-pressed", String(board.paint.isFlipped));
     this.grab.setAttribute("aria-pressed", String(board.paint.grabs && board.tool.name === "fold"));
     this.unit.textContent = unit.name;
-    this.unit.setAttribute("aria-label", `Unit: ${unit.name}`);
-    this.unit.title = "Centimetres or inches";
+    this.unit.setAttribute("aria-label", say("strip.unit", { unit: unit.name }));
+    this.unit.title = say("strip.unit_hint");
   }
 
   swapUnit() {

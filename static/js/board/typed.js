@@ -1,6 +1,7 @@
 /** The field that opens beside the pointer when a number is typed while something is drawn: it beats every snap. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { parsed, unit } from "./units.js";
 
 export class TypedLength {
@@ -9,7 +10,7 @@ export class TypedLength {
     this.board = board;
     this.input = /** @type {HTMLInputElement} */ (element("input", "field typed"));
     this.input.type = "text";
-    this.input.setAttribute("aria-label", "Length");
+    this.input.setAttribute("aria-label", say("typed.length"));
     this.input.autocomplete = "off";
     this.input.hidden = true;
     this.input.addEventListener("input", () => this.tell());

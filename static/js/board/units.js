@@ -1,5 +1,8 @@
 /** Lengths as people write them: centimetres unless they say otherwise. */
 
+import { numeral } from "../language/numeral.js";
+import { say } from "../language/say.js";
+
 /** @typedef {{words: string[], at: number}} Read the words of a sum, and the next one */
 
 /** @type {Record<string, number>} */
@@ -51,9 +54,9 @@ const MOST_M = 10;
  */
 export function problemOf(text, least = -MOST_M) {
   const metres = parsed(text);
-  if (metres === null) return `\u201C${text}\u201D is no number. Write 30, 18in or 91.4/2.`;
-  if (metres < least) return `\u201C${text}\u201D is too little: at least ${length(least)}.`;
-  return metres > MOST_M ? `\u201C${text}\u201D is too much: at most ${length(MOST_M)}.` : "";
+  if (metres === null) return say("length.no_number", { text });
+  if (metres < least) return say("length.too_little", { text, least: length(least) });
+  return metres > MOST_M ? say("length.too_much", { text, most: length(MOST_M) }) : "";
 }
 
 /** The value of a sum of numbers with + - * / and brackets; null if it is none. @param {string} sum */
@@ -105,7 +108,4 @@ function single(read) {
 export const length = (metres) => `${number(metres)} ${unit.name}`;
 
 /** A length as a number of the unit, to a tenth of a centimetre or a hundredth of an inch. @param {number} metres */
-export function number(metres) {
-  const value = (metres / unit.metres).toFixed(unit.name === "in" ? 2 : 1);
-  return Number(value) === 0 ? value.replace("-", "") : value;
-}
+export const number = (metres) => numeral(metres / unit.metres, unit.name === "in" ? 2 : 1);

@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
+import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 
 /** @import { Problem } from "pleat" */
@@ -16,7 +17,7 @@ export function openDialog(title, className, ...children) {
   const heading = element("h2", "dialog-title", title);
   heading.id = `title-${Date.now().toString(36)}`;
   const cross = button("icon-button", () => dialog.close(), icon("close"));
-  cross.setAttribute("aria-label", "Close");
+  cross.setAttribute("aria-label", say("dialog.close"));
   const dialog = /** @type {HTMLDialogElement} */ (
     element("dialog", `dialog ${className}`, element("header", "dialog-head", heading, cross), ...children)
   );
@@ -31,8 +32,8 @@ export function openDialog(title, className, ...children) {
 /** What a server's problem says, as a sentence. @param {Problem} problem */
 export function sentenceOf(problem) {
   const [first] = problem.errors ?? [];
-  const text = first ? inWords(first, []) : String(problem.detail ?? problem.title ?? "The server refused this.");
+  const text = first ? inWords(first, []) : String(problem.detail ?? problem.title ?? say("server.refused"));
   return text[0].toUpperCase() + text.slice(1);
 }
 
-export const OFFLINE = "The server cannot be reached.";
+export const OFFLINE = say("server.unreachable");

@@ -1,6 +1,7 @@
 /** `Export`: every format in which the document can be taken along. */
 
 import { button, element, sayable } from "../dom.js";
+import { say, translated } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 
@@ -13,10 +14,10 @@ const SLOW = new Set(["recording.html", "mcap", "rosbag2", "glb", "lerobot"]);
 /** @param {import("../store.js").Store} store */
 export async function showExport(store) {
   const list = element("ul", "exports");
-  list.setAttribute("aria-label", "Formats");
+  list.setAttribute("aria-label", say("export.formats"));
   const stopped = new AbortController();
   const { signal } = stopped;
-  const dialog = openDialog("Export", "", list);
+  const dialog = openDialog(say("export.title"), "", list);
   dialog.addEventListener("close", () => stopped.abort());
   /** @type {Map<string, Element>} by what the server said: what it still says keeps its row, and the focus in it */
   let rows = new Map();
@@ -56,29 +57,29 @@ async function filesOf(store) {
 /** @param {Store} store @param {FileEntry} file @param {AbortSignal} signal when the dialog is closed */
 function row(store, file, signal) {
   const url = `${store.path}/files/${file.what}`;
-  const said = element("small", "", file.available ? file.text : whyNot(store, file));
-  const name = element("span", "export-name", file.title, said);
+  const said = element("small", "", file.available ? translated(file.text) : whyNot(store, file));
+  const name = element("span", "export-name", translated(file.title), said);
   return element("li", "export", name, verb(url, file, said, signal));
 }
 
 /** Why a file is not there now, as a sentence. @param {Store} store @param {FileEntry} file */
 function whyNot(store, { reason, says }) {
-  const text = inWords({ says, message: reason ?? "" }, store.state?.drawing.folds ?? []);
+  const text = inWords({ says, message: translated(reason ?? "") }, store.state?.drawing.folds ?? []);
   return text.charAt(0).toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
 }
 
 /** @param {string} url @param {FileEntry} file @param {HTMLElement} said @param {AbortSignal} signal */
 function verb(url, file, said, signal) {
   if (!file.available || SLOW.has(file.what)) {
-    const slow = button("plain-button", () => record(slow, url, file, said, signal), "Save");
+    const slow = button("plain-button", () => record(slow, url, file, said, signal), say("export.save"));
     slow.disabled = !file.available;
-    slow.setAttribute("aria-label", `Save ${file.title}`);
+    slow.setAttribute("aria-label", say("export.save_as", { title: translated(file.title) }));
     return slow;
   }
-  const link = element("a", "plain-button", "Save");
+  const link = element("a", "plain-button", say("export.save"));
   link.setAttribute("href", url);
   link.setAttribute("download", file.filename);
-  link.setAttribute("aria-label", `Save ${file.title}`);
+  link.setAttribute("aria-label", say("export.save_as", { title: translated(file.title) }));
   return link;
 }
 
@@ -92,7 +93,7 @@ function verb(url, file, said, signal) {
  */
 async function record(pressed, url, file, said, signal) {
   pressed.disabled = true;
-  said.textContent = "Being made...";
+  said.textContent = say("export.being_made");
   try {
     const answer = await fetch(url, { signal });
     if (!answer.ok) throw new Error(sentenceOf(await answer.json()));
@@ -101,7 +102,7 @@ async function record(pressed, url, file, said, signal) {
     link.download = file.filename;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-    said.textContent = file.text;
+    said.textContent = translated(file.text);
   } catch (error) {
     said.textContent = error instanceof TypeError ? OFFLINE : sayable(error);
   }

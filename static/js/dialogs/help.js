@@ -1,80 +1,109 @@
 /** The keys and gestures, on one page; those of fingers first where there are fingers. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { openDialog } from "./dialog.js";
 
-const TOUCH = {
-  "With a finger": [
-    ["Tap", "Set a corner, select; the first corner again closes"],
-    ["Drag", "Pull what is there, or draw with the tool in hand; a loupe shows what is below"],
-    ["Two fingers", "Pan and zoom; they drop what one finger has begun"],
-    ["Double tap", "New corner on an edge"],
-    ["Small picture", "Tap it to swap board and stage; Play is on the large stage too"],
-    ["Lower grip", "Pull it up for folds, timeline and plan"],
+/** Titles, with keys and what they do. @typedef {[string, [string, string][]]} Section */
+
+/** @type {Section[]} */
+const TOUCH = [
+  [
+    say("help.section.touch"),
+    [
+      [say("key.tap"), say("help.tap")],
+      [say("key.drag"), say("help.touch_drag")],
+      [say("key.two_fingers"), say("help.two_fingers")],
+      [say("key.double_tap"), say("help.new_corner")],
+      [say("help.small_picture"), say("help.swap")],
+      [say("help.lower_grip"), say("help.pull_up")],
+    ],
   ],
-};
-const SECTIONS = {
-  Tools: [
-    ["V", "Select"],
-    ["P", "Draw outline"],
-    ["F", "Draw fold"],
-    ["M", "Place on the table"],
-    ["T", "Measure"],
-    ["I", "Photo under the board"],
-    ["S", "Mirror"],
-    ["N", "Snapping on or off"],
+];
+/** @type {Section[]} */
+const SECTIONS = [
+  [
+    say("help.section.tools"),
+    [
+      ["V", say("tool.select")],
+      ["P", say("tool.outline")],
+      ["F", say("tool.fold")],
+      ["M", say("help.place_on_table")],
+      ["T", say("tool.measure")],
+      ["I", say("help.photo")],
+      ["S", say("rail.mirror")],
+      ["N", say("help.snap")],
+    ],
   ],
-  Drawing: [
-    ["Click", "Set a corner; the first one again closes"],
-    ["Drag", "A fold from edge to edge, or a point of the cloth to where it shall land"],
-    ["G", "Grab the cloth also at its edge or corner; Alt for one stroke"],
-    ["Edge to edge", "Grab beside an edge, drop on another: edge onto edge"],
-    ["30  18in  91.4/2", "Exact length"],
-    ["Shift", "Steps of 15\u00B0"],
-    ["Ctrl", "No snapping"],
-    ["Backspace", "Take the last corner back"],
-    ["Esc", "Drop what was begun"],
+  [
+    say("help.section.drawing"),
+    [
+      [say("key.click"), say("help.click")],
+      [say("key.drag"), say("help.drag")],
+      ["G", say("help.grab")],
+      [say("help.edge_to_edge"), say("help.edge_onto_edge")],
+      [say("help.lengths"), say("help.exact_length")],
+      [say("key.shift"), say("help.steps_of_15")],
+      [say("key.ctrl"), say("help.no_snapping")],
+      [say("key.backspace"), say("help.take_back")],
+      [say("key.esc"), say("help.drop")],
+    ],
   ],
-  "Folds and selection": [
-    ["B  R", "Blue: all layers, red: last flap"],
-    ["X", "Flip: the other side moves"],
-    ["Delete", "Remove what is selected"],
-    ["Arrows", "1 mm, with Shift 1 cm"],
-    ["Double-click", "New corner on an edge"],
-    ["Tab", "Number at the selection"],
-    ["[  ]", "Moment before, after"],
+  [
+    say("help.section.folds"),
+    [
+      ["B  R", say("help.colours")],
+      ["X", say("help.flip")],
+      [say("key.delete"), say("help.remove")],
+      [say("key.arrows"), say("help.nudge")],
+      [say("key.double_click"), say("help.new_corner")],
+      [say("key.tab"), say("help.number")],
+      ["[  ]", say("help.moment")],
+    ],
   ],
-  "Without a mouse": [
-    ["Arrows", "Lead the cross by 1 cm; Shift 10 cm, Alt 1 mm"],
-    ["Enter", "Set a point; twice at the same place closes"],
-    ["Alt + Enter", "Grab the cloth there"],
-    ["Tab", "From corner to corner, from fold to fold"],
-    [",  .", "Turn the garment on the table"],
+  [
+    say("help.section.keyboard"),
+    [
+      [say("key.arrows"), say("help.cross")],
+      [say("key.enter"), say("help.set_point")],
+      [say("key.alt_enter"), say("help.grab_there")],
+      [say("key.tab"), say("help.from_to")],
+      [",  .", say("help.turn")],
+    ],
   ],
-  Plan: [
-    ["H", "Help where there is no plan: to the cards over the board; arrows from one to the next"],
-    ["Click", "Go to where a step begins"],
-    ["Right-click", "Plan from there; so do a long press, Shift + F10 and the menu key"],
+  [
+    say("help.section.plan"),
+    [
+      ["H", say("help.cards")],
+      [say("key.click"), say("help.go_to_step")],
+      [say("key.right_click"), say("help.plan_from")],
+    ],
   ],
-  View: [
-    ["/", "Gallery: all garments, templates, examples"],
-    ["Wheel", "Zoom at the cursor"],
-    ["Space + drag", "Pan; so does the middle button"],
-    ["0", "Show the whole cloth"],
-    ["Space", "Play and pause"],
+  [
+    say("help.section.view"),
+    [
+      ["/", say("help.gallery")],
+      [say("key.wheel"), say("help.zoom")],
+      [say("key.space_drag"), say("help.pan")],
+      ["0", say("help.fit")],
+      [say("key.space"), say("help.play")],
+    ],
   ],
-  Document: [
-    ["Ctrl + Z", "Undo"],
-    ["Ctrl + Shift + Z", "Redo; so does Ctrl + Y"],
-    ["Ctrl + S", "Save the garment as a file"],
-    ["?", "This page"],
+  [
+    say("help.section.document"),
+    [
+      [say("key.undo"), say("history.undo")],
+      [say("key.redo"), say("help.redo")],
+      [say("key.save"), say("help.save")],
+      ["?", say("help.this_page")],
+    ],
   ],
-};
+];
 
 export function showHelp() {
   const isTouched = matchMedia("(pointer: coarse)").matches;
-  const ordered = isTouched ? { ...TOUCH, ...SECTIONS } : { ...SECTIONS, ...TOUCH };
-  const sections = Object.entries(ordered).map(([title, keys]) =>
+  const ordered = isTouched ? [...TOUCH, ...SECTIONS] : [...SECTIONS, ...TOUCH];
+  const sections = ordered.map(([title, keys]) =>
     element(
       "section",
       "help-section",
@@ -82,9 +111,9 @@ export function showHelp() {
       element("dl", "keys", ...keys.flatMap(([key, text]) => [element("dt", "", key), element("dd", "", text)])),
     ),
   );
-  const more = element("p", "dialog-note", "Programs talk to Pleat by ");
-  const link = element("a", "", "its REST interface");
+  const link = element("a", "", say("help.rest"));
   link.setAttribute("href", "../docs");
-  more.append(link, ".");
-  openDialog("Help", "is-wide", element("div", "help", ...sections), more);
+  const [before, after] = say("help.programs", { link: "\0" }).split("\0");
+  const more = element("p", "dialog-note", before, link, after);
+  openDialog(say("help.title"), "is-wide", element("div", "help", ...sections), more);
 }

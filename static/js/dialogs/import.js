@@ -3,6 +3,8 @@
 import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { titleOf } from "../gallery/tile.js";
+import { inEnglish, say } from "../language/say.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
@@ -25,7 +27,7 @@ const [LEAST_M, MOST_M] = [0.01, 10];
 /** @param {Store} store @param {File|null} first a file that was dropped */
 export function showImport(store, first = null) {
   const body = element("div", "import");
-  openDialog("Import", "", body);
+  openDialog(say("import.title"), "", body);
   if (first) read(store, body, first, {});
   else ask(store, body);
 }
@@ -33,7 +35,7 @@ export function showImport(store, first = null) {
 /** Take files that are dropped anywhere on the page. @param {Store} store */
 export function acceptDrops(store) {
   /** @param {DragEvent} event */
-  const hasFiles = (event) => event.dataTransfer?.types.includes("Files");
+  const hasFiles = (event) => event.dataTransfer?.types.includes(say("import.files"));
   addEventListener("dragover", (event) => {
     if (hasFiles(event)) event.preventDefault();
   });
@@ -51,7 +53,7 @@ function ask(store, body, problem = "") {
   const input = /** @type {HTMLInputElement} */ (element("input", ""));
   input.type = "file";
   input.accept = KINDS;
-  input.setAttribute("aria-label", "File");
+  input.setAttribute("aria-label", say("import.file"));
   input.addEventListener("change", () => input.files?.[0] && read(store, body, input.files[0], {}));
   const said = element("p", "dialog-problem", problem);
   said.setAttribute("role", "alert");
@@ -59,17 +61,11 @@ function ask(store, body, problem = "") {
     element(
       "label",
       "drop",
-      element("strong", "", "Choose a file"),
-      element("span", "", "or drop it anywhere on the page"),
+      element("strong", "", say("import.choose")),
+      element("span", "", say("import.drop")),
       input,
     ),
-    element(
-      "p",
-      "dialog-text",
-      "A garment or a plan of Pleat (.json), a drawing (.svg) or a pattern (.dxf). In drawings the closed path is the " +
-        "outline, and blue and red lines are folds. Or a picture (.png, .jpg) of a garment on a table, a sheet of A4 or " +
-        "Letter beside it. Or a robot (.zip) with its card, its URDF and its meshes.",
-    ),
+    element("p", "dialog-text", say("import.about")),
     said,
   );
 }
@@ -81,7 +77,7 @@ function ask(store, body, problem = "") {
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
 async function read(store, body, file, how) {
-  body.replaceChildren(element("p", "dialog-text", `Reading ${file.name}...`));
+  body.replaceChildren(element("p", "dialog-text", say("import.reading", { name: file.name })));
   if (/\.zip$/i.test(file.name)) {
     const problem = await takeRobot(store, file);
     if (problem) ask(store, body, problem);
@@ -114,16 +110,20 @@ function askSize(store, body, file, how, sizes, why) {
   const isPossible = (sides) => Math.min(...sides) > 0 && Math.max(...sides) >= LEAST_M && Math.max(...sides) <= MOST_M;
   const choices = UNITS.filter((name) => sizes[name] && isPossible(sizes[name])).map((name) => {
     const [wide, tall] = sizes[name].map((metres) => length(metres));
-    return button("plain-button", () => readAs({ units: name, scale: how.scale ?? 1 }), `${name}: ${wide} x ${tall}`);
+    return button(
+      "plain-button",
+      () => readAs({ units: name, scale: how.scale ?? 1 }),
+      say("import.size", { name, wide, tall }),
+    );
   });
   const said = element("p", "dialog-problem");
   said.setAttribute("role", "alert");
   const input = /** @type {HTMLInputElement} */ (element("input", "field"));
   input.autocomplete = "off";
   const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
-  const label = element("label", "measure", element("span", "measure-name", "Its width"), input);
+  const label = element("label", "measure", element("span", "measure-name", say("import.its_width")), input);
   label.append(element("span", "measure-unit", unit.name));
-  form.append(label, element("button", "plain-button", "Use this width"));
+  form.append(label, element("button", "plain-button", say("import.use_width")));
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     said.textContent = problemOf(input.value, LEAST_M);
@@ -131,7 +131,7 @@ function askSize(store, body, file, how, sizes, why) {
   });
   body.replaceChildren(
     element("p", "dialog-text", `${file.name}: ${why}.`),
-    element("p", "dialog-text", "How large is the garment?"),
+    element("p", "dialog-text", say("import.how_large")),
     element("div", "unit-choices", ...choices),
     form,
     said,
@@ -152,9 +152,9 @@ function askLength(store, body, file, how, why) {
   const input = /** @type {HTMLInputElement} */ (element("input", "field"));
   input.autocomplete = "off";
   const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
-  const label = element("label", "measure", element("span", "measure-name", "From end to end"), input);
+  const label = element("label", "measure", element("span", "measure-name", say("import.end_to_end")), input);
   label.append(element("span", "measure-unit", unit.name));
-  form.append(label, element("button", "plain-button", "Use this length"));
+  form.append(label, element("button", "plain-button", say("import.use_length")));
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     said.textContent = problemOf(input.value, LEAST_M);
@@ -163,7 +163,7 @@ function askLength(store, body, file, how, why) {
   });
   body.replaceChildren(
     element("p", "dialog-text", `${file.name}: ${why}.`),
-    element("p", "dialog-text", "How long is the garment?"),
+    element("p", "dialog-text", say("import.how_long")),
     form,
     said,
   );
@@ -177,7 +177,10 @@ function askLength(store, body, file, how, why) {
  * @returns {How}
  */
 function scaledTo(width_m, sizes, scale) {
-  const ways = UNITS.filter((name) => sizes[name]).map((units) => ({ units, scale: (scale * width_m) / sizes[units][0] }));
+  const ways = UNITS.filter((name) => sizes[name]).map((units) => ({
+    units,
+    scale: (scale * width_m) / sizes[units][0],
+  }));
   return ways.reduce((best, way) => (Math.abs(Math.log(way.scale)) < Math.abs(Math.log(best.scale)) ? way : best));
 }
 
@@ -191,11 +194,11 @@ function scaledTo(width_m, sizes, scale) {
  */
 function found(store, body, file, how, { garment, notes, says, creases, sizes, seen }) {
   const said = element("p", "dialog-problem");
-  const here = button("main-button", () => open(store, body, file, garment), "Open here");
-  const anew = button("plain-button", () => create(garment, said), "As a new document");
+  const here = button("main-button", () => open(store, body, file, garment), say("import.open_here"));
+  const anew = button("plain-button", () => create(garment, said), say("import.open_new"));
   /** @param {Sizes} known */
-  const other = (known) => askSize(store, body, file, how, known, `the garment is ${sizeOf(garment)}`);
-  const verbs = sizes ? [button("plain-button", () => other(sizes), "Another size")] : [];
+  const other = (known) => askSize(store, body, file, how, known, say("import.garment_is", { size: sizeOf(garment) }));
+  const verbs = sizes ? [button("plain-button", () => other(sizes), say("import.another_size"))] : [];
   body.replaceChildren(
     element(
       "div",
@@ -222,7 +225,7 @@ function found(store, body, file, how, { garment, notes, says, creases, sizes, s
 function replaces({ state }) {
   if (!state?.drawing.outline.length) return [];
   const { title, name } = state.drawing;
-  return [element("p", "dialog-text", `Opened here it replaces \u201C${title || name}\u201D; Undo brings that back.`)];
+  return [element("p", "dialog-text", say("import.replaces", { title: titleOf({ title, name }) }))];
 }
 
 /**
@@ -241,16 +244,18 @@ function onWhichCloth(creases, onChoice) {
   return element(
     "fieldset",
     "choices",
-    element("legend", "", "The fold lines are drawn on"),
-    choice("folded", "the cloth as the folds before leave it"),
-    choice("flat", "the flat cloth, all of them"),
+    element("legend", "", say("import.lines_drawn_on")),
+    choice("folded", say("import.on_folded")),
+    choice("flat", say("import.on_flat")),
   );
 }
 
 /** @param {Garment} garment */
 function sizeOf({ outline }) {
   const box = boxOf(outline);
-  return box ? `${length(box.high[0] - box.low[0])} by ${length(box.high[1] - box.low[1])}` : "";
+  return box
+    ? say("import.by", { wide: length(box.high[0] - box.low[0]), tall: length(box.high[1] - box.low[1]) })
+    : "";
 }
 
 /** What is to be said of how the garment was read. @param {Told} told @param {{name?: string}[]} folds */
@@ -261,11 +266,11 @@ function note(told, folds) {
 
 /** @param {Garment} garment */
 const counted = ({ outline, folds }) =>
-  `${outline.length} corners, ${folds.length} ${folds.length === 1 ? "fold" : "folds"}`;
+  `${say("import.corners", { count: outline.length })}, ${say("import.folds", { count: folds.length })}`;
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {Garment} garment */
 async function open(store, body, file, garment) {
-  const state = await store.open(garment, `Import ${file.name}`);
+  const state = await store.open(garment, inEnglish("step.import", { name: file.name }));
   if (state) body.closest("dialog")?.close();
 }
 

@@ -1,6 +1,10 @@
 /** Jobs: work that goes on when nobody looks. The list follows them while it is open. */
 
+import { capital } from "../dock/words.js";
 import { button, element, sayable } from "../dom.js";
+import { times } from "../language/language.js";
+import { say } from "../language/say.js";
+import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./fetched.js";
 
@@ -10,7 +14,13 @@ const JOBS = "../api/jobs";
 const LISTED = 50;
 const LOOK_EVERY_MS = 1000;
 
-const WORDS = { queued: "Waiting", running: "Running", done: "Done", failed: "Failed", cancelled: "Cancelled" };
+const WORDS = {
+  queued: say("job.queued"),
+  running: say("job.running"),
+  done: say("job.done"),
+  failed: say("job.failed"),
+  cancelled: say("job.cancelled"),
+};
 
 /** Show the button only where there are jobs. @param {HTMLElement} opener */
 export async function offerJobs(opener) {
@@ -24,7 +34,7 @@ export async function offerJobs(opener) {
 
 export function showJobs() {
   const list = new JobList();
-  const dialog = openDialog("Jobs", "", list.root, list.said);
+  const dialog = openDialog(say("jobs.title"), "", list.root, list.said);
   const timer = setInterval(() => list.look(), LOOK_EVERY_MS);
   dialog.addEventListener("close", () => clearInterval(timer));
   list.look();
@@ -83,18 +93,18 @@ class JobRow {
    * @param {(id: string) => void} cancel
    */
   constructor(job, cancel) {
-    const name = job.kind[0].toUpperCase() + job.kind.slice(1).replaceAll("_", " ");
-    const when = new Date(job.created).toLocaleString([], { dateStyle: "short", timeStyle: "short" });
+    const name = capital(word("job_kind", job.kind));
+    const when = new Date(job.created).toLocaleString(times, { dateStyle: "short", timeStyle: "short" });
     this.status = element("span", "job-status");
     this.status.setAttribute("role", "status");
     this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", `Progress of ${name}`);
+    this.bar.setAttribute("aria-label", say("jobs.progress", { name }));
     this.message = element("span", "dialog-text");
-    this.stop = button("quiet", () => cancel(job.id), "Cancel");
-    this.stop.setAttribute("aria-label", `Cancel ${name}, ${when}`);
-    this.link = /** @type {HTMLAnchorElement} */ (element("a", "", "Result"));
+    this.stop = button("quiet", () => cancel(job.id), say("jobs.cancel"));
+    this.stop.setAttribute("aria-label", say("jobs.cancel_one", { name, when }));
+    this.link = /** @type {HTMLAnchorElement} */ (element("a", "", say("jobs.result")));
     this.link.href = `${JOBS}/${job.id}`;
-    this.link.setAttribute("aria-label", `Result of ${name}, ${when}`);
+    this.link.setAttribute("aria-label", say("jobs.result_of", { name, when }));
     const head = element("span", "job-name", `${name}, ${when}`);
     this.root = element("li", "job", head, this.status, this.bar, this.message, this.stop, this.link);
   }

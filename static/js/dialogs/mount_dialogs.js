@@ -3,6 +3,7 @@
 import { byId, element } from "../dom.js";
 import { showGallery } from "../gallery/gallery.js";
 import { icon } from "../icons.js";
+import { say } from "../language/say.js";
 import { showExport } from "./export.js";
 import { showHelp } from "./help.js";
 import { acceptDrops, showImport } from "./import.js";
@@ -31,9 +32,9 @@ export function mountDialogs(store) {
     byId(id).addEventListener("click", verb);
   };
   put("gallery", "gallery", "", verbs.gallery);
-  put("new", "new", "New", verbs.startNew);
-  put("import", "import", "Import", verbs.startImport);
-  put("export", "export", "Export", () => showExport(store));
+  put("new", "new", say("bar.new"), verbs.startNew);
+  put("import", "import", say("bar.import"), verbs.startImport);
+  put("export", "export", say("bar.export"), () => showExport(store));
   put("jobs", "jobs", "", showJobs);
   offerJobs(byId("jobs"));
   addEventListener("focus", () => offerJobs(byId("jobs")));

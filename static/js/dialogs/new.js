@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { number, parsed, problemOf, unit } from "../board/units.js";
+import { say, translated } from "../language/say.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
@@ -25,8 +26,8 @@ export async function showNew(name = "") {
   const list = element("div", "templates");
   const detail = element("div", "template-detail");
   list.setAttribute("role", "listbox");
-  list.setAttribute("aria-label", "Templates");
-  openDialog("New garment", "is-wide", element("div", "new", list, detail));
+  list.setAttribute("aria-label", say("new.templates"));
+  openDialog(say("new.title"), "is-wide", element("div", "new", list, detail));
   const answer = await fetch("../api/templates").catch(() => null);
   /** @type {Template[]} */
   const templates = answer?.ok ? await answer.json() : [];
@@ -51,7 +52,10 @@ export async function showNew(name = "") {
     options[index].focus();
   });
   list.append(...options);
-  const first = Math.max(templates.findIndex((template) => template.name === name), 0);
+  const first = Math.max(
+    templates.findIndex((template) => template.name === name),
+    0,
+  );
   choose(first);
   options[first].focus();
 }
@@ -59,7 +63,12 @@ export async function showNew(name = "") {
 /** @param {Template|null} template @param {() => void} onClick */
 function tile(template, onClick) {
   const shown = template ? picture(template.outline, template.folds) : picture([], []);
-  const made = button("template", onClick, shown, element("span", "", template?.title ?? "Blank board"));
+  const made = button(
+    "template",
+    onClick,
+    shown,
+    element("span", "", template ? translated(template.title) : say("new.blank")),
+  );
   made.setAttribute("role", "option");
   return made;
 }
@@ -67,10 +76,10 @@ function tile(template, onClick) {
 /** @param {string} problem */
 function blank(problem) {
   const said = element("p", "dialog-problem", problem);
-  const go = button("main-button", () => create({}, said, "outline"), "Start drawing");
+  const go = button("main-button", () => create({}, said, "outline"), say("new.start"));
   return [
-    element("h3", "", "Blank board"),
-    element("p", "dialog-text", "Draw the outline yourself, corner by corner."),
+    element("h3", "", say("new.blank")),
+    element("p", "dialog-text", say("new.blank_text")),
     said,
     element("div", "dialog-buttons", go),
   ];
@@ -109,7 +118,7 @@ function measures(template) {
   };
   for (const { row } of fields) row.addEventListener("input", soon);
   const form = /** @type {HTMLFormElement} */ (element("form", "template-form"));
-  const go = element("button", "main-button", "Create");
+  const go = element("button", "main-button", say("new.create"));
   form.append(...fields.map(({ row }) => row), said, element("div", "dialog-buttons", go));
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
@@ -118,8 +127,8 @@ function measures(template) {
     if (garment) create({ garment }, said);
   });
   return [
-    element("h3", "", template.title),
-    element("p", "dialog-text", template.text),
+    element("h3", "", translated(template.title)),
+    element("p", "dialog-text", translated(template.text)),
     element("div", "template-columns", shown, form),
   ];
 }
@@ -132,7 +141,7 @@ function field({ name, label, text, default_m: first, min_m: least }) {
   const row = element(
     "label",
     "measure",
-    element("span", "measure-name", label, element("small", "", text)),
+    element("span", "measure-name", translated(label), element("small", "", translated(text))),
     input,
     element("span", "measure-unit", unit.name),
   );
@@ -142,7 +151,14 @@ function field({ name, label, text, default_m: first, min_m: least }) {
   const follow = (metres) => {
     if (!isWritten()) input.value = shown = number(metres);
   };
-  return { name, row, follow, isWritten, value: () => parsed(input.value), problem: () => problemOf(input.value, least) };
+  return {
+    name,
+    row,
+    follow,
+    isWritten,
+    value: () => parsed(input.value),
+    problem: () => problemOf(input.value, least),
+  };
 }
 
 /**

@@ -1,6 +1,7 @@
 /** What the garment is called; its file is named after that. */
 
 import { element } from "../dom.js";
+import { inEnglish, say } from "../language/say.js";
 import { openDialog } from "./dialog.js";
 
 const LONGEST_NAME = 63;
@@ -10,7 +11,8 @@ const LONGEST_TITLE = 200;
 export async function showRename(store) {
   if (!store.state) return;
   const title = await askTitle(store.state.drawing.title);
-  if (title) store.edit("Rename garment", (drawing) => Object.assign(drawing, { title, name: fileName(title) }));
+  if (title)
+    store.edit(inEnglish("step.rename_garment"), (drawing) => Object.assign(drawing, { title, name: fileName(title) }));
 }
 
 /** Ask what a garment is to be called. @param {string} before @returns {Promise<string>} empty if nothing was said */
@@ -23,10 +25,10 @@ export function askTitle(before) {
   const form = element(
     "form",
     "rename",
-    element("label", "", element("span", "dialog-text", "Name"), input),
-    element("div", "dialog-buttons", element("button", "main-button", "Rename")),
+    element("label", "", element("span", "dialog-text", say("rename.name")), input),
+    element("div", "dialog-buttons", element("button", "main-button", say("rename.do"))),
   );
-  const dialog = openDialog("Rename garment", "", form);
+  const dialog = openDialog(say("step.rename_garment"), "", form);
   input.select();
   input.focus();
   return new Promise((resolve) => {

@@ -1,5 +1,6 @@
 /** A robot of one's own, a zip archive of `robot.json`, its URDF and its meshes: it is saved, and folds from then on. */
 
+import { say } from "../language/say.js";
 import { notice } from "../notices.js";
 import { OFFLINE, sentenceOf } from "./dialog.js";
 
@@ -18,7 +19,7 @@ export async function takeRobot(store, file) {
   const { name, title } = /** @type {RobotEntry} */ (told);
   dispatchEvent(new Event("robots"));
   const isNew = answer.status === 201;
-  notice(isNew ? `${title} is a robot now.` : `${title} was replaced.`);
+  notice(isNew ? say("robots.taken", { title }) : say("robots.replaced", { title }));
   await store.putRobot(name);
   return "";
 }

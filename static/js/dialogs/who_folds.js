@@ -3,6 +3,7 @@
 import { button, element, sayable } from "../dom.js";
 import { sentence } from "../dock/reasons.js";
 import { capital, seconds } from "../dock/words.js";
+import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { length } from "../messages/lengths.js";
 import { openDialog } from "./dialog.js";
@@ -21,8 +22,8 @@ import { fetched } from "./fetched.js";
  * @property {{says: Says, message: string, cost_s: number|null}|null} help
  */
 
-const COLUMNS = ["Robot", "Time", "Tightest margin", "What it would take", ""];
-const MARGIN = "The largest comfort radius for which there still is a plan";
+const COLUMNS = [say("robot.label"), say("robots.time"), say("robots.margin"), say("robots.take"), ""];
+const MARGIN = say("robots.margin_hint");
 const TIME_LIMIT_S = 10;
 const LOOK_EVERY_MS = 300;
 
@@ -36,8 +37,8 @@ export function showWhoFolds(store) {
   const heads = COLUMNS.map((word) => element("th", "", word));
   heads[2].title = MARGIN;
   const table = element("table", "who-folds", element("thead", "", element("tr", "", ...heads)), body);
-  const about = element("p", "dialog-text", "Each robot at its own table, with the garment laid where its arms reach best.");
-  const dialog = openDialog("Who can fold this?", "is-wide", about, table, said);
+  const about = element("p", "dialog-text", say("robots.about"));
+  const dialog = openDialog(say("robots.who"), "is-wide", about, table, said);
   const comparing = new Comparing(garment);
   dialog.addEventListener("close", () => comparing.stop());
 
@@ -85,7 +86,7 @@ class Comparing {
       job = await fetched(this.job);
     }
     this.job = null;
-    if (job.status !== "done") throw new Error(`${capital(job.message || "the comparison ended without a result")}.`);
+    if (job.status !== "done") throw new Error(`${capital(job.message || say("robots.ended"))}.`);
     return /** @type {{result: {robots: Found[]}}} */ (/** @type {unknown} */ (job)).result.robots[0];
   }
 }
@@ -103,8 +104,8 @@ class Row {
     this.cost = element("td", "");
     this.margin = element("td", "");
     this.what = element("td", "what-then");
-    this.use = button("quiet", () => use(name), "Use");
-    this.use.setAttribute("aria-label", `Use ${title}`);
+    this.use = button("quiet", () => use(name), say("robots.use"));
+    this.use.setAttribute("aria-label", say("robots.use_one", { title }));
     this.use.hidden = isOwn;
     const last = element("td", "", this.use);
     const head = element("th", "", title);
@@ -113,13 +114,14 @@ class Row {
   }
 
   begin() {
-    this.cost.textContent = "Planning...";
+    this.cost.textContent = say("status.planning");
   }
 
   /** @param {Found} found */
   show({ status, cost_s: cost, margin_m: margin, reasons, help }) {
     this.root.dataset.status = status;
-    this.cost.textContent = cost === null ? (status === "infeasible" ? "No plan" : "None found") : seconds(cost);
+    this.cost.textContent =
+      cost === null ? (status === "infeasible" ? say("plan.none") : say("robots.none_found")) : seconds(cost);
     this.margin.textContent = margin === null ? "" : length(margin);
     const reason = reasons.find(({ message }) => message);
     const why = reason && cost === null ? sentence(reason, this.folds) : "";

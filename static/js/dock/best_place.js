@@ -1,6 +1,7 @@
 /** The button `Best place`: looks for a place on the table where the plan is quicker, and offers it. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { suggestionButton } from "./suggestion_button.js";
 import { SuggestionSearch } from "./suggestion_search.js";
 
@@ -14,12 +15,12 @@ export class BestPlace {
     this.search = new SuggestionSearch();
     /** @type {number|null} the version that it is looked for */
     this.version = null;
-    this.button = button("chip", () => this.begin(), "Best place");
-    this.button.title = "Look for a place on the table where the plan is quicker";
+    this.button = button("chip", () => this.begin(), say("place.best"));
+    this.button.title = say("place.best_hint");
     this.note = element("p", "hint search-note");
     this.note.setAttribute("aria-live", "polite");
     this.offer = element("div", "suggestions");
-    this.end = button("quiet", () => this.close(), "Stop");
+    this.end = button("quiet", () => this.close(), say("search.stop"));
     this.root = element("div", "best-place", this.note, this.offer, this.end);
     this.search.addEventListener("change", () => this.show());
     this.close();
@@ -51,11 +52,11 @@ export class BestPlace {
     this.note.classList.toggle("is-searching", isRunning);
     this.note.hidden = best !== undefined;
     this.offer.hidden = best === undefined;
-    this.note.textContent = isRunning ? "Trying places on the table\u2026" : outcome(fault);
-    this.end.textContent = isRunning ? "Stop" : "Close";
+    this.note.textContent = isRunning ? say("place.trying") : outcome(fault);
+    this.end.textContent = isRunning ? say("search.stop") : say("dialog.close");
     this.offer.replaceChildren(...(best ? [suggestionButton(this.store, best, "is-first")] : []));
   }
 }
 
 /** @param {string} fault */
-const outcome = (fault) => (fault ? `Nothing could be looked for: ${fault}.` : "No quicker place was found.");
+const outcome = (fault) => (fault ? say("search.fault", { fault }) : say("place.none"));

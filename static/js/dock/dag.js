@@ -1,6 +1,7 @@
 /** The Fold-DAG as a graph: folds in columns by depth, done, available or waiting as the time goes. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { columns, wayOf } from "./dag_layout.js";
 import { before, waitsFor } from "./fold_states.js";
 import { svg } from "./icons.js";
@@ -13,7 +14,12 @@ const NODE = { height: 34, gapX: 20, gapY: 8, edge: 8, line: 13 };
 /** Nodes are as wide as fits, within these (px); so much of that is not for letters, and a letter takes so much. */
 const WIDTH = { least: 78, most: 130, frame: 28, letter: 6.2 };
 /** @type {Record<string, string>} */
-const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits" };
+const STATES = {
+  done: say("fold_state.done"),
+  current: say("fold_state.current"),
+  available: say("fold_state.available"),
+  waiting: say("fold_state.waiting"),
+};
 
 /** @typedef {{x: number, y: number}} Corner the upper left one of a node (px) */
 
@@ -63,7 +69,7 @@ export class Dag {
     const width = this.root.clientWidth;
     if (!folds || !width || width === this.drawn) return;
     this.drawn = width;
-    const missing = folds.length ? "Known once the folds can be made." : "No folds yet.";
+    const missing = folds.length ? say("dag.unknown") : say("folds.none");
     if (plan && folds.length) this.root.replaceChildren(this.graph(folds, plan), this.key());
     else this.root.replaceChildren(element("p", "hint", missing));
     this.showStates(this.states);
@@ -80,7 +86,7 @@ export class Dag {
       node.dataset.state = states[fold];
       node.setAttribute("aria-label", this.label(folds, fold, states[fold]));
     });
-    for (const { from, line } of this.edges) line.classList.toggle("is-done", states[from] === "done");
+    for (const { from, line } of this.edges) line.classList.toggle("is-done", states[from] === say("fold_state.done"));
   }
 
   /** @param {Set<string>} ids of the folds that are selected */
@@ -105,7 +111,7 @@ export class Dag {
     const places = own.toSorted((a, b) => a.fold - b.fold).map(at); // one for each fold
     this.nodes = folds.map((fold, index) => this.node(fold, index, places[index]));
     const drawn = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" });
-    drawn.setAttribute("aria-label", `Fold-DAG of ${folds.length} in ${laid.length} steps`);
+    drawn.setAttribute("aria-label", say("dag.label", { folds: folds.length, steps: laid.length }));
     const lines = svg("g", { "aria-hidden": "true" }, ...this.edges.map(({ line }) => line));
     drawn.append(lines, ...this.nodes);
     return element("div", "dag-scroll", drawn);
@@ -163,11 +169,11 @@ export class Dag {
    */
   label(folds, fold, state) {
     /** @param {number[]} others */
-    const names = (others) => others.map((other) => foldName(folds[other], other)).join(" and ");
+    const names = (others) => others.map((other) => foldName(folds[other], other)).join(say("and"));
     const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
     const about = [foldName(folds[fold], fold), COLOURS[folds[fold].kind], STATES[state] ?? ""];
-    if (after.length) about.push(`after ${names(after)}`);
-    if (first.length) about.push(`before ${names(first)}`);
+    if (after.length) about.push(say("dag.after", { folds: names(after) }));
+    if (first.length) about.push(say("dag.before", { folds: names(first) }));
     return about.filter(Boolean).join(", ");
   }
 
@@ -188,7 +194,11 @@ export class Dag {
   }
 
   key() {
-    const entries = Object.entries({ done: "done", available: "can be folded", waiting: "waits" });
+    const entries = Object.entries({
+      done: say("fold_state.done"),
+      available: say("fold_state.available"),
+      waiting: say("fold_state.waiting"),
+    });
     const key = element("p", "dag-key", ...entries.map(([state, word]) => entry(state, word)));
     key.setAttribute("aria-hidden", "true");
     return key;
@@ -210,4 +220,3 @@ function entry(state, word) {
   sample.dataset.state = state;
   return element("span", "", sample, word);
 }
-

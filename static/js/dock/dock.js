@@ -1,6 +1,7 @@
 /** The lower dock: folds, timeline, and what planning came to. */
 
 import { byId, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { Clock } from "./clock.js";
 import { Folds } from "./folds.js";
 import { Lanes } from "./lanes.js";
@@ -24,7 +25,7 @@ export function mountDock(store, pictures) {
   const transport = new Transport(store, clock, slider, shown);
   const lanes = new Lanes(store, clock, slider, shown);
   const timeline = element("section", "dock-timeline", transport.root, lanes.root, seeWhy(store));
-  timeline.setAttribute("aria-label", "Timeline");
+  timeline.setAttribute("aria-label", say("timeline.label"));
   const folds = new Folds(store, clock, shown);
   const outcome = new Outcome(store, clock, shown, pictures, (t_s) => slider.seek(t_s));
   const steps = new StepMenu(store, shown, () => outcome.start.takeFocus());

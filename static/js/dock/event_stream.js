@@ -1,5 +1,7 @@
 /** Server-sent events as the answer to a POST. */
 
+import { say } from "../language/say.js";
+
 /**
  * @param {string} url
  * @param {any} sent as JSON
@@ -9,7 +11,8 @@
 export async function* eventStream(url, sent, signal) {
   const headers = { "content-type": "application/json", accept: "text/event-stream" };
   const answer = await fetch(url, { method: "POST", headers, body: JSON.stringify(sent), signal });
-  if (!answer.ok || !answer.body) throw new Error((await problemOf(answer)) ?? `the server answered ${answer.status}`);
+  if (!answer.ok || !answer.body)
+    throw new Error((await problemOf(answer)) ?? say("server.answered", { status: answer.status }));
   const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
   let kept = "";
   for (let part = await reader.read(); !part.done; part = await reader.read()) {

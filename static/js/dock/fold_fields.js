@@ -2,6 +2,7 @@
 
 import { parsed, problemOf } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { iconButton, relabel } from "./buttons.js";
 import { length } from "../messages/lengths.js";
 import { COLOURS, MOVED } from "./words.js";
@@ -36,7 +37,7 @@ export class FoldFields {
     this.down = iconButton("down", "", () => verbs.onMove(1));
     this.pen = iconButton("pen", "", onRename);
     this.bin = iconButton("bin", "", verbs.onDelete);
-    const grip = element("label", "fold-grip", element("span", "", "Grip"), this.radius);
+    const grip = element("label", "fold-grip", element("span", "", say("grip.label")), this.radius);
     const tools = element("span", "fold-tools", this.pen, this.up, this.down, this.bin);
     this.root = element("div", "fold-fields", this.radios, grip, tools);
   }
@@ -51,16 +52,16 @@ export class FoldFields {
       radio.setAttribute("aria-checked", String(isOn));
       radio.tabIndex = isOn ? 0 : -1;
     }
-    this.radios.setAttribute("aria-label", `Colour of ${called}`);
+    this.radios.setAttribute("aria-label", say("fold.colour_of", { fold: called }));
     this.radius.placeholder = length(articleRadius);
     this.told = fold.grip_radius_m === null ? "" : length(fold.grip_radius_m);
     if (!this.isTyped) this.radius.value = this.told;
-    this.radius.setAttribute("aria-label", `Grip radius of ${called}`);
-    this.radius.title = "How far around it one grip holds the cloth; empty: as the garment's";
-    relabel(this.pen, `Rename ${called}`);
-    relabel(this.up, `Move ${called} up`);
-    relabel(this.down, `Move ${called} down`);
-    relabel(this.bin, `Delete ${called}`);
+    this.radius.setAttribute("aria-label", say("fold.radius_of", { fold: called }));
+    this.radius.title = say("fold.radius_hint");
+    relabel(this.pen, say("fold.rename", { fold: called }));
+    relabel(this.up, say("fold.move_up", { fold: called }));
+    relabel(this.down, say("fold.move_down", { fold: called }));
+    relabel(this.bin, say("fold.delete", { fold: called }));
     this.up.disabled = isFirst;
     this.down.disabled = isLast;
   }

@@ -2,6 +2,7 @@
 
 import { assumptionChip } from "../assumptions.js";
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { length } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
@@ -10,8 +11,14 @@ import { COLOURS, foldName, MOVED } from "./words.js";
 
 /** @import { Fold } from "pleat" */
 
-const STATES = { done: "done", current: "being folded", available: "can be folded", waiting: "waits", none: "" };
-const DONE_BEFORE = "done before the plan starts";
+const STATES = {
+  done: say("fold_state.done"),
+  current: say("fold_state.current"),
+  available: say("fold_state.available"),
+  waiting: say("fold_state.waiting"),
+  none: "",
+};
+const DONE_BEFORE = say("fold_state.before");
 
 /**
  * @typedef {object} Verbs
@@ -81,19 +88,21 @@ export class FoldRow {
     this.root.dataset.kind = fold.kind;
     this.root.classList.toggle("is-illegal", problem !== "");
     this.name.title = problem || `${COLOURS[fold.kind]}, ${MOVED[fold.kind]}`;
-    const assumed = isAssumed ? `grip ${length(fold.grip_radius_m ?? articleRadius)}` : "";
+    const assumed = isAssumed ? say("assumption.grip", { radius: length(fold.grip_radius_m ?? articleRadius) }) : "";
     if (assumed !== this.assumed.dataset.text) {
       this.assumed.dataset.text = assumed;
       this.assumed.replaceChildren(...(assumed ? [assumptionChip(assumed, () => this.verbs.onGrip(null))] : []));
     }
     this.waits.replaceChildren(...waits.map((other) => element("span", "badge", String(other.index + 1))));
-    this.waits.title = waits.length ? `After ${waits.map((other) => other.name).join(", ")}` : "";
-    this.waiting = waits.map((other) => other.name).join(" and ");
+    this.waits.title = waits.length
+      ? say("fold.after_hint", { folds: waits.map((other) => other.name).join(", ") })
+      : "";
+    this.waiting = waits.map((other) => other.name).join(say("and"));
     this.problem = problem;
     this.isDoneBefore = isDoneBefore;
     this.mark.title = isDoneBefore ? DONE_BEFORE : "";
     this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, articleRadius });
-    relabel(this.eye, `Show the cloth before ${called}`);
+    relabel(this.eye, say("fold.show_before", { fold: called }));
     this.showState(this.state, true);
   }
 
@@ -111,7 +120,7 @@ export class FoldRow {
       `${this.index + 1}`,
       this.fold && `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
       this.problem || (this.isDoneBefore ? DONE_BEFORE : STATES[state]),
-      this.waiting && `after ${this.waiting}`,
+      this.waiting && say("fold.after", { folds: this.waiting }),
     ];
     this.name.setAttribute("aria-description", told.filter(Boolean).join(", "));
   }
@@ -136,7 +145,7 @@ export class FoldRow {
     field.value = this.fold.name;
     field.maxLength = 200;
     field.placeholder = foldName({}, this.index);
-    field.setAttribute("aria-label", "Name of the fold");
+    field.setAttribute("aria-label", say("fold.name"));
     this.field = field;
     this.name.hidden = true;
     this.name.after(field);

@@ -2,6 +2,7 @@
 
 import { isWide } from "../assumptions.js";
 import { element } from "../dom.js";
+import { inEnglish, say } from "../language/say.js";
 import { toggle } from "./buttons.js";
 import { Dag } from "./dag.js";
 import * as edits from "./fold_edits.js";
@@ -26,12 +27,16 @@ export class Folds {
     /** @type {Map<string, FoldRow>} */
     this.rows = new Map();
     this.list = element("ol", "fold-list");
-    this.list.setAttribute("aria-label", "Folds");
-    this.order = new FoldOrder(this.list, (id, to) => this.moveTo(id, to), () => this.show());
-    this.empty = element("p", "hint", "No folds yet. Draw one on the board with F.");
+    this.list.setAttribute("aria-label", say("folds.title"));
+    this.order = new FoldOrder(
+      this.list,
+      (id, to) => this.moveTo(id, to),
+      () => this.show(),
+    );
+    this.empty = element("p", "hint", say("folds.none_yet"));
     this.dag = new Dag((id) => this.select(id));
-    this.switch = toggle("Fold-DAG", (isOn) => this.showGraph(isOn));
-    const head = element("header", "dock-head", element("h2", "", "Folds"), this.switch);
+    this.switch = toggle(say("dag.title"), (isOn) => this.showGraph(isOn));
+    const head = element("header", "dock-head", element("h2", "", say("folds.title")), this.switch);
     this.root = element("section", "dock-folds", head, this.list, this.empty, this.dag.root);
     this.list.addEventListener("keydown", (event) => this.onKey(event));
     this.list.addEventListener("focusin", (event) => this.stopAt(rowOf(event)));
@@ -95,9 +100,9 @@ export class Folds {
     const row = new FoldRow(id, {
       onSelect: () => this.select(id),
       onShow: () => this.showMoment(id),
-      onRename: (name) => store.edit("Rename fold", edits.renamed(id, name)),
-      onColour: (kind) => store.edit(`Make fold ${kind}`, edits.recoloured(id, kind)),
-      onGrip: (radius) => store.edit("Set grip radius", edits.gripped(id, radius)),
+      onRename: (name) => store.edit(inEnglish("step.rename_fold"), edits.renamed(id, name)),
+      onColour: (kind) => store.edit(inEnglish(`step.make_${kind}`), edits.recoloured(id, kind)),
+      onGrip: (radius) => store.edit(inEnglish("step.grip_radius"), edits.gripped(id, radius)),
       onRefuse: (why) => store.refuse(why),
       onMove: (by) => this.moveTo(id, this.indexOf(id) + by),
       onDelete: () => this.remove(id),
@@ -150,14 +155,14 @@ export class Folds {
   /** @param {string} id @param {number} to */
   async moveTo(id, to) {
     if (to < 0 || to >= this.folds.length || to === this.indexOf(id)) return;
-    await this.store.edit("Reorder folds", edits.moved(id, to));
+    await this.store.edit(inEnglish("step.reorder"), edits.moved(id, to));
     this.show();
   }
 
   /** @param {string} id */
   async remove(id) {
     const index = this.indexOf(id);
-    await this.store.edit("Delete fold", edits.removed(id));
+    await this.store.edit(inEnglish("step.delete_fold"), edits.removed(id));
     const next = this.folds[Math.min(index, this.folds.length - 1)];
     if (next) this.rows.get(next.id)?.name.focus();
   }

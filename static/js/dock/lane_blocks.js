@@ -1,5 +1,6 @@
 /** What base and arms do in a plan, as blocks on a lane each. */
 
+import { say } from "../language/say.js";
 import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
 import { foldName, hands, seconds, where, whole } from "./words.js";
@@ -48,7 +49,7 @@ export function laneBlocks(plan, folds, start = null, arms = []) {
 
 /** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @returns {Block} */
 function armBlock(primitive, index, folds) {
-  if (primitive.kind !== "fold") return block(primitive, index, folds, { name: "drag" });
+  if (primitive.kind !== "fold") return block(primitive, index, folds, { name: say("lane.drag") });
   const { fold } = primitive;
   const told = { name: foldName(folds[fold], fold), number: String(fold + 1), colour: folds[fold]?.kind ?? "" };
   return block(primitive, index, folds, told);
@@ -66,8 +67,8 @@ function baseBlock(primitive, index, backOff, folds) {
   if (primitive.kind === "move") return block(primitive, index, folds, { name: place(primitive.to), kind: "move" });
   const further = primitive.base.back_off_m - backOff;
   if (Math.abs(further) < MOVED_M) return null;
-  const [name, rest] = [length(Math.abs(further)), further > 0 ? "back" : "ahead"];
-  return block(primitive, index, folds, { name, rest, kind: "move", base: `the base drives ${name} ${rest}` });
+  const [name, rest] = [length(Math.abs(further)), say(further > 0 ? "lane.back" : "lane.ahead")];
+  return block(primitive, index, folds, { name, rest, kind: "move", base: say("lane.drives", { name, rest }) });
 }
 
 /** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @param {Told} told @returns {Block} */
@@ -77,8 +78,9 @@ function block(primitive, index, folds, told) {
   const holds = primitive.kind !== "move" && primitive.holds;
   const by = hands(primitive);
   const at = where(primitive);
-  const parts = [whole(primitive, folds), by && `by ${by}`, at && `at ${at}`, base, holds ? "holds on" : ""];
-  const when = `${seconds(start)} to ${seconds(start + duration)}`;
+  const how = [by && say("lane.by_hands", { hands: by }), at && say("lane.at", { place: at })];
+  const parts = [whole(primitive, folds), ...how, base, holds ? say("lane.holds_on") : ""];
+  const when = say("lane.from_to", { start: seconds(start), end: seconds(start + duration) });
   const about = [...parts.filter(Boolean), when].join(", ");
   const isHolding = Boolean(holds) && kind !== "move";
   return { index, kind, colour, number, name, rest, about, start_s: start, duration_s: duration, isHolding };

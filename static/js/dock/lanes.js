@@ -2,6 +2,7 @@
 
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
 import { markStep } from "./step_menu.js";
 import { axisTicks } from "./time_axis.js";
@@ -39,7 +40,7 @@ export class Lanes {
     /** How long the plan takes (s). */
     this.duration = 0;
     this.root.append(this.over);
-    this.base = this.lane("base", "", "Base");
+    this.base = this.lane("base", "", say("lane.base"));
     /** The arms' lanes, by the arms' names. @type {Map<string, HTMLElement>} */
     this.arms = new Map();
     this.root.addEventListener("pointerdown", (event) => this.press(event));
@@ -173,7 +174,10 @@ export class Lanes {
     this.root.style.setProperty("--hover", String(share));
     this.about.classList.toggle("is-left", share > 0.5);
     const primitive = this.plan?.primitives[primitiveAt(this.plan, hoverTime)];
-    this.about.replaceChildren(element("b", "", seconds(hoverTime)), ` ${primitive ? doing(primitive, this.folds) : ""}`);
+    this.about.replaceChildren(
+      element("b", "", seconds(hoverTime)),
+      ` ${primitive ? doing(primitive, this.folds) : ""}`,
+    );
   }
 
   /** Tab stops at one block, the arrows lead on. @param {Element|null} stop */

@@ -1,6 +1,7 @@
 /** What stands where the plan would be: all the reasons, with their numbers. What would help is over the board. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { details, explanation } from "./reasons.js";
 
 /** @import { DocumentState, PlanMessage } from "pleat" */
@@ -8,7 +9,7 @@ import { details, explanation } from "./reasons.js";
 export class NoPlan {
   constructor() {
     this.all = element("ul", "reasons");
-    this.all.setAttribute("aria-label", "Reasons");
+    this.all.setAttribute("aria-label", say("reasons.label"));
     this.brief = element("p", "hint");
     this.root = element("div", "no-plan", this.brief, this.all);
   }

@@ -1,6 +1,9 @@
 /** The numbers of a plan: what it costs, compared with the one before, what that is made of, and how it was found. */
 
 import { element } from "../dom.js";
+import { language } from "../language/language.js";
+import { numeral } from "../language/numeral.js";
+import { say } from "../language/say.js";
 import { KINDS, seconds } from "./words.js";
 
 /** @import { Plan, PlanBefore, Statistics } from "pleat" */
@@ -8,18 +11,18 @@ import { KINDS, seconds } from "./words.js";
 const NOTICEABLE_S = 0.05;
 /**
  * Of the time that a kind of primitive takes (s).
- * @typedef {{kind: string, name: string, count: number, spent: number}} Share
+ * @typedef {{kind: keyof typeof KINDS, count: number, spent: number}} Share
  */
 
 const COUNTERS = /** @type {const} */ ([
-  ["Expanded", "expanded"],
-  ["Explored", "explored"],
-  ["IK queries", "ik_queries"],
+  [say("figure.expanded"), "expanded"],
+  [say("figure.explored"), "explored"],
+  [say("figure.ik_queries"), "ik_queries"],
 ]);
 const TIMES = /** @type {const} */ ([
-  ["Search", "search_time_s"],
-  ["of it, IK", "ik_time_s"],
-  ["Joint paths", "joint_time_s"],
+  [say("figure.search"), "search_time_s"],
+  [say("figure.of_it_ik"), "ik_time_s"],
+  [say("figure.joint_paths"), "joint_time_s"],
 ]);
 
 /**
@@ -42,18 +45,19 @@ export function numbers(plan, before) {
  */
 export function difference(cost_s, before) {
   if (!before) return "";
-  if (before.cost_s === null) return "no plan before";
+  if (before.cost_s === null) return say("cost.no_plan_before");
   const more = cost_s - before.cost_s;
-  if (Math.abs(more) < NOTICEABLE_S) return "same as before";
-  return `${seconds(Math.abs(more))} ${more > 0 ? "more" : "less"} than before`;
+  if (Math.abs(more) < NOTICEABLE_S) return say("cost.same");
+  return say(more > 0 ? "cost.more" : "cost.less", { seconds: seconds(Math.abs(more)) });
 }
 
 /** What each kind of primitive adds up to (s). @param {Plan} plan @returns {Share[]} */
 function sharesOf(plan) {
-  return Object.entries(KINDS).flatMap(([kind, name]) => {
+  const kinds = /** @type {(keyof typeof KINDS)[]} */ (Object.keys(KINDS));
+  return kinds.flatMap((kind) => {
     const own = plan.primitives.filter((primitive) => primitive.kind === kind);
     const spent = own.reduce((sum, primitive) => sum + primitive.duration_s, 0);
-    return own.length ? [{ kind, name, count: own.length, spent }] : [];
+    return own.length ? [{ kind, count: own.length, spent }] : [];
   });
 }
 
@@ -73,8 +77,8 @@ function bar(parts, cost_s) {
 /** @param {Share[]} parts */
 function partList(parts) {
   const list = element("dl", "figures is-parts");
-  for (const { kind, name, count, spent } of parts) {
-    const term = element("dt", "", `${count} \u00D7 ${name.toLowerCase()}`);
+  for (const { kind, count, spent } of parts) {
+    const term = element("dt", "", say(`kind.${kind}.counted`, { count }));
     term.dataset.kind = kind;
     list.append(term, element("dd", "", seconds(spent)));
   }
@@ -86,9 +90,9 @@ function counters(statistics) {
   const list = element("dl", "figures");
   /** @param {string} name @param {string} value */
   const add = (name, value) => list.append(element("dt", "", name), element("dd", "", value));
-  for (const [name, key] of COUNTERS) add(name, statistics[key].toLocaleString("en"));
-  for (const [name, key] of TIMES) add(name, `${Math.round(1000 * statistics[key]).toLocaleString("en")} ms`);
-  return element("details", "search-figures", element("summary", "hint", "How it was found"), list);
+  for (const [name, key] of COUNTERS) add(name, statistics[key].toLocaleString(language));
+  for (const [name, key] of TIMES) add(name, say("time.milliseconds", { number: Math.round(1000 * statistics[key]) }));
+  return element("details", "search-figures", element("summary", "hint", say("figure.title")), list);
 }
 
 /**
@@ -98,7 +102,7 @@ function counters(statistics) {
  */
 export function quicker(cost_s, least_s) {
   const least = seconds(least_s);
-  if (seconds(cost_s) !== least) return `There may be a quicker plan; none takes less than ${least}.`;
+  if (seconds(cost_s) !== least) return say("cost.none_less", { least });
   const by_s = Math.max(Math.ceil(100 * (cost_s - least_s) - 1e-6) / 100, 0.01);
-  return `There may be a quicker plan, by ${by_s.toFixed(2)} s at most.`;
+  return say("cost.quicker_by", { seconds: numeral(by_s, 2) });
 }

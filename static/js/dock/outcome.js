@@ -1,6 +1,7 @@
 /** The column of what planning came to: the plan and its numbers, or why there is none and what would help. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { BestPlace } from "./best_place.js";
 import { NoPlan } from "./no_plan.js";
 import { numbers, quicker } from "./numbers.js";
@@ -24,18 +25,18 @@ export class Outcome {
   constructor(store, clock, shown, pictures, onSeek) {
     this.store = store;
     this.shown = shown;
-    this.title = element("h2", "", "Plan");
+    this.title = element("h2", "", say("plan.label"));
     this.list = new PlanList(store, clock, pictures, onSeek);
     this.empty = element("p", "hint");
     this.numbers = element("section", "numbers");
-    this.numbers.setAttribute("aria-label", "Numbers");
+    this.numbers.setAttribute("aria-label", say("numbers.label"));
     this.place = new BestPlace(store);
     this.rehearsing = new Rehearsing(store);
     this.rehearsing.addEventListener("change", () => this.list.judge(this.rehearsing.verdicts));
     this.none = new NoPlan();
-    this.stop = button("chip", () => store.command({ do: "stop" }), "Stop");
-    this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), "Look longer");
-    this.longer.title = "Search on for a quicker plan, six times as long";
+    this.stop = button("chip", () => store.command({ do: "stop" }), say("search.stop"));
+    this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), say("plan.look_longer"));
+    this.longer.title = say("plan.look_longer_hint");
     this.refined = element("p", "refined hint");
     this.refined.setAttribute("aria-live", "polite");
     this.planning = new Planning(store);
@@ -56,7 +57,7 @@ export class Outcome {
     const isPlanning = this.planning.wait === "long";
     const isRefining = this.refining.isLong;
     this.stop.hidden = !isPlanning && !isRefining;
-    this.stop.title = isPlanning ? "Stop planning; the next change is planned again" : "Keep this plan";
+    this.stop.title = isPlanning ? say("plan.stop_hint") : say("plan.keep");
     this.tellOfQuicker();
   }
 
@@ -64,9 +65,9 @@ export class Outcome {
   tellOfQuicker() {
     const plan = this.store.plan?.plan;
     const isOpen = plan?.status === "solved" && plan.is_final && plan.at_least_s !== null;
-    const searched = `Searched ${(plan?.statistics?.ways ?? 0).toLocaleString("en")} ways.`;
+    const searched = say("plan.searched", { ways: plan?.statistics?.ways ?? 0 });
     const open = isOpen ? `${searched} ${quicker(plan.cost_s ?? 0, plan.at_least_s ?? 0)}` : "";
-    this.refined.textContent = this.refining.isLong ? "Looking for a quicker plan\u2026" : open;
+    this.refined.textContent = this.refining.isLong ? say("plan.looking") : open;
     this.longer.hidden = this.refining.isLong || !isOpen || !this.store.plan?.may_look_longer;
   }
 
@@ -87,7 +88,7 @@ export class Outcome {
     this.list.show(null, []);
     this.numbers.replaceChildren();
     this.empty.hidden = false;
-    this.empty.textContent = "Being worked out\u2026";
+    this.empty.textContent = say("plan.working");
     this.place.button.hidden = true;
   }
 
@@ -105,7 +106,7 @@ export class Outcome {
     this.list.show(plan, this.shown.folds);
     this.empty.hidden = plan.primitives.length > 0;
     const { length } = this.shown.folds;
-    this.empty.textContent = length ? "Nothing is left to do." : "Nothing to do: there are no folds yet.";
+    this.empty.textContent = length ? say("plan.nothing_left") : say("plan.nothing_to_do");
     this.place.button.hidden = plan.primitives.length === 0 || this.shown.start !== null;
     this.numbers.hidden = plan.primitives.length === 0;
     const [cost, ...rest] = numbers(plan, before);
@@ -115,7 +116,7 @@ export class Outcome {
 
   /** @param {boolean} isNone */
   turn(isNone) {
-    this.title.textContent = isNone ? "No plan" : "Plan";
+    this.title.textContent = isNone ? say("plan.none") : say("plan.label");
     this.solved.hidden = isNone;
     this.none.root.hidden = !isNone;
   }

@@ -2,6 +2,7 @@
 
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
@@ -26,7 +27,7 @@ export class PlanList {
     this.clock = clock;
     this.onSeek = onSeek;
     this.root = element("ol", "plan-list");
-    this.root.setAttribute("aria-label", "Plan");
+    this.root.setAttribute("aria-label", say("plan.label"));
     /** What is shown: plan, folds and unit. */
     this.shown = "";
     /** @type {Plan|null} */
@@ -142,7 +143,7 @@ function told(primitive, folds) {
   const by = hands(primitive);
   const holds = primitive.kind !== "move" && primitive.holds;
   const at = where(primitive);
-  const how = [by && `by ${by}`, at && `at ${at}`, holds ? "holds on" : ""];
-  const parts = [whole(primitive, folds), ...how, seconds(primitive.duration_s)];
+  const how = [by && say("lane.by_hands", { hands: by }), at && say("lane.at", { place: at })];
+  const parts = [whole(primitive, folds), ...how, holds ? say("lane.holds_on") : "", seconds(primitive.duration_s)];
   return parts.filter(Boolean).join(", ");
 }

@@ -1,9 +1,12 @@
 /** Why there is no plan, as one short sentence; `details` has all the numbers. */
 
+import { shortest } from "../language/numeral.js";
+import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
-import { called, place } from "../messages/names.js";
-import { capital, foldName } from "./words.js";
+import { called, place, word } from "../messages/names.js";
+import { causeInWords } from "../messages/reasons.js";
+import { capital, foldName, seconds } from "./words.js";
 
 /** @import { DocumentState, Drawing, DrawingProblem, PlanMessage, Reason, Says } from "pleat" */
 /** @import { Named } from "../messages/names.js" */
@@ -22,16 +25,17 @@ const DRAGGED_M = 1e-3;
 const SAYS = {
   out_of_reach: outOfReach,
   too_many_grips: ({ needed_grip_radius_m: radius }) =>
-    `needs more hands than there are${radius ? `, unless one holds all within ${enough(radius)}` : ""}`,
-  grips_too_close: ({ short_by_m: short }) => `the two hands would be ${short ? `${length(short)} ` : ""}too close`,
-  red_needs_hold: ({ needed_grip_radius_m: radius }) =>
-    radius ? "the hands that still hold are too far from its corners" : "no hand still holds what it moves",
+    radius ? say("why.too_many_grips.unless", { radius: enough(radius) }) : say("why.too_many_grips"),
+  grips_too_close: ({ short_by_m: short }) =>
+    short ? say("why.grips_too_close.by", { length: length(short) }) : say("why.grips_too_close"),
+  red_needs_hold: ({ needed_grip_radius_m: radius }) => say(radius ? "why.red_held_too_far" : "why.red_unheld"),
   not_a_g_state: atRest,
   slips: ({ needed_friction: friction }) =>
-    `the cloth would slip off the table${friction ? `, unless friction were ${Math.ceil(100 * friction) / 100}` : ""}`,
-  collision: () => "the arms would touch something on every way tried",
-  line_off_table: ({ short_by_m: short }) => `its line lies ${short ? `${length(short)} ` : ""}beside the table`,
-  waits_for_fold: () => "waits for a fold that cannot be done",
+    friction ? say("why.slips.unless", { friction: shortest(Math.ceil(100 * friction) / 100) }) : say("why.slips"),
+  collision: () => say("why.collision"),
+  line_off_table: ({ short_by_m: short }) =>
+    short ? say("why.line_off_table.by", { length: length(short) }) : say("why.line_off_table"),
+  waits_for_fold: () => say("why.waits_for_fold"),
 };
 
 /**
@@ -51,7 +55,7 @@ export function sentence(reason, folds) {
  */
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
-  if (message.status === "budget_exceeded") return `Searched ${ways(message)} and found none.`;
+  if (message.status === "budget_exceeded") return say("why.searched", { ways: ways(message) });
   const first = firstReason(message);
   if (message.status === "infeasible" && first) return sentence(first, state.drawing.folds);
   return told(message);
@@ -66,21 +70,27 @@ export function headline(message, state) {
 export function explanation(message, state) {
   if (message.status === "budget_exceeded") return told(message);
   const by_m = message.status === "infeasible" ? Math.hypot(...(firstReason(message)?.offset_m ?? [0, 0])) : 0;
-  const after = by_m < DRAGGED_M ? "" : `, after the cloth was dragged ${length(by_m)}`;
+  const after = by_m < DRAGGED_M ? "" : say("why.after_drag", { length: length(by_m) });
   return headline(message, state).replace(/\.$/, `${after}.`);
 }
 
 /** How many ways were looked at before the search was given up. @param {PlanMessage} message */
-const ways = (message) => {
-  const count = message.plan?.statistics?.ways ?? 0;
-  return `${count.toLocaleString("en")} ${count === 1 ? "way" : "ways"}`;
-};
+const ways = (message) => say("why.ways", { count: message.plan?.statistics?.ways ?? 0 });
 
 /** @param {PlanMessage} message */
 const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
 
 /** What the server says, as a sentence. @param {PlanMessage} message */
-const told = (message) => `${capital(message.text.replace(/^No plan:? */, "") || "None was found")}.`;
+const told = (message) =>
+  `${outOfTime(message) || capital(message.text.replace(/^No plan:? */, "") || say("why.none_found"))}.`;
+
+/** How far a search came that was given up, and what would take it further; empty if none was. @param {PlanMessage} message */
+function outOfTime(message) {
+  if (message.status !== "budget_exceeded") return "";
+  const least = message.plan?.statistics?.bound_s ?? null;
+  if (least === null) return say("why.out_of_time", { ways: ways(message) });
+  return say("why.out_of_time.bound", { ways: ways(message), least: seconds(least) });
+}
 
 /**
  * Everything that is known about why, with all the numbers.
@@ -99,15 +109,14 @@ export function details(message, state) {
  * What is said of a reason that was met, but of which nobody knows that there is a plan without it.
  * @param {{set?: number|null, code: string}} reason
  */
-const untried = ({ set, code }) =>
-  set === null && code !== "waits_for_fold" ? " Met on the way; not tried whether it is the cause." : "";
+const untried = ({ set, code }) => (set === null && code !== "waits_for_fold" ? say("why.untried") : "");
 
 /** @param {DrawingProblem|undefined} problem @param {Drawing} drawing */
 function problemSentence(problem, drawing) {
-  if (!problem) return "The drawing is not finished.";
+  if (!problem) return say("why.not_finished");
   if (problem.code === "outline_unfinished") {
-    if (drawing.outline.length) return "The outline needs three points or more.";
-    return "Nothing is drawn yet: draw an outline (P), or begin with a template.";
+    if (drawing.outline.length) return say("why.three_points");
+    return say("why.nothing_drawn");
   }
   const what = problem.fold === null ? subject(problem.field) : foldName(drawing.folds[problem.fold], problem.fold);
   return `${capital(what)}: ${inWords(problem, drawing.folds)}.`;
@@ -115,7 +124,7 @@ function problemSentence(problem, drawing) {
 
 /** @param {string} field */
 function subject(field) {
-  return field.startsWith("outline") ? "outline" : field.replaceAll("_", " ");
+  return word("subject", field.startsWith("outline") ? "outline" : field);
 }
 
 /** How the cloth lies at the start, in the page's unit; nothing of what comes later. @param {Reason} reason */
@@ -123,32 +132,33 @@ function atRest({ says }) {
   if (says.code !== "at_start") return "";
   const { code, edge, beyond_m: beyond, off_m: off } = /** @type {Says} */ (says.what);
   if (code === "hangs_loose") {
-    return `the cloth hangs ${length(beyond)} over the table\u2019s ${edge} edge, and nothing holds it there`;
+    return say("why.hangs_loose", { length: length(beyond), edge: word("edge", edge) });
   }
-  if (code === "beside_table") return `the cloth lies ${length(off)} beside the table`;
-  return code === "corner_covered" ? "the cloth hangs over two edges of the table at a corner" : "";
+  if (code === "beside_table") return say("why.beside_table", { length: length(off) });
+  return code === "corner_covered" ? say("why.corner_covered") : "";
 }
 
 /** @param {Reason} reason */
 function outOfReach(reason) {
   const { arm, station, short_by_m: short, is_at_least: isAtLeast, comfort_m: comfort } = reason;
+  const from = station ? say("why.best_from", { station: place(station) }) : "";
   if (reason.cause === "comfort_only") {
-    return `within reach${from(station)} only with ${length(comfort ?? 0)} of comfort (${limit(reason) || "too far"})`;
+    const why = limit(reason) || say("cause.too_far");
+    return say("why.comfort_only", { from, comfort: length(comfort ?? 0), why });
   }
-  const why = [cause(reason), limit(reason)].filter(Boolean).join(", ");
-  const by = short ? `${isAtLeast ? "at least " : ""}${length(short)} short` : "out of reach";
-  return `the ${arm ?? "nearest"} hand is ${by}${why ? ` (${why})` : ""}${from(station)}`;
+  const causes = [cause(reason), limit(reason)].filter(Boolean).join(", ");
+  const told = { hand: word("hand", arm ?? "nearest"), why: causes ? ` (${causes})` : "", from };
+  if (!short) return say("why.hand_out_of_reach", told);
+  const by = isAtLeast ? say("amount.at_least", { length: length(short) }) : length(short);
+  return say("why.hand_short", { ...told, by });
 }
 
-/** @param {string|null} station */
-const from = (station) => (station ? `, at best from ${place(station)}` : "");
 /** @param {Reason} reason */
-const limit = ({ joint }) => (joint ? `${joint} limit` : "");
+const limit = ({ joint }) => (joint ? say("joint.limit", { joint: word("joint", joint) }) : "");
 
 /** @param {Reason} reason */
 function cause({ cause: name, towards }) {
-  const up = towards && Math.abs(towards[2]) > UP_DOWN ? (towards[2] < 0 ? " up" : " down") : "";
-  if (name === "too_far") return `too far${up}`;
-  if (name === "too_near") return `too near${up}`;
-  return name === "own_body" ? "its own body is in the way" : "";
+  if (name === "own_body") return say("why.own_body");
+  if (name !== "too_far" && name !== "too_near") return "";
+  return causeInWords(name, towards && Math.abs(towards[2]) > UP_DOWN ? (towards[2] < 0 ? "up" : "down") : "");
 }

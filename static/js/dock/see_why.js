@@ -1,15 +1,16 @@
 /** The switches of what the board can show of the robot: reach, paths, slip limit and the like. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { toggle } from "./buttons.js";
 
 const SWITCHES = [
-  ["reach", "Reach", "Where each arm can grip at this moment, with the comfort asked for"],
-  ["grips", "Grips", "What must be held, and where the hands take it"],
-  ["paths", "Hand paths", "The ways of the hands"],
-  ["base", "Base path", "The way of the base"],
-  ["slip", "Slip limit", "How far the cloth may hang over the table's edges"],
-  ["places", "Cost map", "What the plan costs wherever the garment could lie"],
+  ["reach", say("overlay.reach"), say("overlay.reach_hint")],
+  ["grips", say("overlay.grips"), say("overlay.grips_hint")],
+  ["paths", say("overlay.paths"), say("overlay.paths_hint")],
+  ["base", say("overlay.base"), say("overlay.base_hint")],
+  ["slip", say("overlay.slip"), say("overlay.slip_hint")],
+  ["places", say("overlay.places"), say("overlay.places_hint")],
 ];
 
 /** What takes less time than this needs no word (ms). */
@@ -40,11 +41,11 @@ export function seeWhy(store) {
     }
     clearTimeout(timer);
     if (!store.pending.length) wait.textContent = "";
-    else timer = setTimeout(() => wait.replaceChildren("Working it out\u2026"), NOTICED_MS);
+    else timer = setTimeout(() => wait.replaceChildren(say("overlay.working")), NOTICED_MS);
   });
-  const name = element("span", "see-why-name", "See why");
+  const name = element("span", "see-why-name", say("overlay.title"));
   const root = element("div", "see-why", name, element("span", "chips", ...switches), wait);
   root.setAttribute("role", "group");
-  root.setAttribute("aria-label", "See why");
+  root.setAttribute("aria-label", say("overlay.title"));
   return root;
 }

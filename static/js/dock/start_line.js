@@ -1,6 +1,7 @@
 /** A line over the plan while it is planned from the middle: from what state, and the way back to the beginning. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { startInWords } from "../messages/starts.js";
 
 export class StartLine {
@@ -18,8 +19,8 @@ export class StartLine {
       store.command({ do: "plan_from", step: null });
       onBack();
     };
-    this.back = button("chip", goBack, "Plan from the start");
-    this.back.title = "Plan from before all folds, as drawn";
+    this.back = button("chip", goBack, say("start.from_start"));
+    this.back.title = say("start.from_start_hint");
     this.back.hidden = true;
     this.root = element("div", "start-line", this.words, this.back);
     for (const name of ["document", "plan"]) store.addEventListener(name, () => this.show());

@@ -1,8 +1,11 @@
 /** The status pill: what planning came to, in a few words. */
 
 import { element } from "../dom.js";
+import { say, translated } from "../language/say.js";
+import { percent } from "../messages/lengths.js";
 import { Planning } from "./planning.js";
 import { headline, NO_PLAN } from "./reasons.js";
+import { seconds } from "./words.js";
 
 /**
  * @param {import("../store.js").Store} store
@@ -16,7 +19,7 @@ export function mountStatus(store, pill) {
   pill.replaceChildren(words, bar);
 
   function show() {
-    const [text, kind] = isGone ? ["There is no such document.", "failed"] : told(store, planning);
+    const [text, kind] = isGone ? [say("status.no_document"), "failed"] : told(store, planning);
     pill.setAttribute("aria-busy", String(planning.wait !== ""));
     bar.hidden = planning.wait !== "long";
     if (text === null) return;
@@ -44,13 +47,20 @@ export function mountStatus(store, pill) {
  */
 function told(store, planning) {
   const { plan, state, isLive } = store;
-  if (store.queue.isHeld && isLive) return ["Not sent yet, trying again...", "lost"];
-  if (!isLive) return plan ? ["Connection lost, trying again...", "lost"] : ["Connecting...", "planning"];
+  if (store.queue.isHeld && isLive) return [say("status.not_sent"), "lost"];
+  if (!isLive) return plan ? [say("status.lost"), "lost"] : [say("status.connecting"), "planning"];
   if (!plan || !state) return [null, ""];
   if (planning.isGoingOn && plan.prepared !== null) {
-    return [`Learning where this robot's arms can reach, once: ${Math.round(100 * plan.prepared)} %`, "planning"];
+    return [say("status.learning", { share: percent(plan.prepared) }), "planning"];
   }
-  if (planning.isGoingOn) return [planning.wait === "short" ? null : "Planning...", "planning"];
-  if (!NO_PLAN.has(plan.status)) return [plan.text, plan.status];
-  return [`No plan: ${headline(plan, state).replace(/\.$/, "")}`, plan.status];
+  if (planning.isGoingOn) return [planning.wait === "short" ? null : say("status.planning"), "planning"];
+  if (plan.status === "solved" && plan.plan) return [solved(plan.plan), plan.status];
+  if (!NO_PLAN.has(plan.status)) return [translated(plan.text), plan.status];
+  return [say("status.no_plan", { why: headline(plan, state).replace(/\.$/, "") }), plan.status];
+}
+
+/** @param {import("pleat").Plan} plan */
+function solved({ dag, primitives, cost_s: cost }) {
+  if (!dag.folds) return say("status.no_folds");
+  return say("status.planned", { steps: say("status.steps", { count: primitives.length }), time: seconds(cost ?? 0) });
 }

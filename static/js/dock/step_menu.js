@@ -1,5 +1,6 @@
 /** The menu of a step of the plan: `Plan from here`. */
 
+import { say } from "../language/say.js";
 import { Menu } from "../menu.js";
 import { MenuPress } from "../menu_press.js";
 
@@ -40,14 +41,19 @@ export class StepMenu {
     const step = Number(part.dataset.index);
     const isLast = step + 1 === this.shown.plan?.primitives.length;
     const isOff = isLast || !this.isPlanned;
-    const planned = isLast ? "nothing is left after this step" : "what is left after this step";
-    const hint = this.isPlanned ? planned : "once there is a plan of the drawing as it is now";
+    const planned = isLast ? say("menu.nothing_left") : say("menu.what_is_left");
+    const hint = this.isPlanned ? planned : say("menu.once_planned");
     const choose = () => {
       this.onChosen();
       this.store.command({ do: "plan_from", step });
     };
     this.about = this.now;
-    this.menu.open(part.getAttribute("aria-label") ?? "Step", [{ text: "Plan from here", hint, isOff, choose }], part, at);
+    this.menu.open(
+      part.getAttribute("aria-label") ?? say("menu.step"),
+      [{ text: say("menu.plan_from_here"), hint, isOff, choose }],
+      part,
+      at,
+    );
   }
 
   /** What a menu that is open is about; with another plan its steps are others. */

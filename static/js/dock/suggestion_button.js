@@ -1,6 +1,7 @@
 /** A suggestion as a button: pointed at, its effect is shown on board and stage; pressed, it is done as one step. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 import { applyChange } from "./suggestion_change.js";
 import { addedFold } from "../messages/changes.js";
 import { inWords } from "../messages/in_words.js";
@@ -24,7 +25,7 @@ export function suggestionButton(store, suggestion, className) {
   const parts = [element("span", "suggestion-what", suggestionWords(store, suggestion))];
   if (cost !== null) parts.push(element("span", "suggestion-cost", seconds(cost)));
   const made = button(`suggestion ${className}`, () => {}, ...parts);
-  if (isAssumed) parts[0].prepend(element("span", "tag", "assumption"), " ");
+  if (isAssumed) parts[0].prepend(element("span", "tag", say("suggestion.assumption")), " ");
   made.dataset.kind = suggestion.kind;
   offer(store, suggestion, made);
   return made;

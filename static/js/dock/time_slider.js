@@ -1,6 +1,7 @@
 /** The slider `Time`. It follows the hand at once and the server otherwise. */
 
 import { element } from "../dom.js";
+import { say } from "../language/say.js";
 import { seconds } from "./words.js";
 
 const STEP_S = 0.5;
@@ -19,7 +20,7 @@ export class TimeSlider {
     this.root = /** @type {HTMLInputElement} */ (element("input", "time-slider"));
     Object.assign(this.root, { id: "time", type: "range", min: "0", max: "0", step: "any", value: "0" });
     this.root.disabled = true;
-    this.root.setAttribute("aria-label", "Time");
+    this.root.setAttribute("aria-label", say("time.label"));
     this.touchedAt = -Infinity;
     /** Where the hand was last (s). */
     this.wanted = 0;

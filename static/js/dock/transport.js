@@ -2,6 +2,8 @@
 
 import { button, element } from "../dom.js";
 import { isTyping } from "../keys.js";
+import { numeral } from "../language/numeral.js";
+import { say } from "../language/say.js";
 import { iconButton, relabel } from "./buttons.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
@@ -27,15 +29,15 @@ export class Transport {
     /** What the button is called as it is shown. */
     this.shownName = "";
     this.play = button("main-button play", () => this.toggle());
-    this.previous = iconButton("previous", "Previous primitive", () => this.step(-1));
-    this.next = iconButton("next", "Next primitive", () => this.step(1));
+    this.previous = iconButton("previous", say("play.previous"), () => this.step(-1));
+    this.next = iconButton("next", say("play.next"), () => this.step(1));
     this.previous.title += " (,)";
     this.next.title += " (.)";
     this.time = element("span", "clock");
     this.now = element("span", "now");
     this.speed = /** @type {HTMLSelectElement} */ (element("select", "speed"));
     this.speed.append(...SPEEDS.map((speed) => new Option(`${speed}\u00D7`, String(speed))));
-    this.speed.setAttribute("aria-label", "Speed");
+    this.speed.setAttribute("aria-label", say("play.speed"));
     this.speed.addEventListener("change", () => store.command({ do: "speed", speed: Number(this.speed.value) }));
     const buttons = element("span", "transport-buttons", this.previous, this.play, this.next);
     this.root = element("header", "dock-head transport", buttons, this.time, this.now, this.speed);
@@ -75,11 +77,11 @@ export class Transport {
 
   showState() {
     const { playing, duration_s: duration, speed } = this.clock.told;
-    const name = playing ? "Pause" : "Play";
+    const name = playing ? say("play.pause") : say("play.play");
     if (this.shownName !== name) {
       this.play.replaceChildren(icon(playing ? "pause" : "play"), element("span", "", name));
       relabel(this.play, name);
-      this.play.title = `${name} (space)`;
+      this.play.title = say("play.with_key", { what: name });
       this.shownName = name;
     }
     const canPlay = duration > 0 && this.store.isLive;
@@ -89,7 +91,7 @@ export class Transport {
 
   showTime() {
     const now = this.clock.now;
-    const text = `${now.toFixed(1)} / ${seconds(this.clock.told.duration_s)}`;
+    const text = `${numeral(now, 1)} / ${seconds(this.clock.told.duration_s)}`;
     if (this.time.textContent !== text) this.time.textContent = text;
     const primitive = this.primitives[primitiveAt(this.shown.plan, now)];
     const doing = primitive ? [whole(primitive, this.shown.folds), hands(primitive)] : [];

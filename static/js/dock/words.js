@@ -1,19 +1,21 @@
 /** Plans and folds in words. Folds are counted from 1 for people; programs count them from 0. */
 
+import { numeral } from "../language/numeral.js";
+import { say, translated } from "../language/say.js";
+import { armLetter } from "../messages/arms.js";
 import { length } from "../messages/lengths.js";
 import { place } from "../messages/names.js";
-import { armLetter } from "../messages/arms.js";
 
 /** @import { Primitive } from "pleat" */
 
-export const KINDS = { fold: "Fold", drag: "Drag", move: "Drive" };
-export const COLOURS = { blue: "Blue", red: "Red" };
-export const MOVED = { blue: "all layers", red: "last flap" };
+export const KINDS = { fold: say("kind.fold"), drag: say("kind.drag"), move: say("kind.move") };
+export const COLOURS = { blue: say("colour.blue"), red: say("colour.red") };
+export const MOVED = { blue: say("colour.all_layers"), red: say("colour.last_flap") };
 
 const BACKED_OFF_M = 0.001;
 
 /** @param {number} value seconds */
-export const seconds = (value) => `${value.toFixed(1)} s`;
+export const seconds = (value) => say("time.seconds", { number: numeral(value, 1) });
 
 /** @param {string} text */
 export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -23,7 +25,7 @@ export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
  * @param {{name?: string}|undefined} fold
  * @param {number} index
  */
-export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
+export const foldName = (fold, index) => translated(fold?.name ?? "") || say("fold.numbered", { number: index + 1 });
 
 /**
  * What a primitive does.
@@ -32,8 +34,8 @@ export const foldName = (fold, index) => fold?.name || `fold ${index + 1}`;
  */
 export function what(primitive, folds) {
   if (primitive.kind === "fold") return foldName(folds[primitive.fold], primitive.fold);
-  if (primitive.kind === "drag") return `${length(primitive.distance_m)} towards the robot`;
-  return `${place(primitive.from)} to ${place(primitive.to)}`;
+  if (primitive.kind === "drag") return say("step_words.towards_robot", { length: length(primitive.distance_m) });
+  return say("step_words.from_to", { from: place(primitive.from), to: place(primitive.to) });
 }
 
 /**
@@ -42,8 +44,10 @@ export function what(primitive, folds) {
  * @param {{name?: string}[]} folds the garment's
  */
 export function briefly(primitive, folds) {
-  if (primitive.kind === "drag") return `Drag ${length(primitive.distance_m)}`;
-  return primitive.kind === "move" ? `Drive to ${place(primitive.to)}` : what(primitive, folds);
+  if (primitive.kind === "drag") return say("step_words.drag", { length: length(primitive.distance_m) });
+  return primitive.kind === "move"
+    ? say("step_words.drive_to", { place: place(primitive.to) })
+    : what(primitive, folds);
 }
 
 /**
@@ -69,5 +73,6 @@ export const hands = (primitive) =>
  */
 export function where(primitive) {
   const { station, back_off_m: backOff } = primitive.base;
-  return `${place(station)}${backOff > BACKED_OFF_M ? `, ${length(backOff)} back` : ""}`;
+  const back = backOff > BACKED_OFF_M ? say("place.back", { length: length(backOff) }) : "";
+  return [place(station), back].filter(Boolean).join(", ");
 }

@@ -6,6 +6,7 @@ import { showNew } from "../dialogs/new.js";
 import { button, element } from "../dom.js";
 import { listed } from "../garments.js";
 import { icon } from "../icons.js";
+import { say, translated } from "../language/say.js";
 import { Menu } from "../menu.js";
 import { Removal } from "./removal.js";
 import { renamed } from "./rename_document.js";
@@ -28,20 +29,23 @@ class Gallery {
     this.store = store;
     this.search = /** @type {HTMLInputElement} */ (element("input", "field gallery-search"));
     this.search.type = "search";
-    this.search.placeholder = "Find a garment";
-    this.search.setAttribute("aria-label", "Find a garment");
+    this.search.placeholder = say("gallery.find");
+    this.search.setAttribute("aria-label", say("gallery.find"));
     this.search.addEventListener("input", () => this.filter());
-    this.own = row("Yours");
-    this.templates = row("Templates, by measures");
-    this.examples = row("Examples");
+    this.own = row(say("gallery.yours"));
+    this.templates = row(say("gallery.templates"));
+    this.examples = row(say("gallery.examples"));
     this.said = element("p", "dialog-problem");
     this.said.setAttribute("role", "alert");
-    this.none = element("p", "dialog-text", "Nothing has that name.");
+    this.none = element("p", "dialog-text", say("gallery.nothing"));
     this.none.hidden = true;
     const rows = [this.own, this.templates, this.examples].map(({ root }) => root);
-    this.removal = new Removal((sentence) => this.say(sentence), () => this.loadOwn());
+    this.removal = new Removal(
+      (sentence) => this.say(sentence),
+      () => this.loadOwn(),
+    );
     const body = element("div", "gallery", this.search, this.removal.root, this.said, ...rows, this.none);
-    this.dialog = openDialog("Garments", "is-wide is-gallery", body);
+    this.dialog = openDialog(say("gallery.title"), "is-wide is-gallery", body);
     this.menu = new Menu();
     this.dialog.append(this.menu.root); // what is beside an open dialog can not be pressed
     this.dialog.addEventListener("close", () => this.removal.finish());
@@ -50,13 +54,15 @@ class Gallery {
   }
 
   async load() {
-    const blank = tile("Blank board", "", [], [], () => this.make({}, "outline"));
+    const blank = tile(say("new.blank"), "", [], [], () => this.make({}, "outline"));
     await Promise.all([
       this.loadOwn(),
       fetched("../api/templates").then((/** @type {Template[]} */ found) =>
         this.templates.list.replaceChildren(
           blank,
-          ...found.map(({ name, title, outline, folds }) => tile(title, "", outline, folds, () => this.fromTemplate(name))),
+          ...found.map(({ name, title, outline, folds }) =>
+            tile(translated(title), "", outline, folds, () => this.fromTemplate(name)),
+          ),
         ),
       ),
       fetched("../api/garments").then((/** @type {GarmentEntry[]} */ found) =>
@@ -80,10 +86,10 @@ class Gallery {
   ownTile(entry) {
     const isOpen = entry.id === this.store.id;
     const { outline, folds } = entry.picture ?? { outline: [], folds: [] };
-    const about = isOpen ? "open now" : when(entry.changed_at);
+    const about = isOpen ? say("gallery.open_now") : when(entry.changed_at);
     const open = tile(titleOf(entry), about, outline, folds, () => (isOpen ? this.dialog.close() : goTo(entry.id)));
     const more = button("icon-button is-dense tile-more", () => this.openMenu(entry, more), icon("more"));
-    more.setAttribute("aria-label", `More for ${titleOf(entry)}`);
+    more.setAttribute("aria-label", say("gallery.more_for", { title: titleOf(entry) }));
     more.setAttribute("aria-haspopup", "menu");
     open.addEventListener("contextmenu", (event) => {
       event.preventDefault();
@@ -101,10 +107,10 @@ class Gallery {
     /** @param {string} text @param {() => void} choose */
     const verb = (text, choose, isOff = false, hint = "") => ({ text, hint, isOff, choose });
     const verbs = [
-      verb("Duplicate", () => this.duplicate(entry)),
-      verb("Rename", () => this.rename(entry)),
-      verb("Versions", () => showVersions(this.store, entry)),
-      verb("Delete", () => this.remove(entry), isOpen, isOpen ? "It is open" : ""),
+      verb(say("gallery.duplicate"), () => this.duplicate(entry)),
+      verb(say("rename.do"), () => this.rename(entry)),
+      verb(say("gallery.versions"), () => showVersions(this.store, entry)),
+      verb(say("gallery.delete"), () => this.remove(entry), isOpen, isOpen ? say("gallery.is_open") : ""),
     ];
     this.menu.open(titleOf(entry), verbs, opener, { x: left, y: bottom });
   }
@@ -167,7 +173,9 @@ class Gallery {
 
   /** Arrow keys lead from tile to tile, Enter in the search opens the first that is found. @param {KeyboardEvent} event */
   onKey(event) {
-    const tiles = /** @type {HTMLElement[]} */ ([...this.dialog.querySelectorAll(".tile")]).filter((one) => one.offsetParent);
+    const tiles = /** @type {HTMLElement[]} */ ([...this.dialog.querySelectorAll(".tile")]).filter(
+      (one) => one.offsetParent,
+    );
     if (event.key === "Enter" && event.target === this.search) return tiles[0]?.click();
     const by = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 1, ArrowUp: -1 }[event.key];
     const index = tiles.indexOf(/** @type {HTMLElement} */ (document.activeElement));
@@ -195,4 +203,6 @@ const fetched = (address) =>
 
 /** @param {string} address @param {string} method @param {any} body @returns {Promise<Response|null>} */
 export const sent = (address, method, body) =>
-  fetch(address, { method, headers: { "content-type": "application/json" }, body: JSON.stringify(body) }).catch(() => null);
+  fetch(address, { method, headers: { "content-type": "application/json" }, body: JSON.stringify(body) }).catch(
+    () => null,
+  );

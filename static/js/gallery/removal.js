@@ -1,6 +1,7 @@
 /** A document that is deleted: for a while it can be had back, and only then it is removed for good. */
 
 import { button, element } from "../dom.js";
+import { say } from "../language/say.js";
 
 /** How long it can be had back (ms). */
 const REGRET_MS = 8000;
@@ -14,7 +15,12 @@ export class Removal {
     this.id = null;
     this.timer = 0;
     this.words = element("span", "");
-    this.root = element("p", "removal", this.words, button("chip", () => this.takeBack(), "Undo"));
+    this.root = element(
+      "p",
+      "removal",
+      this.words,
+      button("chip", () => this.takeBack(), say("history.undo")),
+    );
     this.root.setAttribute("role", "status");
     this.root.hidden = true;
     addEventListener("pagehide", () => this.finish());
@@ -24,7 +30,7 @@ export class Removal {
   begin(id, title) {
     this.finish();
     this.id = id;
-    this.words.textContent = `\u201C${title}\u201D is deleted.`;
+    this.words.textContent = say("gallery.deleted", { title });
     this.root.hidden = false;
     this.timer = setTimeout(() => this.finish(), REGRET_MS);
   }
@@ -49,7 +55,7 @@ export class Removal {
   }
 
   fail() {
-    this.onFault("It could not be deleted, and is still there.");
+    this.onFault(say("gallery.not_deleted"));
     this.onBack();
   }
 }

@@ -1,6 +1,7 @@
 /** Another name for a document of the gallery, which need not be the one that is open. */
 
 import { askTitle, fileName } from "../dialogs/rename.js";
+import { inEnglish } from "../language/say.js";
 import { titleOf } from "./tile.js";
 
 /** @import { DocumentEntry, DocumentState } from "pleat" */
@@ -9,7 +10,11 @@ import { titleOf } from "./tile.js";
 export async function renamed(entry) {
   const title = await askTitle(titleOf(entry));
   if (!title) return undefined;
-  return edited(entry.id, "Rename garment", (drawing) => ({ ...drawing, title, name: fileName(title) }));
+  return edited(entry.id, inEnglish("step.rename_garment"), (drawing) => ({
+    ...drawing,
+    title,
+    name: fileName(title),
+  }));
 }
 
 /**

@@ -2,6 +2,8 @@
 
 import { picture } from "../dialogs/picture.js";
 import { button, element } from "../dom.js";
+import { times } from "../language/language.js";
+import { say, translated } from "../language/say.js";
 
 /** @import { DocumentEntry, Garment, GarmentEntry, Point } from "pleat" */
 
@@ -22,7 +24,7 @@ export function tile(title, about, outline, folds, onClick) {
 
 /** A garment of which a new document is made; its picture comes by itself. @param {GarmentEntry} entry @param {() => void} onClick */
 export function garmentTile({ name, title, shipped }, onClick) {
-  const made = tile(title, shipped ? "" : "your garment", [], [], onClick);
+  const made = tile(translated(title), shipped ? "" : say("gallery.your_garment"), [], [], onClick);
   fetch(`../api/garments/${name}`)
     .then((answer) => (answer.ok ? answer.json() : null))
     .then((/** @type {Garment|null} */ garment) => {
@@ -33,7 +35,7 @@ export function garmentTile({ name, title, shipped }, onClick) {
 }
 
 /** @param {Pick<DocumentEntry, "title"|"name">} entry */
-export const titleOf = ({ title, name }) => title || name;
+export const titleOf = ({ title, name }) => translated(title) || name;
 
 /** When something was changed, as people say it; empty where that is not known. @param {string} changedAt */
 export function when(changedAt) {
@@ -41,6 +43,6 @@ export function when(changedAt) {
   const moment = new Date(changedAt);
   const isToday = moment.toDateString() === new Date().toDateString();
   return isToday
-    ? moment.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })
-    : moment.toLocaleDateString([], { day: "numeric", month: "short", year: "numeric" });
+    ? moment.toLocaleTimeString(times, { hour: "2-digit", minute: "2-digit" })
+    : moment.toLocaleDateString(times, { day: "numeric", month: "short", year: "numeric" });
 }

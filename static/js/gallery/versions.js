@@ -3,6 +3,7 @@
 import { goTo } from "../dialogs/documents.js";
 import { openDialog, OFFLINE, sentenceOf } from "../dialogs/dialog.js";
 import { element } from "../dom.js";
+import { inEnglish, say, translated } from "../language/say.js";
 import { edited } from "./rename_document.js";
 import { tile, titleOf, when } from "./tile.js";
 
@@ -12,8 +13,8 @@ import { tile, titleOf, when } from "./tile.js";
 export async function showVersions(store, entry) {
   const said = element("p", "dialog-problem");
   const list = element("div", "tiles");
-  const note = element("p", "dialog-text", "Each step is kept. To go back is a step too, and can be undone.");
-  const dialog = openDialog(`Versions of ${titleOf(entry)}`, "is-wide", note, said, list);
+  const note = element("p", "dialog-text", say("versions.note"));
+  const dialog = openDialog(say("versions.title", { title: titleOf(entry) }), "is-wide", note, said, list);
   const answer = await fetch(`../api/documents/${entry.id}/versions`).catch(() => null);
   if (!answer?.ok) {
     said.textContent = answer ? sentenceOf(await answer.json()) : OFFLINE;
@@ -21,10 +22,10 @@ export async function showVersions(store, entry) {
   }
   /** @type {DocumentVersion[]} */
   const versions = await answer.json();
-  if (!versions.length) note.textContent = "Nothing has been changed yet.";
+  if (!versions.length) note.textContent = say("versions.none");
   /** @param {DocumentVersion} version */
   const goBack = async ({ label, drawing }) => {
-    const name = `Back to \u201C${label || "the first drawing"}\u201D`;
+    const name = inEnglish("step.back_to", { step: label || inEnglish("step.first_drawing") });
     const done = await edited(entry.id, name, () => drawing);
     if (!done?.ok) said.textContent = done ? sentenceOf(await done.json()) : OFFLINE;
     else if (entry.id === store.id) for (const open of document.querySelectorAll("dialog")) open.close();
@@ -34,7 +35,7 @@ export async function showVersions(store, entry) {
     ...versions.map((version) => {
       const outline = version.drawing.outline.map(({ point }) => point);
       const folds = version.drawing.folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point }));
-      const title = version.label || "First drawing";
+      const title = translated(version.label) || say("versions.first");
       return tile(title, when(version.changed_at), outline, folds, () => goBack(version));
     }),
   );

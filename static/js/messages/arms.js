@@ -1,5 +1,7 @@
 /** What a robot's arms are called: by name, and by a letter where there is little room. */
 
+import { isSaid, say } from "../language/say.js";
+
 /** @type {string[]} */
 let names = [];
 
@@ -17,6 +19,9 @@ export function armLetter(arm) {
 
 /** An arm as a title, as in `Left arm`. @param {string} arm */
 export function armTitle(arm) {
+  const key = `arm_title.${arm}`;
+  if (isSaid(key)) return say(key);
   const words = arm.replaceAll("_", " ");
-  return `${words[0].toUpperCase()}${words.slice(1)}${/\barm$/.test(words) ? "" : " arm"}`;
+  const name = `${words[0].toUpperCase()}${words.slice(1)}`;
+  return /\barm$/.test(words) ? name : say("arm_title.other", { name });
 }

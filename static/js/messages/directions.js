@@ -1,5 +1,6 @@
 /** Ways and directions of the table frame in words, as the robot sees them from the near edge of the table. */
 
+import { say } from "../language/say.js";
 import { length } from "./lengths.js";
 
 /** A shorter way need not be told (m). */
@@ -12,7 +13,7 @@ export function moved([x, y]) {
   const parts = [];
   if (Math.abs(x) > NOTICEABLE_M) parts.push(`${length(Math.abs(x))} ${ahead(x)}`);
   if (Math.abs(y) > NOTICEABLE_M) parts.push(`${length(Math.abs(y))} ${aside(y)}`);
-  return parts.join(" and ");
+  return parts.join(say("and"));
 }
 
 /** @param {number[]} towards */
@@ -20,10 +21,10 @@ export function direction([x, y]) {
   const parts = [];
   if (Math.abs(x) > OBLIQUE * Math.abs(y)) parts.push(ahead(x));
   if (Math.abs(y) > OBLIQUE * Math.abs(x)) parts.push(aside(y));
-  return parts.join(" and ");
+  return parts.join(say("and"));
 }
 
 /** @param {number} x */
-const ahead = (x) => (x > 0 ? "away from the robot" : "towards the robot");
+const ahead = (x) => say(x > 0 ? "direction.ahead" : "direction.back");
 /** @param {number} y */
-const aside = (y) => (y > 0 ? "to the left" : "to the right");
+const aside = (y) => say(y > 0 ? "direction.left" : "direction.right");

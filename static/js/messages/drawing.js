@@ -1,5 +1,7 @@
 /** What is wrong with an outline or a fold that is drawn. */
 
+import { language } from "../language/language.js";
+import { say, translated } from "../language/say.js";
 import { area, length, onGarment } from "./lengths.js";
 import { counted, place } from "./names.js";
 
@@ -7,35 +9,53 @@ import { counted, place } from "./names.js";
 
 /** @type {import("./in_words.js").Catalogue} */
 export const DRAWING = {
-  outline_points: ({ points, most }) => `it has ${points} points; it needs 3 to ${most}`,
-  outline_area: ({ area_m2: has, least_m2: least }) => `it covers ${area(has)}, less than ${area(least)}`,
-  outline_too_large: ({ far_m: far, most_m: most }) => `it reaches ${length(far)} from where it begins, at most ${length(most)}`,
+  outline_points: ({ points, most }) => say("message.outline_points", { points, most }),
+  outline_area: ({ area_m2: has, least_m2: least }) =>
+    say("message.outline_area", { area: area(has), least: area(least) }),
+  outline_too_large: ({ far_m: far, most_m: most }) =>
+    say("message.outline_too_large", { far: length(far), most: length(most) }),
   edge_too_short: ({ edge, from, to, length_m: has, least_m: least }) =>
-    `edge ${counted(edge)}, from point ${counted(from)} to point ${counted(to)}, is ${length(has)} long, ` +
-    `less than ${length(least)}`,
+    say("message.edge_too_short", {
+      edge: counted(edge),
+      from: counted(from),
+      to: counted(to),
+      length: length(has),
+      least: length(least),
+    }),
   edges_cross: ({ edges: [first, second], at }) =>
-    `edges ${counted(first)} and ${counted(second)} cross at ${onGarment(at)}`,
-  line_too_short: ({ length_m: has, least_m: least }) => `the line is ${length(has)} long, less than ${length(least)}`,
+    say("message.edges_cross", { first: counted(first), second: counted(second), at: onGarment(at) }),
+  line_too_short: ({ length_m: has, least_m: least }) =>
+    say("message.line_too_short", { length: length(has), least: length(least) }),
   end_off_boundary: ({ at, off_m: off, most_m: most }) =>
-    `its end at ${onGarment(at)} is ${length(off)} from the cloth\u2019s edge; ends within ${length(most)} snap to it`,
-  would_tear: ({ along_m: along }) =>
-    `the part that moves reaches ${length(along)} along the crease of the fold before: it would tear`,
+    say("message.end_off_boundary", { at: onGarment(at), off: length(off), most: length(most) }),
+  would_tear: ({ along_m: along }) => say("message.would_tear", { along: length(along) }),
   unknown_station: ({ station, stations }) =>
-    `there is no station ${place(station)}; there are ${stations.map(place).join(", ")}`,
+    say("message.unknown_station", { station: place(station), stations: stations.map(place).join(", ") }),
   dropped_too_near: ({ apart_m: apart, least_m: least }) =>
-    `it is dropped ${length(apart)} from where it is grabbed, less than ${length(least)}`,
-  not_on_flap: ({ at }) => `at ${onGarment(at)} is cloth that a red fold leaves where it is`,
-  no_cloth_there: ({ at }) => `there is no cloth at ${onGarment(at)}`,
-  line_misses_cloth: () => "it does not cross the cloth",
+    say("message.dropped_too_near", { apart: length(apart), least: length(least) }),
+  not_on_flap: ({ at }) => say("message.not_on_flap", { at: onGarment(at) }),
+  no_cloth_there: ({ at }) => say("message.no_cloth_there", { at: onGarment(at) }),
+  line_misses_cloth: () => say("message.line_misses_cloth"),
   measure_out_of_range: ({ label, value_m: value, least_m: least, most_m: most }) =>
-    `${label} is ${length(value)}, not between ${length(least)} and ${length(most)}`,
-  measure_not_less: (says) => `${measured(says)} must be less than ${than(says)}`,
-  measure_too_small: (says) => `${measured(says)} must be at least ${than(says)}`,
-  folds_full: ({ most }) => `there are ${most} folds already, and there may be no more`,
-  fewer_folds: ({ asked, legal }) => `it comes after ${asked} folds, but only ${legal} are drawn and legal`,
+    say("message.measure_out_of_range", {
+      label: measure(label),
+      value: length(value),
+      least: length(least),
+      most: length(most),
+    }),
+  measure_not_less: (says) => say("message.measure_not_less", limited(says)),
+  measure_too_small: (says) => say("message.measure_too_small", limited(says)),
+  folds_full: ({ most }) => say("message.folds_full", { most }),
+  fewer_folds: ({ asked, legal }) => say("message.fewer_folds", { asked, legal }),
 };
 
 /** @param {Says} says */
-const measured = ({ label, value_m: value }) => `${label} (${length(value)})`;
-/** @param {Says} says */
-const than = ({ what, than_m: limit, by_m: by }) => `${what.replace("{}", length(by))} (${length(limit)})`;
+const limited = ({ label, value_m: value, what, than_m: limit, by_m: by }) => ({
+  label: measure(label),
+  value: length(value),
+  what: translated(what).replace("{}", length(by)),
+  than: length(limit),
+});
+
+/** A measure as it is called within a sentence. @param {string} label */
+const measure = (label) => (language === "en" ? label : translated(label.charAt(0).toUpperCase() + label.slice(1)));

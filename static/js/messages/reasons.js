@@ -1,8 +1,10 @@
 /** Why the planner found no plan, with all the numbers. */
 
+import { say } from "../language/say.js";
+import { hundredths } from "./changes.js";
 import { moved } from "./directions.js";
-import { area, enough, height, length, listed, onGarment, onTable, point } from "./lengths.js";
-import { called, counted, stand } from "./names.js";
+import { area, enough, height, length, listed, onGarment, onTable, percent, point } from "./lengths.js";
+import { called, counted, stand, word } from "./names.js";
 
 /** @import { Says } from "pleat" */
 
@@ -11,136 +13,174 @@ const LISTED_MAX = 4;
 
 /** @type {Record<string, string>} */
 const MOMENTS = {
-  pick: "where it is picked up",
-  place: "where it is laid down",
-  top: "at the top of its way, as high as it is far from the fold line",
-  up: "on its way up",
-  down: "on its way down",
+  pick: say("moment.pick"),
+  place: say("moment.place"),
+  top: say("moment.top"),
+  up: say("moment.up"),
+  down: say("moment.down"),
 };
 /** @type {Record<string, string>} */
 const DEMANDS = {
   alone: "",
-  "one orientation": " in the orientation that suits its way best",
-  driving: " from where the base is by then",
-  "with the other hand": " from where the other hand has what it needs",
-};
-/** @type {Record<string, string>} */
-const CAUSES = {
-  too_far: "too far",
-  too_near: "too near",
-  joint_limit: "joint limit",
-  own_body: "the robot\u2019s own body is in the way",
+  "one orientation": say("demand.one_orientation"),
+  driving: say("demand.driving"),
+  "with the other hand": say("demand.with_the_other_hand"),
 };
 /** Along the axes of the base frame. */
 const SIDES = [
-  ["further from the robot", "nearer to the robot"],
-  ["further to its left", "further to its right"],
-  ["higher", "lower"],
+  [say("side.ahead"), say("side.back")],
+  [say("side.left"), say("side.right")],
+  [say("side.up"), say("side.down")],
 ];
 
 /** A number of hands. @param {number} count */
-const countedHands = (count) => (count === 1 ? "one hand" : `${count} hands`);
+const countedHands = (count) => say("hands.counted", { count });
 
 /** @type {import("./in_words.js").Catalogue} */
 export const REASONS = {
   out_of_reach: (says) => {
     const { arm, at, moment, station, back_off_m: backOff } = says;
     const isFixed = !station && backOff === 0;
-    return (
-      `the ${arm} grip at ${onTable(at)}, ${height(at[2])} ${MOMENTS[moment]}, ${lack(says)}` +
-      (isFixed ? "" : `. Closest: ${stand(station)}, backed off ${length(backOff)}`) +
-      `${carried(says)}${whatToDo(says)}`
-    );
+    const told = {
+      arm: word("arm", arm),
+      at: onTable(at),
+      height: height(at[2]),
+      moment: MOMENTS[moment],
+      lack: lack(says),
+    };
+    const closest = isFixed ? "" : say("advice.closest", { station: stand(station), back_off: length(backOff) });
+    return say("message.out_of_reach", { ...told, closest, carried: carried(says), advice: advice(says) });
   },
   too_many_grips: ({ points, hands, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
-    `${points.length} points of its edge must be held, ${outermost(points)}: more than ${countedHands(hands)} can when each ` +
-    `holds what is within ${length(radius)} of it. A grip radius of ${enough(needed)} would do, or a fold that moves less`,
+    say("message.too_many_grips", {
+      points: points.length,
+      where: outermost(points),
+      hands: countedHands(hands),
+      radius: length(radius),
+      needed: enough(needed),
+    }),
   grips_too_close: ({ points, apart_m, needed_apart_m, grip_radius_m: radius, needed_grip_radius_m: needed }) =>
-    `its grips, at ${several(points)}, are ${length(apart_m)} apart, and two hands need ${length(needed_apart_m)}. ` +
-    `With a grip radius of ${enough(needed)}, now ${length(radius)}, one hand would hold both`,
+    say("message.grips_too_close", {
+      points: several(points),
+      apart: length(apart_m),
+      needed_apart: length(needed_apart_m),
+      needed: enough(needed),
+      radius: length(radius),
+    }),
   red_unheld: ({ at, before }, folds) =>
-    `${onGarment(at)} must be held, but no hand that still holds from ${called(folds, before)} is on the part that ` +
-    "moves. Make it a blue fold",
+    say("message.red_unheld", { at: onGarment(at), before: called(folds, before) }),
   red_held_too_far: ({ at, before, grip_radius_m: radius, needed_grip_radius_m: needed }, folds) =>
-    `${onGarment(at)} must be held, but the nearest hand that still holds from ${called(folds, before)} is ` +
-    `${length(needed)} away and holds what is within ${length(radius)}. A grip radius of ${enough(needed)} would do, ` +
-    "or a blue fold",
+    say("message.red_held_too_far", {
+      at: onGarment(at),
+      before: called(folds, before),
+      away: length(needed),
+      radius: length(radius),
+      needed: enough(needed),
+    }),
   arms_cannot_get_there: (says) =>
-    `${dragging(says)}from ${stand(says.station)} the hands could be where they must, but the arms cannot get them ` +
-    `there and along their way without touching the table, the robot or each other${carried(says)}`,
+    say("message.arms_cannot_get_there", {
+      dragging: dragging(says),
+      station: stand(says.station),
+      carried: carried(says),
+    }),
   collision: (says) =>
-    `${dragging(says)}from ${stand(says.station)} all is in reach, but with the ${says.arm} gripper at ` +
-    `${onTable(says.at)}, ${height(says.at[2])}, the ${says.parts[0]} would hit the ${says.parts[1]} by ` +
-    `${length(says.depth_m)} at least, however the arm is bent${carried(says)}`,
-  line_off_table: (says) =>
-    `all of its line lies beyond the table\u2019s edge, by ${length(says.off_m)}${carried(says)}. A part must be on ` +
-    "the table",
-  behind_line: (says) =>
-    `the part that moves reaches ${length(says.behind_m)} behind the line\u2019s extension, where the fold cannot ` +
-    `carry it${carried(says)}. Turn or lengthen the line, or fold that part by itself first`,
+    say("message.collision", {
+      dragging: dragging(says),
+      station: stand(says.station),
+      arm: word("arm", says.arm),
+      at: onTable(says.at),
+      height: height(says.at[2]),
+      first: word("part", says.parts[0]),
+      second: word("part", says.parts[1]),
+      depth: length(says.depth_m),
+      carried: carried(says),
+    }),
+  line_off_table: (says) => say("message.line_off_table", { off: length(says.off_m), carried: carried(says) }),
+  behind_line: (says) => say("message.behind_line", { behind: length(says.behind_m), carried: carried(says) }),
   at_start: ({ what, is_too_large: isTooLarge }, folds) =>
-    `as the garment lies at the start, ${REASONS[what.code](what, folds)}. ` +
-    (isTooLarge ? "It is too large for the table" : "Place it so that it stays"),
-  afterwards: (says, folds) => `afterwards ${REASONS[says.what.code](says.what, folds)}${carried(says)}`,
-  beside_table: ({ off_m: off }) => `nothing of the cloth lies on the table: it is ${length(off)} beside it`,
+    say(isTooLarge ? "message.at_start.too_large" : "message.at_start", { why: REASONS[what.code](what, folds) }),
+  afterwards: (says, folds) =>
+    say("message.afterwards", { why: REASONS[says.what.code](says.what, folds), carried: carried(says) }),
+  beside_table: ({ off_m: off }) => say("message.beside_table", { off: length(off) }),
   corner_covered: ({ corner, depth_m: depth }) =>
-    `the cloth covers the table\u2019s corner at ${onTable(corner)}, which is ${length(depth)} inside it`,
-  hangs_from_several: ({ area_m2: m2, edges }) =>
-    `a part of ${area(m2)} hangs from ${edges.length ? `the ${edges.join(" and the ")} edge` : "no edge"} at once`,
+    say("message.corner_covered", { corner: onTable(corner), depth: length(depth) }),
+  hangs_from_several: ({ area_m2: m2, edges }) => {
+    const names = edges
+      .map((/** @type {string} */ edge) => word("edge", edge))
+      .join(say("message.hangs_from_several.join"));
+    if (!names) return say("message.hangs_from_several.none", { area: area(m2) });
+    return say("message.hangs_from_several", { area: area(m2), edges: names });
+  },
   hangs_loose: ({ layer, edge, at, beyond_m: beyond }) =>
-    `layer ${counted(layer)} hangs over the ${edge} edge and nothing holds its corner at ${onGarment(at)}, ` +
-    `${length(beyond)} beyond the edge`,
+    say("message.hangs_loose", {
+      layer: counted(layer),
+      edge: word("edge", edge),
+      at: onGarment(at),
+      beyond: length(beyond),
+    }),
   slips,
   slips_on_the_way: ({ friction, needed_friction: needed }) =>
-    `the cloth slips wherever it would be in reach. The friction is ${friction.toFixed(2)}` +
-    (needed === null ? "" : `, ${(Math.ceil(100 * needed - 1e-6) / 100).toFixed(2)} would hold it`),
+    needed === null
+      ? say("message.slips_on_the_way", { friction: hundredths(friction) })
+      : say("message.slips_on_the_way.needed", { friction: hundredths(friction), needed: roundedUp(needed) }),
   wider_grip: ({ grip_radius_m: radius, needed_grip_radius_m: needed, in_drags: isInDrags }) =>
-    `a grip radius of ${enough(needed)}${isInDrags ? ", in drags too," : ""} would do, now ${length(radius)}`,
+    say(isInDrags ? "message.wider_grip.in_drags" : "message.wider_grip", {
+      needed: enough(needed),
+      radius: length(radius),
+    }),
   stiffer_cloth: ({ support_angle_rad: angle, needed_support_angle_rad: needed }) =>
-    `too many points must be held, unless cloth holds itself within ${degrees(needed)} of upright, now ${degrees(angle)}`,
-  one_more_hand: ({ hands }) => `must be held at more points than ${countedHands(hands)} can. One more would do`,
+    say("message.stiffer_cloth", { needed: degrees(needed), now: degrees(angle) }),
+  one_more_hand: ({ hands }) => say("message.one_more_hand", { hands: countedHands(hands) }),
   waits_for: ({ folds: roots }, folds) =>
-    `waits for ${listed(roots.map((/** @type {number} */ root) => called(folds, root)))}, which cannot be done`,
-  not_with_the_others: () => "can be done, but not together with the others",
+    say("message.waits_for", { folds: listed(roots.map((/** @type {number} */ root) => called(folds, root))) }),
+  not_with_the_others: () => say("message.not_with_the_others"),
 };
 
 /** By how much a point is out of reach, and why. @param {Says} says */
-function lack({ cause, joint, demand, towards, comfort_m, wanted_comfort_m: wanted, ...by }) {
-  const limit = joint ? `${joint} limit` : "";
-  const short = `${by.is_at_least ? "at least " : ""}${length(by.short_by_m)}`;
+function lack({ cause, joint, demand: asked, towards, comfort_m, wanted_comfort_m, ...says }) {
+  const limit = joint ? say("joint.limit", { joint: word("joint", joint) }) : "";
+  const by = says.is_at_least ? say("amount.at_least", { length: length(says.short_by_m) }) : length(says.short_by_m);
+  const demand = DEMANDS[asked];
   if (cause === "comfort_only") {
-    return (
-      `can be reached, but with ${length(comfort_m ?? 0)} of comfort only, not ${length(wanted)}${DEMANDS[demand]} ` +
-      `(${limit || "too far"}): it is ${short} out of comfort`
-    );
+    const [comfort, wanted] = [length(comfort_m ?? 0), length(wanted_comfort_m)];
+    return say("lack.comfort", { comfort, wanted, demand, why: limit || say("cause.too_far"), by });
   }
-  const isUpright = cause.startsWith("too_") && !by.is_at_least && Math.abs(towards[2]) > OBLIQUE;
-  const why = `${CAUSES[cause]}${isUpright ? (towards[2] > 0 ? " down" : " up") : ""}`;
-  return `is ${short} out of reach${DEMANDS[demand]} (${[why, limit].filter(Boolean).join(", ")})`;
+  const isUpright = !says.is_at_least && Math.abs(towards[2]) > OBLIQUE;
+  const why = causeInWords(cause, isUpright ? (towards[2] > 0 ? "down" : "up") : "");
+  return say("lack.reach", { by, demand, why: [why, limit].filter(Boolean).join(", ") });
+}
+
+/** @param {string} cause @param {"up"|"down"|""} upright where it is too far or too near, if that is straight there */
+export function causeInWords(cause, upright) {
+  if (cause === "too_far" || cause === "too_near") return say(upright ? `cause.${cause}.${upright}` : `cause.${cause}`);
+  return say(cause === "joint_limit" ? "cause.joint_limit" : "cause.own_body");
 }
 
 /** What a person can change, of what the planner has tried. @param {Says} says */
-function whatToDo({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
-  if (typeof comfort === "number") return `. With ${length(comfort)} of comfort it can be done`;
-  if (typeof says.enough_cone_rad === "number") {
-    return `. With pinches from within ${degrees(says.enough_cone_rad)} of the way into the cloth it can be done`;
-  }
+function advice({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
+  if (typeof comfort === "number") return say("advice.comfort", { comfort: length(comfort) });
+  if (typeof says.enough_cone_rad === "number") return say("advice.cone", { cone: degrees(says.enough_cone_rad) });
   if (!movable) return "";
-  if (movable.length) return `. All of its way is in reach ${length(by)} ${whereTo(towards)}: ${how(movable, towards[2])}`;
-  if (says.is_at_least) return ". Place the cloth or a station so that it is nearer";
-  return `. No shift of its way by up to ${length(says.tried_m)} was found that brings it about: fold less at once`;
+  if (movable.length) {
+    const [whereto, how] = [whereTo(towards), howTo(movable, towards[2])];
+    return say("advice.shift", { length: length(by), whereto, how });
+  }
+  return says.is_at_least ? say("advice.nearer") : say("advice.fold_less", { length: length(says.tried_m) });
 }
 
 /** @param {number} rad */
 const degrees = (rad) => `${Math.round((180 * rad) / Math.PI)}\u00b0`;
 
 /** What can be moved so far, by its name, and whether that is up. @param {string[]} movable @param {number} up */
-function how(movable, up) {
-  const [table, torso] = up > 0 ? ["raise the table", "lower the torso"] : ["lower the table", "raise the torso"];
-  const station = movable.includes("cloth") ? "the station" : "move the station";
+function howTo(movable, up) {
   /** @type {Record<string, string>} */
-  const words = { cloth: "move the cloth", station, table, torso };
-  return movable.map((name) => words[name]).join(" or ");
+  const words = {
+    cloth: say("move.cloth"),
+    station: say(movable.includes("cloth") ? "move.station_too" : "move.station"),
+    table: say(up > 0 ? "move.table_up" : "move.table_down"),
+    torso: say(up > 0 ? "move.torso_down" : "move.torso_up"),
+  };
+  return movable.map((name) => words[name]).join(say("or"));
 }
 
 /** A direction of the base frame in words. @param {number[]} towards */
@@ -148,25 +188,25 @@ function whereTo(towards) {
   const words = SIDES.flatMap(([more, less], axis) =>
     Math.abs(towards[axis]) > OBLIQUE ? [towards[axis] > 0 ? more : less] : [],
   );
-  return words.join(" and ") || "nearer to its shoulder";
+  return words.join(say("and")) || say("side.shoulder");
 }
 
 /** Where drags had brought the cloth. @param {Says} says */
 function carried({ dragged, is_held: isHeld }) {
   const way = dragged ? moved(dragged) : "";
-  return way && ` (the cloth dragged ${way} from where it starts${isHeld ? " and held on to" : ""})`;
+  return way && say(isHeld ? "carried.held" : "carried", { way });
 }
 
 /** The drag in which the arms collide. @param {Says} says */
-const dragging = ({ drag }) => (drag ? `to drag the cloth ${moved(drag)}, ` : "");
+const dragging = ({ drag }) => (drag ? say("dragging", { way: moved(drag) }) : "");
 
 /** @param {number[][]} points */
-const several = (points) => `${listed(points.map(point))} of the garment`;
+const several = (points) => say("points.several", { points: listed(points.map(point)) });
 
 /** All of a few points, else the outermost. @param {number[][]} points */
 function outermost(points) {
-  if (points.length <= LISTED_MAX) return `at ${several(points)}`;
-  return `from ${point(points[0])} round to ${onGarment(points[points.length - 1])}`;
+  if (points.length <= LISTED_MAX) return say("points.at", { points: listed(points.map(point)) });
+  return say("points.round", { first: point(points[0]), last: onGarment(points[points.length - 1]) });
 }
 
 /** @param {Says} says */
@@ -175,10 +215,17 @@ function slips({ hanging_m2: hanging, lying_m2: lying, friction, needed_friction
   const areas = hanging;
   const whole = lying + Object.values(areas).reduce((sum, m2) => sum + m2, 0);
   /** @param {number} m2 */
-  const share = (m2) => `${area(m2)} (${Number(((100 * m2) / whole).toFixed(1))} %)`;
-  const over = Object.entries(areas).map(([edge, m2]) => `${share(m2)} hang over the ${edge} edge`);
-  return (
-    `the cloth slips: ${over.join(", ")} and ${share(lying)} lie on the table, layers counted. ` +
-    `The friction is ${friction.toFixed(2)}, ${(Math.ceil(100 * needed - 1e-6) / 100).toFixed(2)} would hold it`
+  const share = (m2) => `${area(m2)} (${percent(m2 / whole, 1)})`;
+  const over = Object.entries(areas).map(([edge, m2]) =>
+    say("message.slips.over", { share: share(m2), edge: word("edge", edge) }),
   );
+  return say("message.slips", {
+    over: over.join(", "),
+    lying: share(lying),
+    friction: hundredths(friction),
+    needed: roundedUp(needed),
+  });
 }
+
+/** A friction that will do. @param {number} friction */
+const roundedUp = (friction) => hundredths(Math.ceil(100 * friction - 1e-6) / 100);

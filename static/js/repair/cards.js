@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { ranked } from "../dock/suggestion_search.js";
+import { say } from "../language/say.js";
 import { HELP } from "../messages/changes.js";
 import { card, GROUPS, groupOf } from "./card.js";
 
@@ -19,7 +20,7 @@ export class Cards {
     this.store = store;
     this.root = element("div", "cards");
     this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", "Suggestions");
+    this.root.setAttribute("aria-label", say("repair.suggestions"));
     this.root.addEventListener("keydown", (event) => this.step(event));
     this.more = button("chip more-cards", () => this.showAll(!this.isAll));
     this.more.hidden = true;
@@ -53,7 +54,9 @@ export class Cards {
 
   /** Whether somebody is about to press a card: it stays where it is as long as it holds. */
   isUnderHand() {
-    return this.order.length > 0 && this.root.querySelector("button") !== null && this.root.matches(":hover, :focus-within");
+    return (
+      this.order.length > 0 && this.root.querySelector("button") !== null && this.root.matches(":hover, :focus-within")
+    );
   }
 
   draw() {
@@ -65,12 +68,13 @@ export class Cards {
     const missing = isWaiting ? GROUPS.filter((group) => !shown.some((one) => groupOf(one) === group)) : [];
     const slots = missing.map((group) => empty(group));
     const all = isWaiting ? [...cards, ...slots].sort((a, b) => place(a) - place(b)) : cards;
-    const isSame = all.length === this.root.children.length && all.every((one, n) => isAlike(one, this.root.children[n]));
+    const isSame =
+      all.length === this.root.children.length && all.every((one, n) => isAlike(one, this.root.children[n]));
     if (!isSame) this.root.replaceChildren(...all);
     this.root.hidden = !all.length;
     const others = this.order.length - this.chosen().length;
     this.more.hidden = others <= 0;
-    this.more.textContent = this.isAll ? "Fewer" : `${others} more`;
+    this.more.textContent = this.isAll ? say("repair.fewer") : say("repair.more", { count: others });
   }
 
   /** The best of each kind of help; where a kind has none, more of the others. */
@@ -122,4 +126,6 @@ const place = ({ dataset }) => GROUPS.findIndex((group) => group === dataset.gro
 /** @param {HTMLElement} one @param {Element} other */
 const isAlike = (one, other) =>
   one === other ||
-  (one.matches(".is-empty") && other.matches(".is-empty") && one.dataset.group === /** @type {HTMLElement} */ (other).dataset.group);
+  (one.matches(".is-empty") &&
+    other.matches(".is-empty") &&
+    one.dataset.group === /** @type {HTMLElement} */ (other).dataset.group);

@@ -10,6 +10,7 @@ import { explanation, NO_PLAN } from "../dock/reasons.js";
 import { SuggestionSearch } from "../dock/suggestion_search.js";
 import { showWhoFolds } from "../dialogs/who_folds.js";
 import { icon } from "../icons.js";
+import { say } from "../language/say.js";
 import { Cards } from "./cards.js";
 import { SearchNote } from "./search_note.js";
 
@@ -42,9 +43,9 @@ export class Repair extends EventTarget {
     this.sentence = element("p", "reason");
     this.note = new SearchNote(store, this.search);
     this.cards = new Cards(store);
-    this.again = button("chip", () => store.command({ do: "plan" }), "Plan again");
-    this.onward = button("chip", () => store.command({ do: "look_longer" }), "Look longer for a plan");
-    this.onward.title = "Search on for a plan, six times as long";
+    this.again = button("chip", () => store.command({ do: "plan" }), say("repair.plan_again"));
+    this.onward = button("chip", () => store.command({ do: "look_longer" }), say("repair.look_longer_for_plan"));
+    this.onward.title = say("repair.look_longer_hint");
     this.longer = button("chip look-longer", () => this.lookLonger());
     this.others = button("chip", () => showWhoFolds(store), "Other robots");
     this.others.title = "Plan this garment for every robot";
@@ -53,7 +54,7 @@ export class Repair extends EventTarget {
     const head = element("div", "repair-head", this.sentence, ...asked);
     this.body = element("div", "repair-body", this.cards.root, this.note.root);
     this.root = element("section", "repair", head, this.body);
-    this.root.setAttribute("aria-label", "No plan");
+    this.root.setAttribute("aria-label", say("plan.none"));
     this.root.hidden = true;
     pane.append(this.root);
     for (const source of [this.search, this.quickFixes]) source.addEventListener("change", () => this.showFound());
@@ -127,7 +128,7 @@ export class Repair extends EventTarget {
     const isNothing = !isRunning && !this.cards.count && typeof this.searched === "number";
     this.longer.hidden = !isNothing || (this.isLong && !fault);
     this.others.hidden = !isNothing;
-    this.longer.textContent = fault ? "Look again" : "Look longer";
+    this.longer.textContent = fault ? say("repair.look_again") : say("plan.look_longer");
     this.tell();
   }
 
@@ -148,7 +149,7 @@ export class Repair extends EventTarget {
     this.body.hidden = !isOpen;
     this.root.classList.toggle("is-line", this.isLow && !isOpen);
     this.fold.setAttribute("aria-expanded", String(isOpen));
-    this.fold.setAttribute("aria-label", isOpen ? "Hide what would help" : "Show what would help");
+    this.fold.setAttribute("aria-label", isOpen ? say("repair.hide") : say("repair.show"));
     this.fold.title = this.fold.getAttribute("aria-label") ?? "";
     this.tell();
   }

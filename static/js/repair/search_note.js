@@ -2,6 +2,7 @@
 
 import { element } from "../dom.js";
 import { capital } from "../dock/words.js";
+import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 
 /** Trials follow one another faster than anybody reads. */
@@ -29,8 +30,8 @@ export class SearchNote {
     this.root.hidden = !isRunning && (count > 0 || !isAbout);
     if (!isRunning) this.say(this.nothing());
     else if (!this.timer) this.say(this.trying());
-    const found = count ? `${count} ${count === 1 ? "change" : "changes"} found that would help.` : "";
-    const told = found || (isRunning ? "Looking for what would help." : this.root.hidden ? "" : this.nothing());
+    const found = count ? say("repair.found", { count }) : "";
+    const told = found || (isRunning ? say("repair.looking_said") : this.root.hidden ? "" : this.nothing());
     if (this.told.textContent !== told) this.told.textContent = told;
   }
 
@@ -46,14 +47,16 @@ export class SearchNote {
 
   trying() {
     const { trying } = this.search;
-    if (!trying) return "Looking for what would help\u2026";
-    return `Trying: ${capital(inWords({ ...trying, message: "" }, this.store.state?.drawing.folds ?? []))}\u2026`;
+    if (!trying) return say("repair.looking");
+    return say("repair.trying", {
+      what: capital(inWords({ ...trying, message: "" }, this.store.state?.drawing.folds ?? [])),
+    });
   }
 
   nothing() {
     const { fault, isComplete } = this.search;
-    if (fault) return `Nothing could be looked for: ${fault}.`;
-    if (!isComplete) return "Nothing has been found yet, and not all was tried.";
-    return "No single small change gives a plan.";
+    if (fault) return say("search.fault", { fault });
+    if (!isComplete) return say("repair.not_all");
+    return say("repair.nothing");
   }
 }

@@ -3,6 +3,7 @@
  * where it shall land. The page shows what it thinks at once; the server's word takes its place.
  */
 
+import { say, translated } from "../../language/say.js";
 import { CreaseQuestion } from "../crease.js";
 import { foldItems } from "../draw_folds.js";
 import { lengthLabel } from "../draw_handles.js";
@@ -25,8 +26,8 @@ import { Tool } from "./tool.js";
 const BY_EDGE_PX = 20;
 /** Kinds of snaps that mean the point itself, not its edge. */
 const POINTS = new Set(["vertex", "fraction"]);
-const BESIDE = "No fold there: the stroke does not touch the cloth.";
-const UNCLOSED = "The outline is not closed yet: go on with Draw outline (P).";
+const BESIDE = say("hint.stroke_misses");
+const UNCLOSED = say("hint.outline_open");
 
 /**
  * A stroke across the cloth.
@@ -78,13 +79,8 @@ export class FoldTool extends Tool {
   }
 
   get hint() {
-    if (this.stroke)
-      return this.stroke.isGrab
-        ? "Drop it where it shall land."
-        : "To another edge; what is left of the arrow moves. Flip: X";
-    return this.board.paint.grabs
-      ? "Grab the cloth and drop it where it shall land."
-      : "Drag from edge to edge, or grab the cloth and drop it where it shall land.";
+    if (this.stroke) return this.stroke.isGrab ? say("hint.drop") : say("hint.to_edge");
+    return this.board.paint.grabs ? say("hint.grab") : say("hint.fold");
   }
 
   get isBusy() {
@@ -141,8 +137,8 @@ export class FoldTool extends Tool {
   /** Why there is nothing to draw a fold on. */
   noCloth() {
     const { paint, step, tools } = this.board;
-    if (paint.kind === "red" && step === 0) return FIRST_IS_RED;
-    return tools.outline.isBusy ? UNCLOSED : NO_CLOTH;
+    if (paint.kind === "red" && step === 0) return translated(FIRST_IS_RED);
+    return tools.outline.isBusy ? UNCLOSED : translated(NO_CLOTH);
   }
 
   /**
@@ -263,7 +259,7 @@ export class FoldTool extends Tool {
   fail(error) {
     this.unmade -= 1;
     if (this.state.name === "idle") this.drop();
-    this.board.store.refuse("The fold could not be drawn. Draw it again, or reload the page.");
+    this.board.store.refuse(say("hint.fold_failed"));
     console.error(error);
   }
 
@@ -325,7 +321,7 @@ export class FoldTool extends Tool {
   }
 
   get lastPart() {
-    return this.isBusy ? "the fold\u2019s first end" : "";
+    return this.isBusy ? say("part.first_end") : "";
   }
 
   leave() {

@@ -1,5 +1,6 @@
 /** The tool `Measure`: a tape between any two points. It stays until the next one or Esc. */
 
+import { say } from "../../language/say.js";
 import { distance, minus } from "../geometry.js";
 import { path } from "../sheet.js";
 import { length } from "../units.js";
@@ -19,7 +20,7 @@ export class MeasureTool extends Tool {
   }
 
   get hint() {
-    return "Drag, or click two points.";
+    return say("hint.measure");
   }
 
   /** @param {Pointer} pointer */
@@ -80,7 +81,11 @@ export class MeasureTool extends Tool {
     const { view } = this.board;
     const [a, b] = [view.toPx(from), view.toPx(to)];
     const [across, up] = minus(to, from);
-    const text = `${length(distance(from, to))}  (${length(Math.abs(across))} across, ${length(Math.abs(up))} up)`;
+    const text = say("tape.measured", {
+      length: length(distance(from, to)),
+      across: length(Math.abs(across)),
+      up: length(Math.abs(up)),
+    });
     const isLow = Math.max(a[1], b[1]) > view.height - 40;
     return [
       { key: "under", tag: "path", class: "tape-under", d: path([a, b], false) },

@@ -3,6 +3,7 @@
  * is not closed stays when another tool is chosen, and goes on when this one is chosen again.
  */
 
+import { say, translated } from "../../language/say.js";
 import { replaceOutline } from "../edits.js";
 import { distance } from "../geometry.js";
 import { lengthLabel } from "../draw_handles.js";
@@ -17,7 +18,7 @@ import { Tool } from "./tool.js";
 /** @import { Items } from "../sheet.js" */
 
 /** Why no corner is put there. */
-const REFUSALS = { taken: CORNER_TAKEN, full: TOO_MANY_CORNERS };
+const REFUSALS = { taken: translated(CORNER_TAKEN), full: translated(TOO_MANY_CORNERS) };
 
 export class OutlineTool extends Tool {
   /** @param {import("../board.js").Board} board */
@@ -35,10 +36,8 @@ export class OutlineTool extends Tool {
   }
 
   get hint() {
-    if (!this.points.length) return "Click the corners one after the other; close at the first one.";
-    return this.points.length < LEAST_CORNERS
-      ? "Type a number for an exact length."
-      : "Click the first corner or press Enter to close. Backspace takes one back.";
+    if (!this.points.length) return say("hint.outline_first");
+    return this.points.length < LEAST_CORNERS ? say("hint.outline_next") : say("hint.outline_close");
   }
 
   get isBusy() {
@@ -106,7 +105,7 @@ export class OutlineTool extends Tool {
   async close() {
     const { points } = this;
     if (points.length < LEAST_CORNERS) {
-      this.board.store.refuse(TOO_FEW_CORNERS);
+      this.board.store.refuse(translated(TOO_FEW_CORNERS));
       return;
     }
     this.points = [];
@@ -126,7 +125,7 @@ export class OutlineTool extends Tool {
   }
 
   get lastPart() {
-    return this.isBusy ? `corner ${this.points.length}` : "";
+    return this.isBusy ? say("part.corner", { number: this.points.length }) : "";
   }
 
   takeBack() {
@@ -179,8 +178,7 @@ export class OutlineTool extends Tool {
         d: path(next ? [...points, next] : points),
       },
       points.length > 0 && { key: "sketch", tag: "path", class: "sketch", d: path(points, false) },
-      last &&
-        next && { key: "rubber", tag: "path", class: "sketch is-rubber", d: path([last, next], false) },
+      last && next && { key: "rubber", tag: "path", class: "sketch is-rubber", d: path([last, next], false) },
       ...points.map(([cx, cy], n) => ({
         key: `p${n}`,
         tag: "circle",

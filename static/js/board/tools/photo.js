@@ -1,5 +1,6 @@
 /** The tool `Photo`: a picture under the board, moved by dragging, scaled by two points whose distance is known. */
 
+import { say } from "../../language/say.js";
 import { distance, minus, plus, times } from "../geometry.js";
 import { path } from "../sheet.js";
 import { Tool } from "./tool.js";
@@ -28,10 +29,8 @@ export class PhotoTool extends Tool {
   }
 
   get hint() {
-    if (!this.board.photo.shown) return "Choose a photo; it stays in this browser.";
-    return this.points.length === 1
-      ? "And the second point."
-      : "Click two points whose distance you know; drag to move the photo.";
+    if (!this.board.photo.shown) return say("hint.photo_choose");
+    return this.points.length === 1 ? say("hint.photo_second") : say("hint.photo_scale");
   }
 
   enter() {

@@ -1,9 +1,9 @@
 /** The tool `Place`: the garment on the table, seen from above; it is dragged, and turned by its handle. */
 
+import { inEnglish, say } from "../../language/say.js";
 import { BASE_M } from "../draw_table.js";
 import { middleOf } from "../edits.js";
 import { boxOf, distance, isInside, minus, plus, times, toOuter, turned } from "../geometry.js";
-import { place } from "../../messages/names.js";
 import { Gesture } from "../gesture.js";
 import { Tool } from "./tool.js";
 
@@ -18,7 +18,7 @@ const ROUND_M = 0.01;
 const SNAP_PX = 4;
 const SQUARE_RAD = (4 * Math.PI) / 180;
 /** What holds the garment's middle, by how many of the table's middle lines it is on. */
-const MIDDLES = ["", "table's middle line", "table's middle"];
+const MIDDLES = ["", say("snap.table_middle"), say("snap.table_centre")];
 const TURN_RAD = Math.PI / 12;
 const NUDGE_TURN_RAD = Math.PI / 36;
 /** @type {Record<string, number>} */
@@ -46,7 +46,7 @@ export class PlaceTool extends Tool {
   }
 
   get hint() {
-    return "Drag the garment, turn it by its handle (Shift: by 15\u00B0), click where the robot shall start.";
+    return say("hint.place");
   }
 
   enter() {
@@ -116,7 +116,7 @@ export class PlaceTool extends Tool {
     }
     const { held } = this;
     const isTurn = held.grasp === "turn";
-    this.gesture ??= new Gesture(this.board, isTurn ? "Turn garment" : "Place garment");
+    this.gesture ??= new Gesture(this.board, isTurn ? inEnglish("step.turn_garment") : inEnglish("step.place_garment"));
     const { placement, name } = isTurn ? this.turnedTo(pointer, held) : this.movedTo(pointer, held);
     this.board.snapped = { at: pointer.at, name, key: "", isOnCloth: false };
     this.gesture.show((drawing) => {
@@ -154,7 +154,7 @@ export class PlaceTool extends Tool {
     const square = Math.round(yaw / (Math.PI / 2)) * (Math.PI / 2);
     if (pointer.shift) [yaw, name] = [Math.round(yaw / TURN_RAD) * TURN_RAD, "15\u00B0"];
     else if (!pointer.ctrl && this.board.snapper.isOn && Math.abs(yaw - square) < SQUARE_RAD)
-      [yaw, name] = [square, "square to the table"];
+      [yaw, name] = [square, say("snap.square")];
     return { placement: laid(held.centre, held.middle, yaw), name };
   }
 
@@ -164,7 +164,8 @@ export class PlaceTool extends Tool {
     const { store, drawing } = this.board;
     const station = this.held && !this.held.grasp && !hasMoved ? this.station(pointer) : null;
     if (station && station !== drawing.start_station) {
-      store.edit(`Start at ${place(station)}`, (changed) => void (changed.start_station = station));
+      const step = inEnglish("step.start_at", { station: station.replaceAll("_", " ") });
+      store.edit(step, (changed) => void (changed.start_station = station));
     }
     this.held = null;
     this.gesture = null;
@@ -192,12 +193,14 @@ export class PlaceTool extends Tool {
         changed.placement.x_m += by[1];
         changed.placement.y_m -= by[0];
       };
-      store.edit("Place garment", change, { coalesce: "nudge-place" });
+      store.edit(inEnglish("step.place_garment"), change, { coalesce: "nudge-place" });
     } else if (turn) {
       const { middle } = this;
       const { placement } = drawing;
       const wanted = laid(toOuter(placement, middle), middle, placement.yaw_rad + turn);
-      store.edit("Turn garment", (changed) => void (changed.placement = wanted), { coalesce: "nudge-turn" });
+      store.edit(inEnglish("step.turn_garment"), (changed) => void (changed.placement = wanted), {
+        coalesce: "nudge-turn",
+      });
     } else return false;
     return true;
   }

@@ -1,5 +1,6 @@
 /** The tool `Select`: takes corners, edges, folds and their ends; drags them, nudges them, removes them. */
 
+import { inEnglish, say } from "../../language/say.js";
 import { endsOnto } from "../edge_onto_edge.js";
 import { freshId, insertCorner, moveCorners, moveFold, removeCorners, removeFolds } from "../edits.js";
 import { Gesture } from "../gesture.js";
@@ -17,7 +18,13 @@ import { Tool } from "./tool.js";
 /** @import { Frame } from "../marquee.js" */
 
 const CURSORS = { vertex: "grab", end: "grab", middle: "copy", fold: "move", edge: "move", cloth: "default" };
-const LABELS = { vertex: MOVE_CORNER, edge: "Move edge", middle: "Add vertex", end: "Move fold", fold: "Move fold" };
+const LABELS = {
+  vertex: MOVE_CORNER,
+  edge: inEnglish("step.move_edge"),
+  middle: inEnglish("step.add_vertex"),
+  end: inEnglish("step.move_fold"),
+  fold: inEnglish("step.move_fold"),
+};
 /** What a press on each kind selects; on cloth and beside it, nothing. */
 const SELECTED = /** @type {const} */ ({ vertex: "vertex", end: "fold", fold: "fold", edge: "edge", middle: "edge" });
 const LEAST_CORNERS = 3;
@@ -51,9 +58,9 @@ export class SelectTool extends Tool {
   }
 
   get hint() {
-    if (!this.board.isSpread) return "Folded so far. Press [ to go back to where corners and folds are changed.";
-    if (!this.board.drawing.folds.length) return "Draw the first fold with F, or drag corners and edges.";
-    return "Drag corners, edges and folds. Double-click an edge for a new corner.";
+    if (!this.board.isSpread) return say("hint.folded");
+    if (!this.board.drawing.folds.length) return say("hint.first_fold");
+    return say("hint.select");
   }
 
   /** @param {Pointer} pointer */
@@ -214,7 +221,7 @@ export class SelectTool extends Tool {
     const found = hit(this.board, pointer);
     if (found?.kind !== "edge" && found?.kind !== "middle") return;
     const id = freshId("v", this.board.drawing.outline);
-    this.board.store.edit("Add vertex", (drawing) =>
+    this.board.store.edit(inEnglish("step.add_vertex"), (drawing) =>
       insertCorner(drawing, found.id, id, onEdge(drawing, found.id, pointer.at)),
     );
     this.board.store.select({ kind: "vertex", ids: [id] });
@@ -249,12 +256,12 @@ export class SelectTool extends Tool {
           drawing,
           new Map(drawing.outline.filter(({ id }) => moved.includes(id)).map(({ id, point }) => [id, plus(point, by)])),
         );
-      store.edit(kind === "vertex" ? MOVE_CORNER : "Move edge", change, { coalesce });
+      store.edit(kind === "vertex" ? MOVE_CORNER : inEnglish("step.move_edge"), change, { coalesce });
     } else if (kind === "fold") {
       const [id] = ids;
       const rings = this.board.ringsOf(id);
       store.edit(
-        "Move fold",
+        inEnglish("step.move_fold"),
         (drawing) => {
           const fold = drawing.folds.find((other) => other.id === id);
           if (fold) movedFold(id, plus(fold.start.point, by), plus(fold.end.point, by), rings)(drawing);
@@ -269,11 +276,15 @@ export class SelectTool extends Tool {
     const { store, drawing } = this.board;
     const { kind, ids } = store.selection ?? { kind: "garment", ids: [] };
     if (kind === "fold")
-      store.edit(ids.length > 1 ? "Delete folds" : "Delete fold", (changed) => removeFolds(changed, ids));
+      store.edit(inEnglish(ids.length > 1 ? "step.delete_folds" : "step.delete_fold"), (changed) =>
+        removeFolds(changed, ids),
+      );
     else if (kind !== "vertex") return false;
-    else if (drawing.outline.length - ids.length < LEAST_CORNERS)
-      store.refuse("An outline has at least three corners.");
-    else store.edit(ids.length > 1 ? "Delete vertices" : "Delete vertex", (changed) => removeCorners(changed, ids));
+    else if (drawing.outline.length - ids.length < LEAST_CORNERS) store.refuse(say("rule.too_few_corners"));
+    else {
+      const step = ids.length > 1 ? "step.delete_vertices" : "step.delete_vertex";
+      store.edit(inEnglish(step), (changed) => removeCorners(changed, ids));
+    }
     return true;
   }
 
