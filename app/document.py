@@ -15,6 +15,7 @@ from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, StaleVersionError
 from app.jobs.courtesy import Courtesy
+from app.language import Language
 from app.playback import Playback
 from planner.errors import FoldingError
 from planner.task.plan import Plan
@@ -200,6 +201,14 @@ class Document:
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
         self._change(lambda state: replace(state, is_dark=is_dark))
+
+    def set_language(self, language: Language) -> None:
+        """Set the language of the stage's words and of the instruction sheet."""
+        self._change(lambda state: replace(state, language=language))
+
+    def set_effort(self, work_s: float | None) -> None:
+        """Set the work of each search from the next one on, None for the usual (s, see `planner.planning.budget`)."""
+        self._change(lambda state: replace(state, work_s=work_s))
 
     def preview(self, plan: Plan | None) -> None:
         """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""

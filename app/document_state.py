@@ -7,6 +7,7 @@ from typing import Any
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
+from app.language import ENGLISH, Language
 from app.playback import Playback
 from planner.errors import RequestError
 from planner.geometry.pose import Point2
@@ -101,6 +102,9 @@ class DocumentState:
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
+        language: the language of the stage and the instruction sheet; decided in the same way.
+        work_s: the limit on the work of a search (s on the machine of `planner.planning.budget`), None for the usual
+            one; decided in the same way.
         preview: the plan of a change that is pointed at; the stage shows it in place of `shown`.
     """
 
@@ -117,6 +121,8 @@ class DocumentState:
     is_thorough: bool = False
     playback: Playback = Playback()
     is_dark: bool = False
+    language: Language = ENGLISH
+    work_s: float | None = None
     preview: ShownPlan | None = None
 
     @property

@@ -165,7 +165,7 @@ class Replanner:
             begun = self._search.find_soon(task, shown, show, is_unwanted)
         self._check(state)
         if begun is not None and not is_unwanted():
-            work_s = LONGER_WORK_S if state.is_thorough else WORK_S
+            work_s = LONGER_WORK_S if state.is_thorough else self._document.state.work_s or WORK_S
             self._search.find_quickest(begun, work_s, show, is_unwanted)
 
     def _prepare(self, robot: str) -> None:

@@ -16,6 +16,8 @@ from app.api.messages import (
     Play,
     Preview,
     Seek,
+    SetEffort,
+    SetLanguage,
     SetSpeed,
     SetTheme,
     Stop,
@@ -54,6 +56,10 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             document.set_speed(speed)
         case SetTheme(dark=is_dark):
             document.set_theme(is_dark=is_dark)
+        case SetLanguage(language=language):
+            document.set_language(language)
+        case SetEffort(work_s=work_s):
+            document.set_effort(work_s)
         case Choose(garment=name):
             put_garment(document, workspace.garments.garment(name))
         case PlanAgain():

@@ -7,6 +7,7 @@ from annotated_types import Interval
 from pydantic import Field, PlainValidator, TypeAdapter
 from pydantic_core import PydanticCustomError
 
+from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
@@ -121,6 +122,20 @@ class SetTheme(StrictModel):
     dark: bool
 
 
+class SetLanguage(StrictModel):
+    """Set the language of the stage's words and of the instruction sheet."""
+
+    do: Literal["language"]
+    language: Language
+
+
+class SetEffort(StrictModel):
+    """Set the work of each search from the next one on (s, as `work_limit_s`); null: the usual."""
+
+    do: Literal["effort"]
+    work_s: Annotated[float, Field(ge=0.1, le=60.0)] | None
+
+
 class Choose(StrictModel):
     """Replace the garment by another."""
 
@@ -161,7 +176,19 @@ class Preview(StrictModel):
 
 
 Command: TypeAlias = (
-    Play | Pause | Seek | SetSpeed | SetTheme | Choose | Stop | PlanAgain | LookLonger | PlanFrom | Preview
+    Play
+    | Pause
+    | Seek
+    | SetSpeed
+    | SetTheme
+    | SetLanguage
+    | SetEffort
+    | Choose
+    | Stop
+    | PlanAgain
+    | LookLonger
+    | PlanFrom
+    | Preview
 )
 AnyCommand = Annotated[Command, Field(discriminator="do")]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)

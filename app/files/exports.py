@@ -55,7 +55,7 @@ def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) ->
 def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.sheet_pdf import page_pdf
 
-    return page_pdf(instruction_sheet(plan_in(state)))
+    return page_pdf(instruction_sheet(plan_in(state), state.language))
 
 
 def _mcap(state: DocumentState, _: float, __: ShouldStop) -> bytes:
@@ -144,7 +144,7 @@ EXPORTS = (
         "-steps.svg",
         "image/svg+xml",
         no_plan,
-        lambda state, *_: page_svg(instruction_sheet(plan_in(state))),
+        lambda state, *_: page_svg(instruction_sheet(plan_in(state), state.language)),
     ),
     Export(
         "recording.html",

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from app.files.sheet_page import Disc, Outline, Page, Shape, Spot, Words
-from app.step_words import step_words
+from app.language import ENGLISH, Language, named, numeral, say, translated
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.task.plan import Plan
@@ -26,13 +26,12 @@ _EDGE, _TABLE, _INK, _FAINT = "5a5142", "f4f4f2", "222222", "888888"
 _ROBOT = 11.0
 """Half the width of the robot's base in pictures (pt); to scale it would leave the cloth no room."""
 
-_KINDS = {"fold": "Fold", "drag": "Drag", "move": "Drive"}
 _LETTER = 4.5
 """Width of a letter of a caption (pt)."""
 
 
-def instruction_sheet(plan: Plan) -> Page:
-    """Return the page of a solved plan.
+def instruction_sheet(plan: Plan, language: Language = ENGLISH) -> Page:
+    """Return the page of a solved plan, in a language.
 
     Raises:
         UnsolvedPlanError: the plan is not solved.
@@ -47,11 +46,13 @@ def instruction_sheet(plan: Plan) -> Page:
         (_MARGIN + n % columns * wide, _MARGIN + _HEAD + n // columns * tall, wide - _GAP, tall - _GAP - _CAPTION)
         for n in range(count)
     ]
-    shapes: list[Shape] = list(_head(plan))
+    shapes: list[Shape] = list(_head(plan, language))
     for number, (step, frame) in enumerate(zip(plan.steps, frames, strict=False), 1):
-        shapes += _step(plan, number, step, frame)
-    shapes += _done(plan, frames[-1])
-    return Page(WIDTH, HEIGHT, f"How to fold: {plan.garment.title}", tuple(shapes))
+        shapes += _step(plan, number, step, frame, language)
+    shapes += _done(plan, frames[-1], language)
+    return Page(
+        WIDTH, HEIGHT, say(language, "sheet.title", title=translated(language, plan.garment.title)), tuple(shapes)
+    )
 
 
 Frame = tuple[float, float, float, float]
@@ -64,15 +65,19 @@ def _columns(count: int) -> int:
     return max(2, math.ceil(math.sqrt(count * room)))
 
 
-def _head(plan: Plan) -> Iterator[Shape]:
-    title = plan.garment.title[:60]
-    steps = len(plan.steps)
+def _head(plan: Plan, language: Language) -> Iterator[Shape]:
+    title = translated(language, plan.garment.title)[:60]
     yield Words((_MARGIN, _MARGIN + 14), title, 18, is_bold=True)
-    about = f"{steps} step{'' if steps == 1 else 's'}, {plan.cost_s:.1f} s"
-    yield Words((_MARGIN, _MARGIN + 30), f"{about}. The robot's near edge of the table is below in each picture.", 9)
+    steps = say(language, "status.steps", count=len(plan.steps))
+    about = f"{steps}, {_seconds(language, plan.cost_s or 0.0)}. {say(language, 'sheet.near_edge')}"
+    yield Words((_MARGIN, _MARGIN + 30), about, 9)
 
 
-def _step(plan: Plan, number: int, step: PlanStep, frame: Frame) -> Iterator[Shape]:
+def _seconds(language: Language, time_s: float) -> str:
+    return say(language, "time.seconds", number=numeral(language, time_s))
+
+
+def _step(plan: Plan, number: int, step: PlanStep, frame: Frame, language: Language) -> Iterator[Shape]:
     grips = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)]).reshape(-1, 2)
     stands = _waypoints(step) if step.kind == "move" else [step.base.pose]
     bases = np.array([[pose.x_m, pose.y_m] for pose in stands])
@@ -88,14 +93,15 @@ def _step(plan: Plan, number: int, step: PlanStep, frame: Frame) -> Iterator[Sha
         yield from _arrow(_bent(pick, place) if step.kind == "fold" else [pick, place])
         yield Disc(pick, 6.5)
         yield Words((pick[0], pick[1] + 3), grip.arm[:1].upper(), 8, is_bold=True, anchor="middle")
-    yield from _caption(number, frame, _KINDS.get(step.kind, step.kind), _about(plan, step))
+    yield from _caption(number, frame, named(language, "kind", step.kind), _about(plan, step, language))
 
 
-def _done(plan: Plan, frame: Frame) -> Iterator[Shape]:
+def _done(plan: Plan, frame: Frame, language: Language) -> Iterator[Shape]:
     view = _View(frame, _spread(plan, plan.end))
     yield from _ground(plan, view, frame)
     yield from _cloth(plan, plan.end, view)
-    yield from _caption(len(plan.steps) + 1, frame, "Done", (f"after {plan.cost_s:.1f} s",))
+    after = say(language, "sheet.after", time=_seconds(language, plan.cost_s or 0.0))
+    yield from _caption(len(plan.steps) + 1, frame, say(language, "sheet.done"), (after,))
 
 
 class _View:
@@ -191,12 +197,30 @@ def _arrow(way: Sequence[Spot]) -> Iterator[Shape]:
     yield Outline(((x1, y1), *barbs), _INK, _INK, 0.6)
 
 
-def _about(plan: Plan, step: PlanStep) -> tuple[str, ...]:
+def _about(plan: Plan, step: PlanStep, language: Language) -> tuple[str, ...]:
     """Return the lines below a picture: what is done; by which hands, from where, how long."""
     hands = " + ".join(sorted(grip.arm[:1].upper() for grip in step.grips))
-    where = "" if step.kind == "move" or step.base.station is None else f"at {step.base.station.replace('_', ' ')}"
-    details = ", ".join(part for part in (hands, where, f"{step.duration_s:.1f} s") if part)
-    return (step_words(step, plan.garment).replace("_", " "), details)
+    station = None if step.kind == "move" else step.base.station
+    where = "" if station is None else say(language, "sheet.at", place=named(language, "station", station))
+    details = ", ".join(part for part in (hands, where, _seconds(language, step.duration_s)) if part)
+    return (_what(plan, step, language), details)
+
+
+def _what(plan: Plan, step: PlanStep, language: Language) -> str:
+    """Return what a step does."""
+    details = step.details
+    match step.kind:
+        case "fold":
+            return translated(language, plan.garment.folds[int(details["fold"])].name)
+        case "drag":
+            length = f"{numeral(language, details['distance_m'], 2)} m"
+            on = say(language, "sheet.holds_on") if details["holds"] else ""
+            return say(language, "sheet.towards_robot", length=length) + on
+        case "move":
+            ends = (details["from"], details["to"])
+            start, end = (named(language, "station", name or "elsewhere") for name in ends)
+            return say(language, "step_words.from_to", **{"from": start, "to": end})
+    return ""
 
 
 def _caption(number: int, frame: Frame, kind: str, lines: Sequence[str]) -> Iterator[Shape]:

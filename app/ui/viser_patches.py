@@ -19,6 +19,7 @@ import contextlib
 import functools
 import hmac
 import http
+import json
 import secrets
 import threading
 from collections.abc import Callable, Iterator
@@ -32,14 +33,16 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from app.language import LANGUAGES, say
+
 LOOPBACK = "127.0.0.1"
 SECRET_HEADER = "X-Pleat-Stage"
 
 VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
 """The page that shows a stage: a single self-contained file."""
 
-PANEL_LABEL = "Table"
-"""The label by which the visitor's panel is found."""
+PANEL = "panel.label"
+"""The key of the label by which the visitor's panel is found, in any language."""
 
 SEATED = "pleat-seated"
 """The frame's message to the page once the visitor's own panel is there."""
@@ -78,8 +81,9 @@ _LABELS = b"""<script>{
   }
 }</script>"""
 _SEATED = f"""<script>{{
+  const labels = {json.dumps([say(language, PANEL) for language in LANGUAGES])};
   const isSeated = () => [...document.querySelectorAll("#root *")].some(
-    (part) => !part.childElementCount && part.textContent === "{PANEL_LABEL}");
+    (part) => !part.childElementCount && labels.includes(part.textContent));
   const watch = new MutationObserver(() => {{
     if (!isSeated()) return;
     watch.disconnect();

@@ -12,7 +12,7 @@ export function isTyping(target) {
 }
 
 /**
- * @param {Record<string, () => void>} verbs what the keys do: undo, redo, save, help, gallery, play, and tools by their letters
+ * @param {Record<string, () => void>} verbs what the keys do: undo, redo, save, settings, help, gallery, play, and tools by their letters
  * @returns {(event: KeyboardEvent) => void}
  */
 export function keyHandler(verbs) {
@@ -32,6 +32,7 @@ function named(event) {
   if (event.ctrlKey || event.metaKey) {
     if (event.altKey) return "";
     if (key === "s") return "save";
+    if (key === ",") return "settings";
     if (isTyping(target)) return "";
     if (key === "z") return event.shiftKey ? "redo" : "undo";
     return key === "y" ? "redo" : "";

@@ -12,6 +12,7 @@ import { mountGarments } from "./garments.js";
 import { mountHistory } from "./history.js";
 import { keyHandler } from "./keys.js";
 import { fillIn } from "./language/fill_in.js";
+import { language } from "./language/language.js";
 import { say } from "./language/say.js";
 import { notice } from "./notices.js";
 import { mountOffline } from "./offline.js";
@@ -21,6 +22,7 @@ import { mountSplitter } from "./splitter.js";
 import { mountStagePlay } from "./stage_play.js";
 import { mountStage } from "./stage.js";
 import { Repair } from "./repair/repair.js";
+import { tellEffort } from "./settings/effort.js";
 import { StepPictures } from "./step_pictures.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
@@ -50,6 +52,7 @@ const verbs = {
   redo: () => board.tool.isBusy || store.redo(),
   play: togglePlay,
   save: dialogs.save,
+  settings: dialogs.settings,
   help: dialogs.help,
   gallery: dialogs.gallery,
 };
@@ -60,7 +63,12 @@ mountStage(store, keyHandler(verbs)); // letters move the camera there
 
 document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board), h: () => repair.takeFocus() }));
 theme.addEventListener("change", tellTheme);
-store.addEventListener("connection", () => store.isLive && tellTheme());
+store.addEventListener("connection", () => {
+  if (!store.isLive) return;
+  tellTheme();
+  store.command({ do: "language", language });
+  tellEffort(store);
+});
 store.addEventListener("refused", (event) => notice(/** @type {CustomEvent} */ (event).detail));
 store.addEventListener("opened", (event) => {
   board.framing.fitNext();

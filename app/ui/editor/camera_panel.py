@@ -9,10 +9,9 @@ from collections.abc import Callable
 
 import viser
 
+from app.language import Language, say
 from app.ui.editor.presets import Lens, Preset
 from app.ui.viewpoint import Viewpoint
-
-LABEL = "Camera"
 
 _REMEMBERED = 8
 """Number of opening viewpoints remembered, because a browser reports its camera with a delay."""
@@ -26,11 +25,12 @@ OnPreset = Callable[[Preset], None]
 class CameraPanel:
     """A row of buttons, and the viewpoint before the first of them was pressed."""
 
-    def __init__(self, client: viser.ClientHandle, opening: Viewpoint, on_preset: OnPreset) -> None:
+    def __init__(self, client: viser.ClientHandle, language: Language, opening: Viewpoint, on_preset: OnPreset) -> None:
         """Build the folder.
 
         Args:
             client: whose camera it is.
+            language: the language that it speaks.
             opening: the opening viewpoint.
             on_preset: called with the preset pressed; must not block.
         """
@@ -42,9 +42,10 @@ class CameraPanel:
         self._has_begun = self._is_left = False
         self._preset: Viewpoint | None = None
         self._ridden: deque[Viewpoint] = deque(maxlen=_RIDDEN)
-        self._folder = client.gui.add_folder(LABEL)
+        self._language = language
+        self._folder = client.gui.add_folder(say(language, "panel.camera"))
         with self._folder:
-            self._buttons = client.gui.add_button_group("Look from", tuple(preset.value for preset in Preset))
+            self._buttons = client.gui.add_button_group(say(language, "panel.look_from"), self._labels)
         self._buttons.on_click(self._pressed)
 
     @property
@@ -102,7 +103,19 @@ class CameraPanel:
         self._move(self._free)
 
     async def _pressed(self, event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
-        self._on_preset(Preset(event.target.value))
+        self._on_preset(next(preset for preset in Preset if say(self._language, preset) == event.target.value))
+
+    def speak(self, language: Language) -> None:
+        """Take over another language."""
+        if language == self._language:
+            return
+        self._language = language
+        self._folder.label = say(language, "panel.camera")
+        self._buttons.label, self._buttons.options = say(language, "panel.look_from"), self._labels
+
+    @property
+    def _labels(self) -> tuple[str, ...]:
+        return tuple(say(self._language, preset) for preset in Preset)
 
     @property
     def _here(self) -> Viewpoint:

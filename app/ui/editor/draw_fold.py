@@ -12,6 +12,7 @@ from app.drawing.drawing import Crease, Drawing, fresh_ids
 from app.drawing.place_crease import PlacedCrease, along_line, refuse_too_many
 from app.drawing.rules import DRAW_FOLD, NO_CLOTH, STROKE_MIN_M, as_sentence, fold_name, snapped
 from app.drawing.solution import landed_rings
+from app.language import say, translated
 from app.ui.editor.aids import Aids, Ghost, Pile, closed
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article, on_table
@@ -59,10 +60,10 @@ class DrawFold(Tool):
     def hint(self) -> str:
         """Return what to do now."""
         if self._stroke is not None:
-            return "To another edge; what is left of the line moves. Off the table it is dropped."
+            return say(self._pencil.state.language, "stage.line_to_edge")
         if len(self._pencil.state.solution.cloths) > 1:
-            return "Drag from edge to edge of the folded cloth."
-        return "Drag from edge to edge of the cloth."
+            return say(self._pencil.state.language, "stage.line_folded")
+        return say(self._pencil.state.language, "stage.line_flat")
 
     def press(self, aim: Aim) -> None:
         """Begin a line."""
@@ -85,7 +86,7 @@ class DrawFold(Tool):
             return
         self.put_down()
         if aim is None or not stroke.ground.holds(aim.point):
-            raise RefusedError("That is off the table: no fold was made.")
+            raise RefusedError(say(self._pencil.state.language, "rule.off_table_no_fold"))
         state = self._pencil.state
         drawn = replace(stroke, end=_snapped(state, aim, self._seen(state)))
         self._pencil.commit(DRAW_FOLD, lambda now: self._folded(now, drawn))
@@ -99,7 +100,7 @@ class DrawFold(Tool):
 
     def last(self) -> str | None:
         """Return the label of the line that has been begun."""
-        return "line" if self._stroke is not None else None
+        return say(self._pencil.state.language, "stage.line") if self._stroke is not None else None
 
     def put_down(self) -> None:
         """Drop the line that has been begun."""
@@ -123,7 +124,7 @@ class DrawFold(Tool):
         """Return the region that folds of this kind see, article frame."""
         solution = state.solution
         if not solution.cloths:
-            raise RefusedError(as_sentence(NO_CLOTH))
+            raise RefusedError(translated(state.language, as_sentence(NO_CLOTH)))
         legal = len(solution.cloths) - 1
         if legal < len(state.drawing.folds):
             told = (spoken(problem.says, problem.message) for problem in solution.problems if problem.fold == legal)
@@ -131,13 +132,13 @@ class DrawFold(Tool):
             raise RefusedError(as_sentence(f"fix fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
         refuse_too_many(solution)
         if self._is_red and legal == 0:
-            raise RefusedError(as_sentence(FIRST_IS_RED))
+            raise RefusedError(translated(state.language, as_sentence(FIRST_IS_RED)))
         return flap_silhouette(solution.cloths[-1], is_red=self._is_red)
 
     def _placed(self, state: DocumentState, stroke: _Stroke) -> PlacedCrease:
         start, end = (in_article(state.drawing, point) for point in (stroke.start, stroke.end))
         if math.dist(start, end) < STROKE_MIN_M:
-            raise RefusedError("Drag on, to another edge of the cloth.")
+            raise RefusedError(say(self._pencil.state.language, "rule.drag_on"))
         return along_line(state.solution, None, Segment(start, end), is_red=self._is_red)
 
     def _folded(self, state: DocumentState, stroke: _Stroke) -> Drawing:

@@ -15,6 +15,7 @@ from app.drawing.rules import (
     next_corner,
     snapped_corner,
 )
+from app.language import say, translated
 from app.ui.editor.aids import Aids
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article
@@ -40,12 +41,12 @@ class DrawOutline(Tool):
         """Return what to do now."""
         count = len(self._points)
         if count == 0 and self._is_closed:
-            return "The outline is closed: go on with folds, or click the first corner of another."
+            return say(self._pencil.state.language, "stage.outline_closed")
         if count == 0:
-            return "Click the corners of the cloth one after the other."
+            return say(self._pencil.state.language, "stage.outline_begin")
         if count < LEAST_CORNERS:
-            return f"{count} of at least {LEAST_CORNERS} corners; Undo takes one back."
-        return "Click the first corner to close the outline; Undo takes one back."
+            return say(self._pencil.state.language, "stage.outline_count", number=count, least=LEAST_CORNERS)
+        return say(self._pencil.state.language, "stage.outline_close")
 
     def press(self, aim: Aim) -> None:
         """Do nothing: a corner is put where the pointer is released."""
@@ -56,13 +57,13 @@ class DrawOutline(Tool):
     def release(self, aim: Aim | None) -> None:
         """Treat a drag that hardly moved as a click."""
         if aim is None:
-            raise RefusedError("That is off the table.")
+            raise RefusedError(say(self._pencil.state.language, "rule.off_table"))
         self.tap(aim)
 
     def tap(self, aim: Aim) -> None:
         """Put a corner here, or close the outline."""
         if not Ground.of(self._pencil.state.drawing).holds(aim.point):
-            raise RefusedError("That is off the table.")
+            raise RefusedError(say(self._pencil.state.language, "rule.off_table"))
         place = snapped_corner(self._points, aim.point, aim.pixel_m)
         becomes = next_corner(self._points, place)
         if becomes == "close":
@@ -70,11 +71,11 @@ class DrawOutline(Tool):
         elif becomes == "put":
             self._points = (*self._points, place)
         else:
-            raise RefusedError(as_sentence(_REFUSALS[becomes]))
+            raise RefusedError(translated(self._pencil.state.language, as_sentence(_REFUSALS[becomes])))
 
     def last(self) -> str | None:
         """Return the label of the last corner."""
-        return f"corner {len(self._points)}" if self._points else None
+        return say(self._pencil.state.language, "part.corner", number=len(self._points)) if self._points else None
 
     def take_back(self) -> None:
         """Remove the last corner."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 
 from app.document import Document
 from app.drawing.rules import as_sentence
+from app.language import Language, say, translated
 from app.ui.editor.aids import NO_AIDS, Aids
 from app.ui.editor.aim import Aim
 from app.ui.editor.draw_fold import DrawFold
@@ -18,8 +19,6 @@ from app.ui.editor.refusal import RefusedError, sentence
 from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.errors import FoldingError
-
-_LOOKING = "Drag to look round, the wheel goes nearer. To edit, choose a mode."
 
 
 class Editor:
@@ -59,13 +58,18 @@ class Editor:
         return self.mode is not Mode.LOOK
 
     @property
+    def language(self) -> Language:
+        """The language in which it speaks."""
+        return self._document.state.language
+
+    @property
     def says(self) -> str:
         """What to do now; or why the last action was refused, or what is wrong with the drawing."""
         if self._refusal:
             return self._refusal
         tool = self._tool
         if tool is None:
-            return _LOOKING
+            return say(self.language, "stage.looking")
         problems = self._document.state.solution.problems
         shows_problem = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
         return as_sentence(spoken(problems[0].says, problems[0].message)) if problems and shows_problem else tool.hint()
@@ -74,13 +78,13 @@ class Editor:
     def undo_label(self) -> str:
         """The label of the undo button; just "Undo" when there is nothing."""
         label = (self._tool.last() if self._tool else None) or self._document.state.draft.closed().history.can_undo
-        return f"Undo: {label}" if label else "Undo"
+        return _named(self.language, "history.undo", label)
 
     @property
     def redo_label(self) -> str:
         """The label of the redo button; just "Redo" when there is nothing."""
         label = self._document.state.draft.closed().history.can_redo
-        return f"Redo: {label}" if label else "Redo"
+        return _named(self.language, "history.redo", label)
 
     def choose(self, mode: Mode) -> None:
         """Take another tool; to draw, move playback to the beginning, where the cloth lies spread."""
@@ -181,3 +185,10 @@ class Editor:
         else:
             self._refusal = ""
         return not self._refusal
+
+
+def _named(language: Language, verb: str, step: str | None) -> str:
+    """Return a button's label with the name of the step that it takes, if there is one."""
+    if step is None:
+        return say(language, verb)
+    return say(language, f"{verb}_named", step=translated(language, step))

@@ -4,16 +4,16 @@ from enum import StrEnum
 
 
 class Mode(StrEnum):
-    """The left button's mode, by its label in the panel."""
+    """The left button's mode, by the key of its label in the panel."""
 
-    LOOK = "Look"
-    MOVE_POINTS = "Move points"
-    DRAW_OUTLINE = "Draw outline"
-    DRAW_FOLD = "Draw fold"
+    LOOK = "mode.look"
+    MOVE_POINTS = "mode.move_points"
+    DRAW_OUTLINE = "tool.outline"
+    DRAW_FOLD = "tool.fold"
 
 
 class FoldKind(StrEnum):
-    """The layers that a fold takes, by their label in the panel."""
+    """The layers that a fold takes, by the key of their label in the panel."""
 
-    BLUE = "Blue: all layers"
-    RED = "Red: last flap"
+    BLUE = "colour.blue_all_layers"
+    RED = "colour.red_last_flap"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from app.document_state import DocumentState
 from app.drawing.drawing import Drawing
 from app.drawing.rules import FINGER_PX, MOVE_CORNER
+from app.language import say
 from app.ui.editor.aids import Aids, closed
 from app.ui.editor.aim import Aim
 from app.ui.editor.ground import Ground, in_article, on_table
@@ -45,10 +46,10 @@ class MovePoints(Tool):
     def hint(self) -> str:
         """Return what to do now."""
         if self._grip is not None:
-            return "Let go where the corner shall be; off the table it goes back."
+            return say(self._pencil.state.language, "stage.let_go")
         if not self._pencil.state.drawing.outline:
-            return "There is no outline yet: draw one."
-        return "Drag a corner."
+            return say(self._pencil.state.language, "stage.no_outline")
+        return say(self._pencil.state.language, "stage.drag_corner")
 
     def press(self, aim: Aim) -> None:
         """Grab the nearest corner that is near enough."""
@@ -56,7 +57,7 @@ class MovePoints(Tool):
         places = on_table(drawing, drawing.points)
         apart, index = min(((math.dist(place, aim.point), i) for i, place in enumerate(places)), default=(math.inf, 0))
         if apart > FINGER_PX * aim.pixel_m:
-            raise RefusedError("There is no corner there: drag one of the handles.")
+            raise RefusedError(say(self._pencil.state.language, "rule.no_corner_there"))
         x, y = places[index]
         offset = (x - aim.point[0], y - aim.point[1])
         self._grip = _Grip(drawing.outline[index].id, offset, Ground.of(drawing))
@@ -73,12 +74,12 @@ class MovePoints(Tool):
             return
         if aim is None or not grip.ground.holds(aim.point):
             self._pencil.cancel()
-            raise RefusedError("That is off the table: the corner is where it was.")
+            raise RefusedError(say(self._pencil.state.language, "rule.off_table_corner"))
         self._pencil.commit(MOVE_CORNER, _moved(grip.corner, grip.place(aim)))
 
     def tap(self, aim: Aim) -> None:
         """Do nothing: a click moves no corner."""
-        raise RefusedError("Hold the button down and drag.")
+        raise RefusedError(say(self._pencil.state.language, "rule.hold_down"))
 
     def put_down(self) -> None:
         """Put the corner back where it was."""
@@ -100,7 +101,7 @@ def _moved(corner: str, place: Point2) -> Change:
     def change(state: DocumentState) -> Drawing:
         drawing = state.drawing
         if all(other.id != corner for other in drawing.outline):
-            raise RefusedError("Somebody has taken this corner away.")
+            raise RefusedError(say(state.language, "rule.taken_away"))
         point = in_article(drawing, place)
         outline = tuple(replace(other, point=point) if other.id == corner else other for other in drawing.outline)
         return replace(drawing, outline=outline)

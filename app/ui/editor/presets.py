@@ -26,13 +26,13 @@ _SIDE_RISE = 0.12
 
 
 class Preset(StrEnum):
-    """The presets, by the labels of their buttons."""
+    """The presets, by the keys of their buttons' labels."""
 
-    FOLLOW = "Follow"
-    TOP = "Top"
-    ROBOT = "Robot's eye"
-    SIDE = "Side"
-    FREE = "Free"
+    FOLLOW = "preset.follow"
+    TOP = "preset.top"
+    ROBOT = "preset.robot"
+    SIDE = "preset.side"
+    FREE = "preset.free"
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ import viser
 
 from app.document import Document
 from app.document_state import DocumentState
+from app.language import say
 from app.shown_robot import shown_robot
 from app.ui.colours import DARK, LIGHT
 from app.ui.editor.aids_view import AidsView
@@ -22,7 +23,7 @@ from app.ui.editor.presets import Preset, robots_eye, side, top
 from app.ui.grip_view import ROOT as MARKS
 from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
-from app.ui.viser_patches import PANEL_LABEL
+from app.ui.viser_patches import PANEL
 from planner.geometry.pose import Pose2
 
 _PANEL_PX = 250
@@ -54,12 +55,15 @@ class Seat:
         self._is_from_right = False
         self._robot = document.state.drawing.robot
         self._following: Following | None = None
+        self._language = language = document.state.language
         with client.atomic():
-            client.gui.set_panel_label(PANEL_LABEL)
+            client.gui.set_panel_label(say(language, PANEL))
             client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
             client.gui.main_panel.minimize()
-            self._edit_panel = EditPanel(client, lambda act: ask(lambda: act(self._editor), False))
-            self._camera_panel = CameraPanel(client, opening, lambda preset: ask(lambda: self._look(preset), False))
+            self._edit_panel = EditPanel(client, language, lambda act: ask(lambda: act(self._editor), False))
+            self._camera_panel = CameraPanel(
+                client, language, opening, lambda preset: ask(lambda: self._look(preset), False)
+            )
             self._aids = AidsView(client, DARK if self._is_dark else LIGHT)
             self._glass = Glass(client, self._touched)
             self._marks = client.scene.add_frame(MARKS, show_axes=False)
@@ -78,6 +82,10 @@ class Seat:
                 self._marks.visible = not self._editor.is_drawing
             self._aids.show(self._editor.aids, _ZOOM_STEP**self._zoom)
             self._edit_panel.show(self._editor)
+            if state.language != self._language:
+                self._language = state.language
+                self._client.gui.set_panel_label(say(state.language, PANEL))
+                self._camera_panel.speak(state.language)
             self._follow(state)
         self._client.flush()
 

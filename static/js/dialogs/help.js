@@ -95,6 +95,7 @@ const SECTIONS = [
       [say("key.undo"), say("history.undo")],
       [say("key.redo"), say("help.redo")],
       [say("key.save"), say("help.save")],
+      [say("key.settings"), say("help.settings")],
       ["?", say("help.this_page")],
     ],
   ],

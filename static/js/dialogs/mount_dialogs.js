@@ -6,6 +6,7 @@ import { icon } from "../icons.js";
 import { say } from "../language/say.js";
 import { showExport } from "./export.js";
 import { showHelp } from "./help.js";
+import { showSettings } from "../settings/settings.js";
 import { acceptDrops, showImport } from "./import.js";
 import { offerJobs, showJobs } from "./jobs.js";
 import { showNew } from "./new.js";
@@ -20,6 +21,7 @@ export function mountDialogs(store) {
     startImport: () => showImport(store),
     help: () => showHelp(),
     save: () => save(store),
+    settings: () => showSettings(store),
   };
   /**
    * @param {string} id of the button
@@ -38,6 +40,7 @@ export function mountDialogs(store) {
   put("jobs", "jobs", "", showJobs);
   offerJobs(byId("jobs"));
   addEventListener("focus", () => offerJobs(byId("jobs")));
+  put("settings", "settings", "", verbs.settings);
   put("help", "help", "", verbs.help);
   put("rename", "rename", "", () => showRename(store));
   byId("compare").addEventListener("click", () => showWhoFolds(store));

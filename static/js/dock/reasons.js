@@ -86,8 +86,8 @@ const told = (message) =>
 
 /** How far a search came that was given up, and what would take it further; empty if none was. @param {PlanMessage} message */
 function outOfTime(message) {
-  if (message.status !== "budget_exceeded") return "";
-  const least = message.plan?.statistics?.bound_s ?? null;
+  const least = message.plan?.statistics?.bound_s;
+  if (message.status !== "budget_exceeded" || least === undefined) return "";
   if (least === null) return say("why.out_of_time", { ways: ways(message) });
   return say("why.out_of_time.bound", { ways: ways(message), least: seconds(least) });
 }
