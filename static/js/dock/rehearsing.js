@@ -2,6 +2,7 @@
 
 import { fetched } from "../dialogs/fetched.js";
 import { button, element, sayable } from "../dom.js";
+import { say } from "../language/say.js";
 import { capital } from "./words.js";
 
 /** @import { Job, Plan } from "pleat" */
@@ -35,15 +36,15 @@ export class Rehearsing extends EventTarget {
     this.job = null;
     /** What became of each step, by its number. @type {Map<number, Verdict>} */
     this.verdicts = new Map();
-    this.button = button("chip", () => this.begin(ONCE), "Rehearse");
-    this.button.title = "Perform this plan in simulated physics, and see whether every step holds";
+    this.button = button("chip", () => this.begin(ONCE), say("rehearsal.do"));
+    this.button.title = say("rehearsal.hint");
     this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", "Progress of the rehearsal");
+    this.bar.setAttribute("aria-label", say("rehearsal.progress"));
     this.note = element("p", "hint");
     this.note.setAttribute("role", "status");
-    this.often = button("quiet", () => this.begin(OFTEN), "10 times with errors");
-    this.often.title = "With the errors of a real robot, camera and cloth, different each time";
-    this.end = button("quiet", () => this.close(), "Cancel");
+    this.often = button("quiet", () => this.begin(OFTEN), say("rehearsal.often"));
+    this.often.title = say("rehearsal.often_hint");
+    this.end = button("quiet", () => this.close(), say("jobs.cancel"));
     this.root = element("div", "rehearsing", this.note, this.bar, this.often, this.end);
     this.close();
   }
@@ -60,7 +61,7 @@ export class Rehearsing extends EventTarget {
     if (!plan) return;
     this.close();
     const id = (this.plan = plan.id);
-    this.say("Rehearsing in simulated physics\u2026", true);
+    this.say(say("rehearsal.running"), true);
     try {
       const result = await this.performed(id, asked);
       if (result && this.plan === id) this.tell(result);
@@ -87,7 +88,7 @@ export class Rehearsing extends EventTarget {
         continue;
       }
       this.job = null;
-      if (job.status !== "done") throw new Error(`${capital(job.message || "the rehearsal ended without a result")}.`);
+      if (job.status !== "done") throw new Error(`${capital(job.message || say("rehearsal.ended"))}.`);
       return job.result;
     }
   }
@@ -96,7 +97,7 @@ export class Rehearsing extends EventTarget {
   tell({ runs, held, of, success_low: low, success_high: high }) {
     const [run] = runs;
     this.verdicts = new Map(of === 1 ? run.steps.map((verdict) => [verdict.step, verdict]) : []);
-    const often = `Held in ${held} of ${of} runs: ${percent(low)} to ${percent(high)} % of all, with 95 % confidence.`;
+    const often = say("rehearsal.held_in", { held, of, low: percent(low), high: percent(high) });
     this.say(of === 1 ? oneRun(run) : often, false);
     this.dispatchEvent(new Event("change"));
   }
@@ -120,28 +121,26 @@ export class Rehearsing extends EventTarget {
     if (isRunning) this.bar.removeAttribute("value");
     this.often.hidden = isRunning;
     this.button.disabled = isRunning;
-    this.end.textContent = isRunning ? "Cancel" : "Close";
+    this.end.textContent = isRunning ? say("jobs.cancel") : say("dialog.close");
   }
 }
 
 /** A verdict in a word, and whether the step held. @param {Verdict} verdict */
 export function inAWord({ held, slid_mm: slid }) {
-  if (!held) return "lost";
-  return slid < SLID_MM ? "held" : `slid ${slid.toFixed(0)} mm`;
+  if (!held) return say("rehearsal.lost");
+  return slid < SLID_MM ? say("rehearsal.held") : say("rehearsal.slid", { length: slid.toFixed(0) });
 }
 
 /** @param {Run} run */
 function oneRun({ held, steps, regrasps, replans }) {
   const lost = steps.find((verdict) => !verdict.held);
-  if (lost) {
-    return `Lost at step ${lost.step + 1}: the cloth is ${lost.mean_mm.toFixed(0)} mm off on average. The plan holds in the model alone.`;
-  }
-  const again = regrasps === 1 ? "one grasp tried again" : `${regrasps} grasps tried again`;
-  const anew = replans === 1 ? "planned again once" : `planned again ${replans} times`;
-  const helped = [regrasps && again, replans && anew];
+  if (lost) return say("rehearsal.lost_at", { step: lost.step + 1, length: lost.mean_mm.toFixed(0) });
+  const again = regrasps && say("rehearsal.regrasps", { count: regrasps });
+  const anew = replans && say("rehearsal.replans", { count: replans });
   const worst = Math.max(0, ...steps.map(({ mean_mm: mean }) => mean));
-  const told = [`at most ${worst.toFixed(0)} mm off on average`, ...helped.filter(Boolean)].join(", ");
-  return held ? `Every step holds in simulated physics, ${told}.` : "The rehearsal ended before the last step.";
+  const off = say("rehearsal.off", { length: worst.toFixed(0) });
+  const told = [off, again, anew].filter(Boolean).join(", ");
+  return held ? say("rehearsal.all_held", { told }) : say("rehearsal.broken_off");
 }
 
 /** @param {number} share */

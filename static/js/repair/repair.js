@@ -47,8 +47,8 @@ export class Repair extends EventTarget {
     this.onward = button("chip", () => store.command({ do: "look_longer" }), say("repair.look_longer_for_plan"));
     this.onward.title = say("repair.look_longer_hint");
     this.longer = button("chip look-longer", () => this.lookLonger());
-    this.others = button("chip", () => showWhoFolds(store), "Other robots");
-    this.others.title = "Plan this garment for every robot";
+    this.others = button("chip", () => showWhoFolds(store), say("robots.others"));
+    this.others.title = say("robots.who_hint");
     this.fold = button("icon-button is-small repair-fold", () => this.choose(!this.isOpen), icon("back"));
     const asked = [this.again, this.onward, this.longer, this.others, this.cards.more, this.fold];
     const head = element("div", "repair-head", this.sentence, ...asked);
