@@ -4,6 +4,7 @@
  */
 
 import { element } from "../dom.js";
+import { say, translated } from "../language/say.js";
 
 /** @import { Template } from "pleat" */
 
@@ -13,14 +14,14 @@ import { element } from "../dom.js";
  */
 export function likeness(like, onChoice) {
   const select = /** @type {HTMLSelectElement} */ (element("select", ""));
-  select.append(new Option("nothing: as it is seen", ""));
+  select.append(new Option(say("likeness.nothing"), ""));
   select.addEventListener("change", () => onChoice(select.value || undefined));
   fetch("../api/templates")
     .then((answer) => (answer.ok ? answer.json() : []))
     .then((/** @type {Template[]} */ templates) => {
-      select.append(...templates.map(({ name, title }) => new Option(title, name)));
+      select.append(...templates.map(({ name, title }) => new Option(translated(title), name)));
       select.value = like ?? "";
     })
     .catch(() => {});
-  return element("label", "likeness", "It is like", select);
+  return element("label", "likeness", say("likeness.label"), select);
 }
