@@ -7,13 +7,15 @@ the disk before anyone sees it.
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
+from typing import Protocol
 
 from app.document_state import Answer, Checks, DocumentState, HeldFold
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.drawing.edit import Edit, StaleVersionError
+from app.drawing.edit import Edit, OvertakenError, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.language import Language
 from app.playback import Playback
@@ -26,7 +28,23 @@ STOPPED = "planning was stopped; the next change is planned again"
 
 Listener = Callable[[], None]
 Keep = Callable[[int, Draft], None]
-KeepStart = Callable[[Drawing, WorldState | None], None]
+KeepStart = Callable[[WorldState | None], None]
+
+
+class Saved(Protocol):
+    """A document as it is saved."""
+
+    @property
+    def version(self) -> int:
+        """Its version."""
+
+    @property
+    def draft(self) -> Draft:
+        """Its drawing and history."""
+
+    @property
+    def start(self) -> WorldState | None:
+        """The world state from which it is planned; None for the drawing's own."""
 
 
 class EndedDocumentError(FoldingError):
@@ -46,7 +64,8 @@ class Document:
         version: int = 1,
         start: WorldState | None = None,
         keep: Keep = lambda _version, _draft: None,
-        keep_start: KeepStart = lambda _drawing, _start: None,
+        keep_start: KeepStart = lambda _start: None,
+        reread: Callable[[], Saved] | None = None,
         clock: Callable[[], float] = time.monotonic,
         courtesy: Courtesy | None = None,
     ) -> None:
@@ -56,14 +75,17 @@ class Document:
             draft: the drawing and its history.
             version: the first version number.
             start: the world state from which to plan; None for the state before all folds, as drawn.
-            keep: saves a draft under its new version; called before anyone sees the change. An exception cancels it.
-            keep_start: saves the world state from which a drawing is planned, in the same way.
+            keep: saves a draft under its new version, without a start; called before anyone sees the change. An
+                exception cancels it.
+            keep_start: saves the world state from which the drawing is planned, in the same way.
+            reread: reads the document as another server has saved it, once `keep` has raised `OvertakenError`.
             clock: the wall clock (s).
             courtesy: makes searches wait while the drawing changes, since people see a change at once but a plan later.
         """
         self._clock = clock
         self._keep = keep
         self._keep_start = keep_start
+        self._reread = reread
         self._lock = threading.Lock()
         self._edits = threading.Lock()
         self._has_ended = False
@@ -231,9 +253,8 @@ class Document:
             after = change(draft)
             if after is draft:
                 return self._state
-            self._keep(version + 1, after)
-            if self._state.start is not None:
-                self._keep_start(after.drawing, None)
+            with self._unless_overtaken():
+                self._keep(version + 1, after)
             return self._change(lambda state: state.redrawn(after, self._clock()))
 
     def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
@@ -243,8 +264,36 @@ class Document:
                 raise EndedDocumentError
             start = start_of(self._state)
             if start != self._state.start:
-                self._keep_start(self._state.drawing, start)
+                with self._unless_overtaken():
+                    self._keep_start(start)
             self._change(lambda state: state.started_at(start, self._clock()))
+
+    def follow(self) -> None:
+        """Take the document over as another server has saved it; pages see that as a new version."""
+        with self._edits:
+            if not self._has_ended:
+                self._take_over()
+
+    @contextmanager
+    def _unless_overtaken(self) -> Iterator[None]:
+        """Where another server was quicker, take its document over, and say that the change came too late."""
+        try:
+            yield
+        except OvertakenError:
+            version = self._state.version
+            self._take_over()
+            raise StaleVersionError(version, self._state.version) from None
+
+    def _take_over(self) -> None:
+        if self._reread is None:
+            return
+        saved = self._reread()
+
+        def change(state: DocumentState) -> DocumentState:
+            current = replace(state, version=max(state.version, saved.version - 1))
+            return current.redrawn(saved.draft, self._clock()).started_at(saved.start, self._clock())
+
+        self._change(change)
 
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
         self._change(lambda state: replace(state, playback=change(state.playback)))

@@ -21,7 +21,8 @@ class Settings(BaseSettings):
         log_json: whether the log's lines are JSON objects.
         requests_per_s: how many requests another machine may send in the long run (1/s).
         port: the port; 0 lets the system pick a free one, which replaces it before serving starts.
-        data: the folder for the user's garments and documents.
+        data: the folder for everything that is kept.
+        database: the URL of a PostgreSQL database; None: SQLite in the data folder.
     """
 
     model_config = SettingsConfigDict(env_prefix="PLEAT_", frozen=True)
@@ -36,3 +37,4 @@ class Settings(BaseSettings):
     requests_per_s: float = Field(default=100.0, gt=0.0)
     port: int = Field(default=8000, ge=0, le=65535)
     data: Path = Field(default_factory=lambda: user_data_path("pleat"))
+    database: str | None = None

@@ -3,6 +3,7 @@
 import logging
 import threading
 from collections.abc import Mapping
+from functools import partial
 
 from app.document import Document
 from app.drawing.draft import draft_of
@@ -16,10 +17,10 @@ from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
 from app.store.database import Database
-from app.store.document_reader import KeptDocument
-from app.store.document_repository import DocumentRepository
+from app.store.document_repository import DocumentRepository, KeptDocument
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository
+from app.store.older.take_over import take_over
 from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from planner.errors import FoldingError
@@ -59,18 +60,29 @@ class Workspace:
     def __init__(self, settings: Settings, kinds: Mapping[str, AnyKind]) -> None:
         """Start with no open document; `kinds` are the jobs that can be asked for."""
         self.folder = DataFolder(settings.data)
-        self.garments = GarmentRepository(self.folder.garments)
+        self.database = Database(self.folder.database, settings.database)
+        self.garments = GarmentRepository(self.database)
         self.robots = RobotRepository(self.folder.robots)
         use_robots_folder(self.folder.robots)
-        self.documents = DocumentRepository(self.folder.documents)
+        self.documents = DocumentRepository(self.database)
         self.plans = PlanStore()
         self.lanes = Lanes()
-        self.database = Database(self.folder.database)
         stores = Stores(self.garments, self.plans, self.folder.studies)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
         self._closing = threading.Event()
+
+    def prepare(self) -> None:
+        """Open the database, and take over what versions before it have kept as files.
+
+        Raises:
+            StorageError: the system or the database refuses.
+            NewerDatabaseError: a newer version of Pleat has changed the tables.
+        """
+        take_over(self.folder, self.database)
+        with self.database.reading("the database cannot be used"):
+            pass
 
     def start(self) -> None:
         """Open the document that the page shows first, and start closing unused ones."""
@@ -111,8 +123,8 @@ class Workspace:
         Raises:
             UnknownDocumentError: there is none with this id.
             NewerDocumentError: a newer version of Pleat wrote it.
-            BrokenDocumentError: its file is damaged.
-            StorageError: the system refuses to read it.
+            BrokenDocumentError: it cannot be read.
+            StorageError: the database refuses.
         """
         with self._lock:
             if document_id not in self._open:
@@ -180,6 +192,7 @@ class Workspace:
             start=kept.start,
             keep=kept.keeper.keep,
             keep_start=kept.keeper.keep_start,
+            reread=partial(self.documents.reread, kept.keeper),
             courtesy=self.lanes.courtesy,
         )
         self._open[document_id] = OpenDocument(document_id, document, self.lanes.live, self.plans)

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import suppress
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Header, Query, Request
@@ -24,6 +25,9 @@ router = APIRouter(tags=["jobs"])
 LISTED_MAX = 100
 _QUIET_S = 0.1
 """Least time between two events of a job (s)."""
+
+_LOOK_S = 2.0
+"""Longest time without a look at a job: one that another server does tells nothing (s)."""
 
 LastEventId = Annotated[str | None, Header(alias="last-event-id")]
 
@@ -73,7 +77,7 @@ async def read_job(request: Request, job_id: str) -> JSONResponse:
     return JSONResponse(await run_in_threadpool(_answer, workspace_of(request).jobs, job_id))
 
 
-@router.post("/api/jobs/{job_id}/cancel", responses={200: {"model": JobAnswer}, **problems(404)})
+@router.post("/api/jobs/{job_id}/cancel", responses={200: {"model": JobAnswer}, **problems(404, 409)})
 async def cancel_job(request: Request, job_id: str) -> JSONResponse:
     """Cancel a job unless it has ended, and return it; its process is killed."""
     jobs = workspace_of(request).jobs
@@ -108,7 +112,9 @@ async def follow_job(
                 sent = str(now.revision)
                 yield ServerSentEvent(event="progress", id=sent, data=job_entry(now))
                 await asyncio.sleep(_QUIET_S)
-            await changed.wait()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(_LOOK_S):
+                    await changed.wait()
     finally:
         unsubscribe()
 

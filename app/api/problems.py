@@ -17,11 +17,11 @@ from app.api.answers import Says
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.jobs.apart import PlannerNotLoadedError, StoppedError
+from app.jobs.job_desk import ForeignJobError
 from app.jobs.job_pool import BusyError
 from app.jobs.limits import TooManyError
 from app.store.database import NewerDatabaseError
-from app.store.document_files import NewerDocumentError, UnknownDocumentError
-from app.store.document_reader import BrokenDocumentError
+from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
@@ -52,6 +52,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownDocumentError: 404,
     EndedDocumentError: 404,
     UnknownJobError: 404,
+    ForeignJobError: 409,
     UnknownStudyError: 404,
     BrokenDocumentError: 422,
     NewerDocumentError: 409,

@@ -55,6 +55,13 @@ DataOption = Annotated[
         show_default="that of the server",
     ),
 ]
+DatabaseOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="URL",
+        help="A PostgreSQL database, as in postgresql+psycopg://user@host/name. [default: SQLite in --data]",
+    ),
+]
 
 
 def garment_of(source: str) -> Garment:

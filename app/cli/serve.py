@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from pydantic import ValidationError
 
-from app.cli.program import cli, failure, output
+from app.cli.program import DatabaseOption, cli, failure, output
 from app.settings import Settings
 from planner.errors import FoldingError, RequestError
 from planner.strict_model import first_error
@@ -16,7 +16,8 @@ from planner.strict_model import first_error
 def serve(
     host: Annotated[str | None, typer.Option(help="The address to listen on. [default: 127.0.0.1]")] = None,
     port: Annotated[int | None, typer.Option(min=0, max=65535, help="0 picks a free one. [default: 8000]")] = None,
-    data: Annotated[Path | None, typer.Option(help="Folder for your own garments and documents.")] = None,
+    data: Annotated[Path | None, typer.Option(help="Folder for everything that is kept.")] = None,
+    database: DatabaseOption = None,
     root_path: Annotated[
         str | None, typer.Option(help="The prefix below which a proxy shows the pages, as in /pleat.")
     ] = None,
@@ -45,7 +46,8 @@ def serve(
 
     proxy = {"root_path": root_path, "origin": origin}
     access = {"insecure": insecure, "token_file": token_file, "new_token": new_token, "log_json": log_json}
-    given: dict[str, Any] = {"host": host, "port": port, "data": data, **access, **proxy}
+    kept = {"data": data, "database": database}
+    given: dict[str, Any] = {"host": host, "port": port, **kept, **access, **proxy}
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
     except ValidationError as error:

@@ -63,3 +63,10 @@ class StaleVersionError(FoldingError):
 
     def __str__(self) -> str:
         return f"the change was made to version {self.asked}, but the document is at version {self.current}"
+
+
+class OvertakenError(FoldingError):
+    """Another server has changed the document."""
+
+    def __str__(self) -> str:
+        return "the document was changed by another server meanwhile"

@@ -44,6 +44,16 @@ _log = logging.getLogger(__name__)
 
 
 @dataclass
+class ForeignJobError(FoldingError):
+    """A job is done by another server on the same database."""
+
+    job_id: str
+
+    def __str__(self) -> str:
+        return f"the job {self.job_id!r} is done by another server; cancel it there"
+
+
+@dataclass
 class _OpenJob:
     """A job that has not ended, as far as this server knows."""
 
@@ -68,7 +78,7 @@ class JobDesk:
 
     def resume(self) -> None:
         """Begin the jobs anew that the end of a server interrupted, or mark them as failed."""
-        for stored in self._repository.open():
+        for stored in self._repository.interrupted():
             kind = self._kinds.get(stored.kind)
             if kind is None or not kind.may_begin_anew or stored.begun >= BEGUN_MAX:
                 self._repository.keep(_ended(stored, "failed", _SERVER_STOPPED))
@@ -121,11 +131,19 @@ class JobDesk:
             return [self._open[job.id].stored if job.id in self._open else job for job in found]
 
     def cancel(self, job_id: str) -> StoredJob:
-        """Cancel a job unless it has ended; return it. Its process is killed."""
+        """Cancel a job unless it has ended; return it. Its process is killed.
+
+        Raises:
+            UnknownJobError: there is no such job.
+            ForeignJobError: another server does it.
+        """
         with self._lock:
             found = self._open.get(job_id)
             if found is None or found.job is None:
-                return self.job(job_id)
+                job = self.job(job_id)
+                if found is None and job.is_open:
+                    raise ForeignJobError(job_id)
+                return job
             found.is_cancelled = True
             found.job.stop()
             if found.job.future.cancelled():

@@ -61,9 +61,12 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
     Raises:
         OSError: the address is not available.
         WeakTokenError: the token in the file is too short.
-        StorageError: the token cannot be read or kept.
+        StorageError: the token or the database cannot be read or kept.
         UnusableFolderError: the data folder cannot be used.
         HeldFolderError: another server uses the data folder.
+        BadDatabaseUrlError: the database's URL names none that can be used.
+        NoDriverError: its library is not installed.
+        NewerDatabaseError: a newer version of Pleat has changed its tables.
     """
     sys.setswitchinterval(_SWITCH_S)
     address = _address(settings)
@@ -72,6 +75,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
         with logging_to(standard_error(), as_json=settings.log_json):
             app = create_app(bound, token)
+            app.state.workspace.prepare()
 
             def announce_everywhere() -> None:
                 tell_others(_url(bound))

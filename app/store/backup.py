@@ -1,21 +1,22 @@
-"""A data folder as one file, and back; the server may go on working while its folder is backed up.
+"""A data folder and its database as one file, and back; the server may go on working while they are backed up.
 
-A document's files belong together: they are read until two readings in a row agree. The database is copied by SQLite,
-which takes one moment of it.
+The database is in the file as SQLite, as of one moment, whatever kind it is of: so it can be restored to another kind.
 """
 
 import io
-import itertools
 import json
 import sqlite3
 import tarfile
 import tempfile
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
+from app.store.copy_rows import copy_rows
 from app.store.data_folder import DataFolder
+from app.store.database import Database
 from app.store.durable_file import sync_folder
 from app.store.storage_error import storing
 from planner.errors import FoldingError
@@ -23,8 +24,6 @@ from planner.errors import FoldingError
 _LABEL = "pleat-backup.json"
 _FORMAT = 1
 _OF_ONE_SERVER = frozenset({"server.lock", "server.json"})
-_READINGS_MAX = 50
-"""Readings of one document: a drag that goes on for ever must not hold up the backup."""
 
 
 @dataclass
@@ -48,11 +47,17 @@ class UsedFolderError(FoldingError):
         return f"{self.folder} is not empty; restore to a new folder, or move this one away first"
 
 
-def back_up(folder: DataFolder, target: Path) -> int:
-    """Write all that is in a data folder to a file, whole or not at all; return the number of files.
+def back_up(folder: DataFolder, target: Path, url: str | None = None) -> int:
+    """Write all that is in a data folder and its database to a file, or nothing; return the number of files.
+
+    Args:
+        folder: the data folder.
+        target: the file to write.
+        url: the PostgreSQL database; None for the one in the folder.
 
     Raises:
         NoBackupError: there is no such folder.
+        BadDatabaseUrlError: the URL names no database that can be used.
         StorageError: the system refuses.
     """
     if not folder.path.is_dir():
@@ -62,7 +67,7 @@ def back_up(folder: DataFolder, target: Path) -> int:
         try:
             with tarfile.open(fileobj=file, mode="w:gz") as archive:
                 _add(archive, _LABEL, json.dumps({"format": _FORMAT}).encode())
-                for name, content in itertools.chain(_database(folder), _files(folder)):
+                for name, content in chain(_database(folder, url), _files(folder)):
                     _add(archive, name, content)
                     count += 1
             file.flush()
@@ -74,11 +79,18 @@ def back_up(folder: DataFolder, target: Path) -> int:
     return count
 
 
-def restore(source: Path, folder: DataFolder) -> int:
-    """Make a data folder of a backup; return the number of files.
+def restore(source: Path, folder: DataFolder, url: str | None = None) -> int:
+    """Make a data folder and a database of a backup; return the number of files.
+
+    Args:
+        source: the file that `back_up` has written.
+        folder: the data folder.
+        url: a PostgreSQL database; None for one in the folder.
 
     Raises:
         UsedFolderError: the folder is not empty.
+        UsedDatabaseError: the PostgreSQL database is not empty.
+        BadDatabaseUrlError: the URL names no database that can be used.
         NoBackupError: the file is no backup, or a newer version of Pleat wrote it.
         StorageError: the system refuses.
     """
@@ -89,6 +101,8 @@ def restore(source: Path, folder: DataFolder) -> int:
         with tempfile.TemporaryDirectory(dir=folder.path.parent, prefix=".restored-") as beside:
             whole = Path(beside) / "data"
             count = _extracted(source, whole)
+            if url is not None:
+                _move_rows(DataFolder(whole).database, url)
             whole.replace(folder.path)  # an empty folder may be replaced
     return count
 
@@ -113,7 +127,23 @@ def _add(archive: tarfile.TarFile, name: str, content: bytes) -> None:
     archive.addfile(entry, io.BytesIO(content))
 
 
-def _database(folder: DataFolder) -> Iterator[tuple[str, bytes]]:
+def _move_rows(path: Path, url: str) -> None:
+    """Move the rows of an SQLite file to a PostgreSQL database."""
+    if not path.exists():
+        return
+    with closing(Database(path)) as source, closing(Database(path, url)) as target:
+        copy_rows(source, target)
+    path.unlink()
+
+
+def _database(folder: DataFolder, url: str | None) -> Iterator[tuple[str, bytes]]:
+    if url is not None:
+        with tempfile.TemporaryDirectory() as beside:
+            path = Path(beside) / folder.database.name
+            with closing(Database(path, url)) as source, closing(Database(path)) as target:
+                copy_rows(source, target)
+            yield path.name, path.read_bytes()
+        return
     if not folder.database.exists():
         return
     try:
@@ -125,17 +155,9 @@ def _database(folder: DataFolder) -> Iterator[tuple[str, bytes]]:
 
 
 def _files(folder: DataFolder) -> Iterator[tuple[str, bytes]]:
-    """Yield the files, those that belong together as of one moment."""
-    paths = sorted(path for path in folder.path.rglob("*") if path.is_file() and _is_kept(folder, path))
-    for _, group in itertools.groupby(paths, key=lambda path: path.with_suffix("")):
-        files = list(group)
-        content = _read(files)
-        for _ in range(_READINGS_MAX):
-            before, content = content, _read(files)
-            if content == before:
-                break
-        for path, data in content.items():
-            yield str(path.relative_to(folder.path)), data
+    for path in sorted(path for path in folder.path.rglob("*") if path.is_file() and _is_kept(folder, path)):
+        with suppress(FileNotFoundError):  # it was removed meanwhile
+            yield str(path.relative_to(folder.path)), path.read_bytes()
 
 
 def _is_kept(folder: DataFolder, path: Path) -> bool:
@@ -143,14 +165,3 @@ def _is_kept(folder: DataFolder, path: Path) -> bool:
     is_temporary = any(part.startswith(".") for part in path.relative_to(folder.path).parts)
     is_database = path.parent == folder.path and path.name.startswith(folder.database.name)
     return not (is_database or path.name in _OF_ONE_SERVER or is_temporary)
-
-
-def _read(files: list[Path]) -> dict[Path, bytes]:
-    """Return the content of the files that are still there."""
-    content = {}
-    for path in files:
-        try:
-            content[path] = path.read_bytes()
-        except FileNotFoundError:
-            continue
-    return content

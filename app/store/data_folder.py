@@ -1,6 +1,6 @@
-"""The folder in which one server keeps garments and documents.
+"""The folder in which one server keeps its database, robots and studies.
 
-Two servers on one folder would overwrite each other's documents, so a server locks its folder. The system releases the
+Two servers on one folder would not see each other's changes, so a server locks its folder. The system releases the
 lock when the process ends, however it ends. A file beside the lock says who holds it, for the error of a second server.
 """
 
@@ -8,7 +8,6 @@ import json
 import logging
 import os
 import socket
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
@@ -17,13 +16,11 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
+from app.store.database_error import try_writing
 from app.store.durable_file import write_at_once
 from app.store.storage_error import ForbiddenStorageError, storage_error
 from planner.errors import FoldingError
 from planner.robots.own_robots import ROBOTS
-
-_PROBE = b"\0" * 4096
-"""Content of the test file; large enough to need a disk block, so that a full disk refuses it."""
 
 _log = logging.getLogger(__name__)
 
@@ -75,12 +72,12 @@ class Holder:
 
 
 class DataFolder:
-    """A folder of garments, documents and robots.
+    """The folder of a server.
 
     Attributes:
         path: the folder.
-        garments: the folder of garments.
-        documents: the folder of documents.
+        garments: the folder in which versions before the database kept garments.
+        documents: the folder in which they kept documents.
         robots: the folder of robots.
         database: the file of the database.
         token: the file of the token's hash.
@@ -137,7 +134,7 @@ class DataFolder:
 
     def problem(self) -> str | None:
         """Return why nothing can be saved here now; None if saving works."""
-        for folder in (self.path, self.garments, self.documents, self.robots):
+        for folder in (self.path, self.robots):
             try:
                 self._try_writing(folder)
             except OSError as error:
@@ -148,8 +145,7 @@ class DataFolder:
     def _try_writing(self, folder: Path) -> None:
         if folder != self.path and not folder.exists():
             return  # saving the first of its kind makes it
-        with tempfile.TemporaryFile(dir=folder, prefix=".probe-") as file:
-            file.write(_PROBE)
+        try_writing(folder)
 
     def _make(self) -> None:
         try:
@@ -158,14 +154,13 @@ class DataFolder:
             raise UnusableFolderError(self.path, "it is a file") from None
         except OSError as error:
             raise UnusableFolderError(self.path, f"it cannot be made: {error.strerror}") from None
-        for folder in (self.garments, self.documents, self.robots):
-            if folder.is_file():
-                raise UnusableFolderError(self.path, f"{folder.name!r} in it is a file")
+        if self.robots.is_file():
+            raise UnusableFolderError(self.path, f"{self.robots.name!r} in it is a file")
 
     def _is_read_only(self, error: OSError) -> bool:
         if not isinstance(storage_error("", error), ForbiddenStorageError):
             return False
-        return not any(os.access(folder, os.W_OK) for folder in (self.path, self.garments, self.documents))
+        return not any(os.access(folder, os.W_OK) for folder in (self.path, self.robots))
 
     def _known_holder(self) -> str:
         try:

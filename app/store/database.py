@@ -1,34 +1,32 @@
-"""The database in the data folder, migrated to this version's tables when it is first used.
+"""The server's database, migrated to this version's tables when it is first used.
 
-SQLite with a write-ahead log: readers do not wait for a writer, and what is committed survives a kill and a power
-failure (`synchronous=FULL`). Where the folder cannot be written, the database is in memory and ends with the server.
+By default it is an SQLite file in the data folder, with a write-ahead log: readers do not wait for a writer. A URL
+names a PostgreSQL server instead, which several servers of Pleat may share. What is committed survives a kill and,
+unless a caller says otherwise, a power failure. Where the folder cannot be written, the database is a copy in memory,
+which ends with the server.
 """
 
 import logging
 import os
-import sqlite3
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
-from sqlalchemy import Engine, create_engine, event, text
-from sqlalchemy.exc import DBAPIError
+from sqlalchemy import Engine, make_url, text
+from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.orm import Session
-from sqlalchemy.pool import StaticPool
 
-from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError
+from app.store.database_error import database_error
+from app.store.engines import IS_SYNCED, IS_WRITING, copied_engine, postgresql_engine, sqlite_engine
+from app.store.presence import Presence
+from app.store.storage_error import ForbiddenStorageError, StorageError, storing
 from planner.errors import FoldingError
 
 _MIGRATIONS = Path(__file__).parent / "migrations"
-_FORBIDDEN = frozenset({sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_PERM})
-_BUSY_S = 5.0
-"""Time to wait for another connection's transaction (s)."""
-
-_MAIN_CODE = 0xFF
-"""The bits of an SQLite error code that are the same for its variants."""
+_POSTGRESQL, _DRIVER = "postgresql", "psycopg"
 
 _log = logging.getLogger(__name__)
 
@@ -37,24 +35,72 @@ _log = logging.getLogger(__name__)
 class NewerDatabaseError(FoldingError):
     """A newer version of Pleat has changed the tables."""
 
-    path: Path
+    where: str
 
     def __str__(self) -> str:
-        return f"{self.path} belongs to a newer version of Pleat; use that one, or another data folder"
+        return f"{self.where} belongs to a newer version of Pleat; use that one, or another database"
+
+
+class BadDatabaseUrlError(FoldingError):
+    """A URL names no database that can be used."""
+
+    def __str__(self) -> str:
+        return "the database must be a URL as in postgresql+psycopg://user@host/name; leave it out for SQLite"
+
+
+class NoDriverError(FoldingError):
+    """The library that speaks with PostgreSQL is not installed."""
+
+    def __str__(self) -> str:
+        return "PostgreSQL needs a library that is not installed: install pleat[postgres]"
 
 
 class Database:
-    """The database of a server; safe to use from any thread."""
+    """The database of a server; safe to use from any thread.
 
-    def __init__(self, path: Path) -> None:
-        """Describe the database; open nothing yet."""
-        self.path = path
+    Attributes:
+        path: the file of an SQLite database; None if a URL names another one.
+        is_copy: whether it is a copy in memory, since the folder cannot be written; known after the first use.
+    """
+
+    def __init__(self, path: Path, url: str | None = None) -> None:
+        """Describe the database; open nothing yet.
+
+        Args:
+            path: the SQLite file to use without a URL.
+            url: a PostgreSQL database.
+
+        Raises:
+            BadDatabaseUrlError: the URL names no such database.
+            NoDriverError: PostgreSQL's library is not installed.
+        """
+        self.path = path if url is None else None
+        self._url = None
+        if url is not None:
+            try:
+                self._url = make_url(url)
+            except (ArgumentError, ValueError):  # the latter for a port that is no number
+                raise BadDatabaseUrlError from None
+            if self._url.get_backend_name() != _POSTGRESQL:
+                raise BadDatabaseUrlError
+            if find_spec(_DRIVER) is None:
+                raise NoDriverError
+            self._url = self._url.set(drivername=f"{_POSTGRESQL}+{_DRIVER}")
         self._engine: Engine | None = None
+        self._engines: dict[bool | None, Engine] = {}
+        self.is_copy = False
+        self._opened_file: int | None = None
+        self._presence: Presence | None = None
         self._lock = threading.Lock()
 
+    @property
+    def is_shared(self) -> bool:
+        """Whether other servers may use it at the same time."""
+        return self.path is None
+
     @contextmanager
-    def session(self, what: str) -> Iterator[Session]:
-        """Yield a session; commit at the end, or roll back if an error is raised.
+    def reading(self, what: str) -> Iterator[Session]:
+        """Yield a session that sees one moment of the database and changes nothing.
 
         Args:
             what: the operation, as the beginning of an error's sentence.
@@ -63,20 +109,65 @@ class Database:
             StorageError: the system or the database refuses.
             NewerDatabaseError: a newer version of Pleat has changed the tables.
         """
-        try:
-            with Session(self._opened(), expire_on_commit=False) as session, session.begin():
-                yield session
-        except DBAPIError as error:
-            raise _storage_error(what, error) from error
+        with self._session(what, None) as session:
+            yield session
+
+    @contextmanager
+    def writing(self, what: str, *, is_synced: bool = True, is_lasting: bool = True) -> Iterator[Session]:
+        """Yield a session for changes; commit at the end, or roll back if an error is raised.
+
+        Args:
+            what: the operation, as the beginning of an error's sentence.
+            is_synced: whether the changes are on the disk afterwards, so that they survive a power failure; otherwise
+                they survive only the end of this process.
+            is_lasting: whether to refuse changes that would end with the server.
+
+        Raises:
+            StorageError: the system or the database refuses.
+            NewerDatabaseError: a newer version of Pleat has changed the tables.
+        """
+        with self._session(what, is_synced) as session:
+            if is_lasting and self.is_copy:
+                raise ForbiddenStorageError(what, "the data folder is read-only")
+            yield session
+
+    @property
+    def number(self) -> int:
+        """The number by which other servers on the database know this one; 0 where there are no others."""
+        with self._lock:
+            if self._url is not None and self._presence is None:
+                self._presence = Presence(self._url)
+        return 0 if self._presence is None else self._presence.number
 
     def problem(self) -> str | None:
         """Return why the database does not answer; None if it does."""
         try:
-            with self.session("the database does not answer") as session:
+            with self.reading("the database does not answer") as session:
                 session.execute(text("SELECT 1"))
         except FoldingError as error:
             return str(error)
         return None
+
+    def engine(self) -> Engine:
+        """Return the engine, for work on whole tables; the first call migrates them.
+
+        Raises:
+            DBAPIError: the database refuses.
+            NewerDatabaseError: a newer version of Pleat has changed the tables.
+        """
+        with self._lock:
+            if self._engine is None:
+                engine = self._new_engine()
+                try:
+                    self._migrate(engine)
+                except BaseException:
+                    engine.dispose()
+                    raise
+                for is_synced in (True, False):
+                    self._engines[is_synced] = engine.execution_options(**{IS_WRITING: True, IS_SYNCED: is_synced})
+                self._engine = engine
+                self._opened_file = self._file()
+            return self._engine
 
     def close(self) -> None:
         """Close all connections."""
@@ -84,54 +175,55 @@ class Database:
             if self._engine is not None:
                 self._engine.dispose()
                 self._engine = None
+                self._engines.clear()
+            if self._presence is not None:
+                self._presence.end()
+                self._presence = None
 
-    def _opened(self) -> Engine:
-        with self._lock:
-            if self._engine is None:
-                engine = self._engine_here()
-                try:
-                    _migrate(engine, self.path)
-                except BaseException:
-                    engine.dispose()
-                    raise
-                self._engine = engine
-            return self._engine
-
-    def _engine_here(self) -> Engine:
-        if not self.path.parent.exists() or os.access(self.path.parent, os.W_OK):
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            engine = create_engine(f"sqlite:///{self.path}", connect_args={"timeout": _BUSY_S})
-            event.listen(engine, "connect", _set_up)
-            return engine
-        _log.warning("%s cannot be written: jobs are kept in memory and end with the server", self.path.parent)
-        return create_engine("sqlite://", poolclass=StaticPool, connect_args={"check_same_thread": False})
-
-
-def _set_up(connection: sqlite3.Connection, _: Any) -> None:  # noqa: ANN401
-    """Make a new connection durable and tolerant of others."""
-    for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON"):
-        connection.execute(f"PRAGMA {pragma}")
-
-
-def _migrate(engine: Engine, path: Path) -> None:
-    """Lead the tables to this version's."""
-    from alembic.command import upgrade  # here, because this import takes a quarter of a second
-    from alembic.config import Config
-    from alembic.util import CommandError
-
-    config = Config()
-    config.set_main_option("script_location", str(_MIGRATIONS).replace("%", "%%"))
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
+    @contextmanager
+    def _session(self, what: str, is_synced: bool | None) -> Iterator[Session]:
         try:
-            upgrade(config, "head")
-        except CommandError:
-            raise NewerDatabaseError(path) from None
+            with storing(what):
+                engine = self.engine()
+            if is_synced is not None and self._file() != self._opened_file:
+                raise StorageError(what, "the database's file was removed or replaced")
+            with Session(self._engines.get(is_synced, engine), expire_on_commit=False) as session, session.begin():
+                yield session
+        except DBAPIError as error:
+            raise database_error(what, error, None if self.path is None else self.path.parent) from error
 
+    def _file(self) -> int | None:
+        """Return the number of the SQLite file that has the name now: SQLite goes on with one that has lost it."""
+        try:
+            return None if self.path is None or self.is_copy else self.path.stat().st_ino
+        except FileNotFoundError:
+            return None
 
-def _storage_error(what: str, error: DBAPIError) -> StorageError:
-    why = str(error.orig)
-    code = getattr(error.orig, "sqlite_errorcode", 0) & _MAIN_CODE
-    if code == sqlite3.SQLITE_FULL:
-        return FullStorageError(what, why)
-    return ForbiddenStorageError(what, why) if code in _FORBIDDEN else StorageError(what, why)
+    def _new_engine(self) -> Engine:
+        if self._url is not None:
+            return postgresql_engine(self._url)
+        assert self.path is not None
+        folder = self.path.parent
+        self.is_copy = folder.exists() and not os.access(folder, os.W_OK)
+        if not self.is_copy:
+            folder.mkdir(parents=True, exist_ok=True)
+            return sqlite_engine(self.path)
+        _log.warning("%s cannot be written: changes are kept in memory and end with the server", folder)
+        return copied_engine(self.path)
+
+    def _migrate(self, engine: Engine) -> None:
+        """Lead the tables to this version's."""
+        from alembic.command import upgrade  # here, because this import takes a quarter of a second
+        from alembic.config import Config
+        from alembic.util import CommandError
+
+        config = Config()
+        config.set_main_option("script_location", str(_MIGRATIONS).replace("%", "%%"))
+        with engine.execution_options(**{IS_WRITING: True, IS_SYNCED: True}).begin() as connection:
+            if engine.dialect.name == _POSTGRESQL:  # two servers may start at the same moment
+                connection.execute(text("SELECT pg_advisory_xact_lock(hashtext('pleat migrations'))"))
+            config.attributes["connection"] = connection
+            try:
+                upgrade(config, "head")
+            except CommandError:
+                raise NewerDatabaseError(str(self.path or "the database")) from None

@@ -1,157 +1,154 @@
-"""Saves one document to the disk.
+"""Saves one document in the database.
 
-A commit adds a synced line to the document's journal. Previews come many times a second, so they go into a small file
-of their own, which survives the end of this process but need not survive a power failure.
+A commit writes what it changes of the document's tape (see `app.store.tape`): most often one step. It is on the disk
+when it returns. Previews come many times a second, so they survive the end of this process, but need not survive a
+power failure.
 """
 
-import os
-from contextlib import suppress
-from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import Any, NamedTuple
 
 from pydantic_core import to_json
+from sqlalchemy import CursorResult, bindparam, delete, insert, or_, select, update
+from sqlalchemy.orm import Session
 
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.store.document_files import HEAD, JOURNAL, JSON, PREVIEW, START, DocumentFiles, preview_text, start_text
-from app.store.durable_file import write_at_once
-from app.store.journal import Journal, change_line, start_line
-from app.store.storage_error import storing
-from app.store.tape import Tape, tape_of, whole
+from app.drawing.drawing_json import drawing_to_dict
+from app.drawing.edit import OvertakenError
+from app.store.database import Database
+from app.store.document_errors import UnknownDocumentError
+from app.store.schema import Table
+from app.store.tape import Tape, TapeChange, tape_of, whole
 from planner.task.world_state import WorldState
 
-_SLACK_BYTES = 1 << 16
-"""Growth after which a journal is rewritten, unless its initial length is larger: then it may double (bytes)."""
+FORMAT = 3
+"""The format number of documents in the database; 1 and 2 were files (see `app.store.older`)."""
+
+_DOCUMENTS, _STEPS = (Table.metadata.tables[name] for name in ("documents", "document_steps"))
+
+# Built once: to build a statement takes longer than to find it compiled.
+_CHANGE = update(_DOCUMENTS).where(_DOCUMENTS.c.id == bindparam("of"), _DOCUMENTS.c.revision == bindparam("known"))
+_DROP_STEPS = delete(_STEPS).where(
+    _STEPS.c.document_id == bindparam("of"),
+    or_(_STEPS.c.number < bindparam("begin"), _STEPS.c.number >= bindparam("end")),
+)
+_ADD, _ADD_STEPS = insert(_DOCUMENTS), insert(_STEPS)
+_FIND = select(_DOCUMENTS.c.id).where(_DOCUMENTS.c.id == bindparam("of"))
+
+_NO_PREVIEW = {"preview_version": None, "preview_label": None, "preview": None}
 
 
-@dataclass(slots=True)
-class _Kept:
-    """The saved state: the drawings, their version, and the journal's length."""
+class Kept(NamedTuple):
+    """What is saved: the drawings, the number of the first one's step, and how often the document was changed."""
 
-    version: int
     tape: Tape[Drawing]
-    generation: int = -1
-    base_bytes: int = 0
-    bytes: int = 0
-
-    @property
-    def is_overgrown(self) -> bool:
-        """Whether the journal has grown so much that it should be rewritten."""
-        return self.bytes - self.base_bytes > max(_SLACK_BYTES, self.base_bytes)
+    first: int
+    revision: int
 
 
 class DocumentKeeper:
-    """Saves the drafts of one document, one at a time."""
+    """Saves the drafts of one document, one at a time.
 
-    def __init__(self, files: DocumentFiles) -> None:
-        """Start with a document that is not on the disk."""
-        self._files = files
-        self._kept: _Kept | None = None
+    Attributes:
+        id: the document's id.
+        kept: what is saved; None: nothing yet.
+    """
 
-    @staticmethod
-    def of_journal(files: DocumentFiles, journal: Journal, tape: Tape[Drawing]) -> "DocumentKeeper":
-        """Return the keeper that continues a journal just read."""
-        keeper = DocumentKeeper(files)
-        keeper._kept = _Kept(journal.version, tape, journal.generation, journal.base_bytes, journal.whole_bytes)
-        return keeper
-
-    @staticmethod
-    def of_older(files: DocumentFiles, version: int, tape: Tape[Drawing]) -> "DocumentKeeper":
-        """Return the keeper that continues a document of an older format."""
-        keeper = DocumentKeeper(files)
-        keeper._kept = _Kept(version, tape)
-        return keeper
+    def __init__(self, database: Database, document_id: str, kept: Kept | None = None) -> None:
+        """Go on from what is saved; None: nothing is."""
+        self._database = database
+        self.id = document_id
+        self.kept = kept
 
     def keep(self, version: int, draft: Draft) -> None:
-        """Save a draft; raise `StorageError` if that fails, with the earlier state still saved."""
-        with storing(f"document {self._files.id!r} could not be written, so the change was not made"):
-            self._keep(version, draft)
+        """Save a draft, and forget the world state from which the one before was planned.
 
-    def keep_start(self, drawing: Drawing, start: WorldState | None) -> None:
-        """Save the world state from which a drawing is planned; raise `StorageError` if that fails."""
-        path = self._files.path(START)
-        if start is None:
-            with suppress(OSError):  # readers ignore the start of another drawing
-                path.unlink()
-            return
-        with storing(f"document {self._files.id!r} could not be written, so its start was not changed"):
-            write_at_once(path, start_text(drawing, start), is_synced=False)
+        Raises:
+            OvertakenError: another server has changed the document.
+            UnknownDocumentError: it was removed.
+            StorageError: the draft could not be saved; the earlier state still is.
+        """
+        gesture, kept = draft.gesture, self.kept
+        committed = tape_of(draft.drawing if gesture is None else gesture.before, draft.history)
+        is_step = kept is None or gesture is None or kept.tape != committed
+        what = f"document {self.id!r} could not be written, so the change was not made"
+        with self._database.writing(what, is_synced=is_step) as session:
+            if is_step:
+                kept = self._commit(session, version if gesture is None else version - 1, committed)
+            if gesture is not None:
+                preview = {
+                    "preview_label": _text(gesture.label),
+                    "preview": _json(draft.drawing),
+                    "preview_version": version,
+                }
+                self._update(session, kept, {"start": None, **preview})
+        self.kept = kept
 
-    def _keep(self, version: int, draft: Draft) -> None:
-        gesture = draft.gesture
-        if gesture is None:
-            self._write(version, tape_of(draft.drawing, draft.history))
-            with suppress(OSError):  # readers ignore a preview of an older version
-                self._files.path(PREVIEW).unlink()
-            return
-        before = tape_of(gesture.before, draft.history)
-        if self._kept is None or self._kept.tape != before:
-            self._write(version - 1, before)
-        text = preview_text(version, gesture.label, draft.drawing)
-        write_at_once(self._files.path(PREVIEW), text, is_synced=False)
+    def keep_start(self, start: WorldState | None) -> None:
+        """Save the world state from which the drawing is planned, None for its own start; raise as `keep` does."""
+        what = f"document {self.id!r} could not be written, so its start was not changed"
+        with self._database.writing(what, is_synced=False) as session:
+            text = None if start is None else to_json(start.to_dict()).decode()
+            self._update(session, self.kept, {"start": text})
 
-    def _write(self, version: int, tape: Tape[Drawing]) -> None:
-        if self._kept is None:
-            self._files.folder.mkdir(parents=True, exist_ok=True)
-            self._begin(_Kept(version, tape))
-            return
-        if self._kept.is_overgrown:
-            with suppress(OSError):  # the old journal still works
-                self._begin(self._kept)
-        if not self._is_in_place(self._kept):
-            self._files.folder.mkdir(parents=True, exist_ok=True)
-            self._begin(self._kept)
-        self._append(self._kept, version, tape)
-
-    def _is_in_place(self, kept: _Kept) -> bool:
-        """Return whether the journal exists and holds all saved changes."""
-        try:
-            return 0 < kept.bytes <= self._files.path(JOURNAL).stat().st_size
-        except FileNotFoundError:
-            return False
-
-    def _begin(self, kept: _Kept) -> None:
-        """Write a new journal with the saved state, in place of the old one."""
-        generation, now = kept.generation + 1, _now()
-        line = change_line(kept.version, now, whole(kept.tape))
-        text = start_line(self._files.id, generation) + line
-        write_at_once(self._files.path(JOURNAL), text)
-        kept.generation, kept.base_bytes, kept.bytes = generation, len(text), len(text)
-        self._kept = kept
-        self._write_head(kept, now)
-        with suppress(OSError):  # readers prefer the journal
-            self._files.path(JSON).unlink()
-
-    def _append(self, kept: _Kept, version: int, tape: Tape[Drawing]) -> None:
-        now = _now()
-        line = change_line(version, now, kept.tape.change_to(tape))
-        with self._files.path(JOURNAL).open("r+b") as file:
-            file.truncate(kept.bytes)  # drop a line that a killed server left unfinished
-            file.seek(kept.bytes)
-            try:
-                file.write(line)
-                file.flush()
-                os.fsync(file.fileno())
-            except OSError:
-                with suppress(OSError):
-                    file.truncate(kept.bytes)
-                raise
-        kept.version, kept.tape, kept.bytes = version, tape, kept.bytes + len(line)
-        self._write_head(kept, now)
-
-    def _write_head(self, kept: _Kept, now: str) -> None:
-        drawing = kept.tape.sheets[kept.tape.now].drawing
-        head = {
-            "id": self._files.id,
-            "generation": kept.generation,
-            "bytes": kept.bytes,
-            "title": drawing.title,
+    def _commit(self, session: Session, version: int, tape: Tape[Drawing]) -> Kept:
+        """Write a tape where another one is saved, and return what is saved then."""
+        kept = self.kept or Kept(Tape((), 0), 0, -1)
+        change = whole(tape) if self.kept is None else kept.tape.change_to(tape)
+        after = Kept(tape, kept.first + change.dropped, kept.revision + 1)
+        changed_at = datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+        drawing = tape.sheets[tape.now].drawing
+        row: dict[str, Any] = {
+            "revision": after.revision,
+            "version": version,
+            "changed_at": changed_at,
+            "title": _text(drawing.title),
             "name": drawing.name,
-            "changed_at": now,
+            "first": after.first,
+            "now": after.first + tape.now,
+            "start": None,
+            **_NO_PREVIEW,
         }
-        with suppress(OSError):  # it can be made again from the journal
-            write_at_once(self._files.path(HEAD), to_json(head), is_synced=False)
+        if self.kept is None:
+            session.execute(_ADD, {"id": self.id, "format": FORMAT, **row})
+        else:
+            self._update(session, kept, row)
+        self._write_steps(session, kept, change, changed_at)
+        return after
+
+    def _write_steps(self, session: Session, kept: Kept, change: TapeChange[Drawing], changed_at: str) -> None:
+        first = kept.first + change.dropped
+        end = first + change.kept
+        if change.dropped or end < kept.first + len(kept.tape.sheets):
+            session.execute(_DROP_STEPS, {"of": self.id, "begin": first, "end": end})
+        added = [
+            {
+                "document_id": self.id,
+                "number": end + place,
+                "label": _text(sheet.label),
+                "changed_at": changed_at,
+                "drawing": _json(sheet.drawing),
+            }
+            for place, sheet in enumerate(change.added)
+        ]
+        if added:
+            session.execute(_ADD_STEPS, added)
+
+    def _update(self, session: Session, kept: Kept | None, row: dict[str, Any]) -> None:
+        """Change the document's row, if it is as this server knows it."""
+        known = -1 if kept is None else kept.revision
+        result = session.execute(_CHANGE, {"of": self.id, "known": known, **row})
+        assert isinstance(result, CursorResult)
+        if result.rowcount == 0:
+            is_there = session.execute(_FIND, {"of": self.id}).first() is not None
+            raise OvertakenError if is_there else UnknownDocumentError(self.id)
 
 
-def _now() -> str:
-    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+def _json(drawing: Drawing) -> str:
+    return to_json(drawing_to_dict(drawing)).decode()
+
+
+def _text(text: str) -> str:
+    """Return a text that PostgreSQL keeps: it knows no zero character."""
+    return text.replace("\0", "\ufffd")

@@ -1,12 +1,12 @@
-"""The garment repository: shipped garments, and the user's own in a folder."""
+"""The garment repository: shipped garments, and the user's own in the database."""
 
 import json
-from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
-from app.store.durable_file import write_at_once
-from app.store.storage_error import storing
+from sqlalchemy import CursorResult, delete, insert, select, update
+
+from app.store.database import Database
+from app.store.schema import GarmentRow
 from planner.cloth.garment import NAME_PATTERN, Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, UnknownGarmentError
@@ -24,47 +24,60 @@ class ListedGarment:
 class GarmentRepository:
     """A repository of garments by name. Shipped garments come first and are read-only."""
 
-    def __init__(self, folder: Path) -> None:
-        """Use a folder for the user's garments; saving the first one makes it."""
-        self._folder = folder
+    def __init__(self, database: Database) -> None:
+        """Use a database; read nothing yet."""
+        self._database = database
 
     def entries(self) -> list[ListedGarment]:
-        """Return all garments, shipped ones first; skip files that are not valid garments."""
+        """Return all garments, shipped ones first; skip what is no valid garment."""
         shipped = [ListedGarment(name, load_garment(name).title, True) for name in shipped_garment_names()]
-        return shipped + [ListedGarment(own.name, own.title, False) for own in self._own()]
+        with self._database.reading("the garments could not be listed") as session:
+            rows = session.execute(select(GarmentRow.name, GarmentRow.content).order_by(GarmentRow.name)).all()
+        own = []
+        for name, content in rows:
+            try:
+                own.append(ListedGarment(name, read_garment(name, content).title, False))
+            except GarmentFileError:
+                continue
+        return shipped + own
 
     def garment(self, name: str) -> Garment:
         """Return the garment with a name.
 
         Raises:
             UnknownGarmentError: there is none.
-            GarmentFileError: its file in the user's folder cannot be read, or is invalid.
+            GarmentFileError: what is stored is no valid garment.
         """
         if name in shipped_garment_names():
             return load_garment(name)
-        path = self._path(name)
-        if not path.is_file():
+        _require_name(name)
+        with self._database.reading(f"garment {name!r} could not be read") as session:
+            content = session.scalar(select(GarmentRow.content).where(GarmentRow.name == name))
+        if content is None:
             raise UnknownGarmentError(name)
-        return _read(path)
+        return read_garment(name, content)
 
     def save(self, garment: Garment) -> bool:
-        """Save or replace a garment in the user's folder, synced to the disk; return whether it is new.
+        """Save or replace a garment of the user's own; return whether it is new.
 
         Raises:
             ReadOnlyGarmentError: a shipped garment has this name.
-            StorageError: it could not be written; the earlier file is unchanged.
+            StorageError: it could not be saved; the earlier one is unchanged.
         """
         if garment.name in shipped_garment_names():
             raise ReadOnlyGarmentError(garment.name)
-        path = self._path(garment.name)
-        with storing(f"garment {garment.name!r} could not be saved"):
-            is_new = not path.exists()
-            self._folder.mkdir(parents=True, exist_ok=True)
-            write_at_once(path, json.dumps(garment.to_dict(), indent=1).encode())
+        content = json.dumps(garment.to_dict())
+        with self._database.writing(f"garment {garment.name!r} could not be saved") as session:
+            changed = update(GarmentRow).where(GarmentRow.name == garment.name).values(content=content)
+            result = session.execute(changed)
+            assert isinstance(result, CursorResult)
+            is_new = result.rowcount == 0
+            if is_new:
+                session.execute(insert(GarmentRow).values(name=garment.name, content=content))
         return is_new
 
     def remove(self, name: str) -> None:
-        """Remove a garment from the user's folder.
+        """Remove a garment of the user's own.
 
         Raises:
             ReadOnlyGarmentError: it is a shipped garment.
@@ -73,33 +86,25 @@ class GarmentRepository:
         """
         if name in shipped_garment_names():
             raise ReadOnlyGarmentError(name)
-        path = self._path(name)
-        with storing(f"garment {name!r} could not be removed"):
-            try:
-                path.unlink()
-            except FileNotFoundError:
-                raise UnknownGarmentError(name) from None
-
-    def _own(self) -> Iterator[Garment]:
-        for path in sorted(self._folder.glob("*.json")):
-            try:
-                own = self.garment(path.stem)
-            except (GarmentFileError, UnknownGarmentError):
-                continue
-            if own.name == path.stem and own.name not in shipped_garment_names():
-                yield own
-
-    def _path(self, name: str) -> Path:
-        """Return the path of a user's garment; raise `UnknownGarmentError` for an invalid name, such as a path."""
-        if not NAME_PATTERN.fullmatch(name):
-            raise UnknownGarmentError(name)
-        return self._folder / f"{name}.json"
+        _require_name(name)
+        with self._database.writing(f"garment {name!r} could not be removed") as session:
+            removed = session.execute(delete(GarmentRow).where(GarmentRow.name == name))
+            assert isinstance(removed, CursorResult)
+            if removed.rowcount == 0:
+                raise UnknownGarmentError(name)
 
 
-def _read(path: Path) -> Garment:
+def read_garment(name: str, content: str) -> Garment:
+    """Return the garment in a JSON text; raise `GarmentFileError` if there is none of this name."""
     try:
-        return Garment.from_dict(json.loads(path.read_text(encoding="utf-8")))
-    except OSError as error:
-        raise GarmentFileError(f"{path.name}: {error.strerror}") from error
+        garment = Garment.from_dict(json.loads(content))
     except (ValueError, RecursionError, FieldError) as error:
-        raise GarmentFileError(f"{path.name}: {error}") from error
+        raise GarmentFileError(f"garment {name!r}: {error}") from error
+    if garment.name != name:
+        raise GarmentFileError(f"garment {name!r}: its own name is {garment.name!r}")
+    return garment
+
+
+def _require_name(name: str) -> None:
+    if not NAME_PATTERN.fullmatch(name):
+        raise UnknownGarmentError(name)

@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 from sqlalchemy import delete, func, select, update
 
 from app.store.database import Database
+from app.store.presence import has_ended
 from app.store.schema import JobRow
 from planner.errors import FoldingError
 
@@ -79,8 +80,9 @@ class JobRepository:
     def add(self, kind: str, client: str, body: object) -> StoredJob:
         """Return a new job, queued; drop the oldest ended ones beyond `KEPT_MAX`."""
         job = StoredJob(uuid.uuid4().hex, kind, client, "queued", 0.0, "", time.time(), None, None, 0, 0)
-        with self._database.session("the job could not be saved") as session:
-            session.add(JobRow(**_values(job), body=json.dumps(body), result=None))
+        with self._database.writing("the job could not be saved", is_lasting=False) as session:
+            row = JobRow(**_values(job), server=self._database.number, body=json.dumps(body), result=None)
+            session.add(row)
             oldest_kept = select(JobRow.number).order_by(JobRow.number.desc()).offset(KEPT_MAX).limit(1)
             number = session.scalar(oldest_kept)
             if number is not None:
@@ -97,7 +99,7 @@ class JobRepository:
 
     def job(self, job_id: str) -> StoredJob:
         """Return a job; raise `UnknownJobError` if there is none."""
-        with self._database.session("the job could not be read") as session:
+        with self._database.reading("the job could not be read") as session:
             row = session.execute(select(*_COLUMNS).where(JobRow.id == job_id)).one_or_none()
         if row is None:
             raise UnknownJobError(job_id)
@@ -105,19 +107,19 @@ class JobRepository:
 
     def body(self, job_id: str) -> Any:  # noqa: ANN401
         """Return the body that a job was asked with."""
-        with self._database.session("the job could not be read") as session:
+        with self._database.reading("the job could not be read") as session:
             return json.loads(session.scalars(select(JobRow.body).where(JobRow.id == job_id)).one())
 
     def result(self, job_id: str) -> Any:  # noqa: ANN401
         """Return a job's result; None if it has none."""
-        with self._database.session("the job could not be read") as session:
+        with self._database.reading("the job could not be read") as session:
             text = session.scalar(select(JobRow.result).where(JobRow.id == job_id))
         return None if text is None else json.loads(text)
 
     def newest(self, most: int, before: str | None = None) -> list[StoredJob]:
         """Return the newest jobs, or the newest of those older than the job `before`."""
         wanted = select(*_COLUMNS).order_by(JobRow.number.desc()).limit(most)
-        with self._database.session("the jobs could not be read") as session:
+        with self._database.reading("the jobs could not be read") as session:
             if before is not None:
                 number = session.scalar(select(JobRow.number).where(JobRow.id == before))
                 if number is None:
@@ -125,20 +127,25 @@ class JobRepository:
                 wanted = wanted.where(JobRow.number < number)
             return [StoredJob(*row) for row in session.execute(wanted)]
 
-    def open(self) -> list[StoredJob]:
-        """Return the jobs that have not ended, oldest first."""
-        wanted = select(*_COLUMNS).where(JobRow.status.in_(OPEN)).order_by(JobRow.number)
-        with self._database.session("the jobs could not be read") as session:
-            return [StoredJob(*row) for row in session.execute(wanted)]
+    def interrupted(self) -> list[StoredJob]:
+        """Return the jobs that the end of a server interrupted, oldest first; they are this server's from now on."""
+        is_open, own = JobRow.status.in_(OPEN), self._database.number
+        with self._database.writing("the jobs could not be read", is_lasting=False) as session:
+            others = session.scalars(select(JobRow.server).where(is_open).distinct()).all()
+            ended = [number for number in others if has_ended(session, number)]
+            is_interrupted = is_open, JobRow.server.in_(ended)
+            found = session.execute(select(*_COLUMNS).where(*is_interrupted).order_by(JobRow.number)).all()
+            session.execute(update(JobRow).where(*is_interrupted).values(server=own))
+        return [StoredJob(*row) for row in found]
 
     def open_count(self, client: str) -> int:
         """Return how many of a client's jobs have not ended."""
         wanted = select(func.count()).where(JobRow.client == client, JobRow.status.in_(OPEN))
-        with self._database.session("the jobs could not be read") as session:
+        with self._database.reading("the jobs could not be read") as session:
             return session.scalar(wanted) or 0
 
     def _update(self, job: StoredJob, more: dict[str, Any]) -> None:
-        with self._database.session("the job could not be saved") as session:
+        with self._database.writing("the job could not be saved", is_lasting=False) as session:
             session.execute(update(JobRow).where(JobRow.id == job.id).values(**_values(job), **more))
 
 

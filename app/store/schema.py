@@ -1,6 +1,6 @@
 """The tables of the database; `migrations` has the steps that lead to them from every version before."""
 
-from sqlalchemy import Index, Text
+from sqlalchemy import BigInteger, ForeignKey, Index, Text
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
 
@@ -12,16 +12,18 @@ class JobRow(Table):
     """A job: its request, its progress and its result.
 
     `number` grows from job to job. Times are seconds since the epoch. `body` and `result` are JSON. `begun` counts how
-    often the job was started, since a job that ends the server must not be started anew for ever.
+    often the job was started, since a job that ends the server must not be started anew for ever. `server` is the
+    number of the server that does it (see `Database.number`).
     """
 
     __tablename__ = "jobs"
     __table_args__ = (Index("jobs_by_status", "status"), {"sqlite_autoincrement": True})
 
-    number: Mapped[int] = mapped_column(primary_key=True)
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
     id: Mapped[str] = mapped_column(unique=True)
     kind: Mapped[str]
     client: Mapped[str]
+    server: Mapped[int] = mapped_column(BigInteger, server_default="0")
     status: Mapped[str]
     progress: Mapped[float]
     message: Mapped[str] = mapped_column(Text)
@@ -32,3 +34,54 @@ class JobRow(Table):
     revision: Mapped[int]
     body: Mapped[str] = mapped_column(Text, deferred=True)
     result: Mapped[str | None] = mapped_column(Text, deferred=True)
+
+
+class DocumentRow(Table):
+    """A document without its drawings.
+
+    Its steps are those numbered from `first` on; `now` is the current one, those after it are what redo restores.
+    `revision` counts the commits, so that a server notices that another one was quicker. `changed_at` is UTC, as in RFC
+    3339, and `opened_s` seconds since the epoch. `preview` is the drawing that a gesture in progress has led to, and
+    `start` the world state from which the drawing is planned, both as JSON. A file of an older version that could not
+    be taken over is a document without steps: `problem` says why, and `format` is the file's if it is a newer one.
+    """
+
+    __tablename__ = "documents"
+    __table_args__ = (Index("documents_by_change", "changed_at", "id"),)
+
+    id: Mapped[str] = mapped_column(primary_key=True)
+    format: Mapped[int]
+    revision: Mapped[int]
+    version: Mapped[int]
+    changed_at: Mapped[str]
+    opened_s: Mapped[float | None]
+    title: Mapped[str]
+    name: Mapped[str]
+    first: Mapped[int]
+    now: Mapped[int]
+    problem: Mapped[str | None] = mapped_column(Text)
+    start: Mapped[str | None] = mapped_column(Text)
+    preview_version: Mapped[int | None]
+    preview_label: Mapped[str | None]
+    preview: Mapped[str | None] = mapped_column(Text)
+
+
+class StepRow(Table):
+    """A drawing of a document, as JSON, and the step that led to it; `changed_at` is empty where it is not known."""
+
+    __tablename__ = "document_steps"
+
+    document_id: Mapped[str] = mapped_column(ForeignKey("documents.id", ondelete="CASCADE"), primary_key=True)
+    number: Mapped[int] = mapped_column(primary_key=True)
+    label: Mapped[str] = mapped_column(Text)
+    changed_at: Mapped[str]
+    drawing: Mapped[str] = mapped_column(Text)
+
+
+class GarmentRow(Table):
+    """A garment of the user's own, as JSON."""
+
+    __tablename__ = "garments"
+
+    name: Mapped[str] = mapped_column(primary_key=True)
+    content: Mapped[str] = mapped_column(Text)

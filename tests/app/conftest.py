@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
 from pathlib import Path
 
 import httpx
@@ -10,6 +11,8 @@ import pytest
 
 from app.api.create_app import create_app
 from app.settings import Settings
+from app.store.database import Database
+from tests.databases import emptied, postgresql
 
 OWN_URL = "http://127.0.0.1:8000"
 
@@ -22,10 +25,38 @@ def anyio_backend() -> str:
     return "asyncio"
 
 
+@pytest.fixture(scope="session")
+def postgresql_server() -> Iterator[str]:
+    """Return the URL of the database of a PostgreSQL server that all tests of this process share."""
+    with postgresql() as url:
+        yield url
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database_url(request: pytest.FixtureRequest) -> str | None:
+    """Return None for SQLite, and the URL of an empty PostgreSQL database."""
+    return None if request.param == "sqlite" else emptied(request.getfixturevalue("postgresql_server"))
+
+
+@pytest.fixture
+def database(tmp_path: Path, database_url: str | None) -> Iterator[Database]:
+    """Return an empty database, of each kind in turn."""
+    database = Database(tmp_path / "pleat.db", database_url)
+    yield database
+    database.close()
+
+
 @pytest.fixture
 async def client(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
     """Return a client of a server without a network; no document is open in it."""
-    app = create_app(Settings(data=tmp_path))
+    async with client_of(tmp_path) as client:
+        yield client
+
+
+@asynccontextmanager
+async def client_of(data: Path) -> AsyncIterator[httpx.AsyncClient]:
+    """Return a client of a server without a network on a data folder."""
+    app = create_app(Settings(data=data))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
     async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
         yield client

@@ -165,10 +165,10 @@ def test_a_token_that_is_too_short_is_refused_before_anything_is_served(tmp_path
     assert str(short) in result.stderr and "at least 20 characters" in result.stderr
 
 
-@pytest.mark.parametrize("inside", ["", "deeper", "documents"])
+@pytest.mark.parametrize("inside", ["", "deeper", "robots"])
 def test_a_data_path_that_is_none_is_said_before_any_address(tmp_path: Path, inside: str) -> None:
     data = tmp_path / "data"
-    if inside == "documents":
+    if inside == "robots":
         data.mkdir()
         (data / inside).write_text("a file")
     else:

@@ -101,8 +101,10 @@ async def test_a_document_of_a_newer_version_is_refused_by_it(
 ) -> None:
     state = await created(client)
     path = tmp_path / "documents" / "newer222.json"
+    path.parent.mkdir()
     path.write_text(older_file("newer222", 3, TOWEL, format_))
     before = path.read_bytes()
+    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
     for answer in (
         await client.get("/api/documents/newer222"),
         await put(client, {**state, "id": "newer222"}, state["drawing"]),
@@ -111,7 +113,7 @@ async def test_a_document_of_a_newer_version_is_refused_by_it(
         assert f"format {format_}" in assert_problem(answer, 409)["detail"]
     assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == ["newer222"]
     assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
-    assert path.read_bytes() == before
+    assert (tmp_path / "before-database" / "documents" / "newer222.json").read_bytes() == before
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES.keys())
@@ -193,7 +195,9 @@ async def test_the_page_of_a_document_that_is_not_there_says_so(client: httpx.As
 async def test_a_spoilt_document_is_told_of_and_leads_nobody_astray(client: httpx.AsyncClient, tmp_path: Path) -> None:
     state = await created(client)
     folder = tmp_path / "documents"
+    folder.mkdir()
     (folder / "spoilt22.json").write_text("{")
+    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
     assert_problem(await client.get("/api/documents/spoilt22"), 422)
     entries = (await client.get("/api/documents")).json()
     assert [entry["id"] for entry in entries if entry["problem"]] == ["spoilt22"]

@@ -135,11 +135,9 @@ async def test_why_a_fold_cannot_be_placed(client: httpx.AsyncClient, request_bo
 
 async def test_a_change_that_cannot_be_kept_is_told_of(client: httpx.AsyncClient, tmp_path: Path) -> None:
     state = await created(client)
-    folder = tmp_path / "documents"
-    folder.rename(tmp_path / "elsewhere")
-    folder.write_text("in the way")
+    (tmp_path / "pleat.db").rename(tmp_path / "elsewhere")
     problem = assert_problem(await put(client, state, moved(state, -0.01)), 500)
-    assert problem["detail"].endswith("could not be written, so the change was not made: Not a directory")
+    assert "could not be written, so the change was not made: the database's file was" in problem["detail"]
     assert (await client.get(f"/api/documents/{state['id']}")).json() == state
 
 

@@ -1,4 +1,3 @@
-import json
 from pathlib import Path
 
 import httpx
@@ -31,17 +30,16 @@ async def test_a_garment_comes_with_every_field(client: httpx.AsyncClient) -> No
     assert all("grip_radius_m" in fold for fold in garment["folds"])
 
 
-async def test_a_saved_garment_can_be_read_replaced_and_removed(client: httpx.AsyncClient, tmp_path: Path) -> None:
+async def test_a_saved_garment_can_be_read_replaced_and_removed(client: httpx.AsyncClient) -> None:
     path = "/api/garments/my-towel"
     assert (await client.put(path, json=towel())).status_code == 201
     assert (await client.put(path, json=towel(title="Blue"))).status_code == 200
     assert (await client.get(path)).json()["title"] == "Blue"
-    assert json.loads((tmp_path / "garments" / "my-towel.json").read_text())["title"] == "Blue"
     entries = (await client.get("/api/garments")).json()
     assert {"name": "my-towel", "title": "Blue", "shipped": False} in entries
     assert (await client.delete(path)).status_code == 204
     assert (await client.get(path)).status_code == 404
-    assert list((tmp_path / "garments").iterdir()) == []
+    assert "my-towel" not in (await client.get("/api/garments")).text
 
 
 async def test_shipped_garments_are_read_only(client: httpx.AsyncClient) -> None:
@@ -70,6 +68,7 @@ async def test_a_spoilt_file_does_not_spoil_the_list(client: httpx.AsyncClient, 
     folder = tmp_path / "garments"
     folder.mkdir()
     (folder / "spoilt.json").write_text("{")
+    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
     assert (await client.get("/api/garments")).status_code == 200
     assert (await client.get("/api/garments/spoilt")).status_code == 422
 

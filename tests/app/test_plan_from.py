@@ -7,13 +7,16 @@ from typing import Any
 
 import httpx
 import pytest
+from sqlalchemy import update
 
 from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.live_search import Begun, LiveSearch
+from app.store.database import Database
 from app.store.document_repository import DocumentRepository
+from app.store.schema import DocumentRow
 from planner import Plan, Task, load_garment, make_plan
 from planner.errors import RequestError
 from tests.app.document_requests import moved, put
@@ -112,20 +115,24 @@ async def from_second_step(page: Listener) -> dict[str, Any]:
     return await replanned(page)
 
 
-def test_a_start_that_was_chosen_for_another_drawing_or_cannot_be_read_is_none(plan: Plan, tmp_path: Path) -> None:
-    repository = DocumentRepository(tmp_path)
+def test_a_start_ends_with_the_drawing_that_it_was_chosen_for_and_is_none_if_it_cannot_be_read(
+    plan: Plan, tmp_path: Path
+) -> None:
+    database = Database(tmp_path / "pleat.db")
+    repository = DocumentRepository(database)
     draft = draft_of(drawing_of(T_SHIRT))
     keeper = repository.keeper("aaaabbbb")
     keeper.keep(1, draft)
     start = plan.state_after(1)
-    keeper.keep_start(draft.drawing, start)
+    keeper.keep_start(start)
     assert repository.kept("aaaabbbb").start == start
-    keeper.keep_start(replace(draft.drawing, start_station="left"), start)
+    keeper.keep(2, draft.edited(Edit("turn", replace(draft.drawing, start_station="left")), 0.0))
     assert repository.kept("aaaabbbb").start is None
-    (tmp_path / "aaaabbbb.start").write_bytes(b"{")
+    keeper.keep_start(start)
+    with database.writing("spoil") as session:
+        session.execute(update(DocumentRow).values(start="{"))
     assert repository.kept("aaaabbbb").start is None
-    repository.remove("aaaabbbb")
-    assert not list(tmp_path.glob("aaaabbbb*"))
+    database.close()
 
 
 @pytest.mark.anyio

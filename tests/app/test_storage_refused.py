@@ -1,15 +1,24 @@
 """A disk that is full, read-only or failing: every request is answered with a problem, and nothing is half done."""
 
 import asyncio
+import sqlite3
 from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
+from sqlalchemy import event, select, update
 
+from app.drawing.edit import Edit
+from app.store.database import Database
+from app.store.document_repository import DocumentRepository
+from app.store.schema import StepRow, Table
+from tests.app.conftest import client_of
 from tests.app.document_requests import created, moved, put
 from tests.app.refused import refused
 from tests.app.samples import towel
+from tests.app.store.documents import kept_document
+from tests.app.store.drafts import moved as moved_drawing
 from tests.app.test_garbage import assert_problem
 from tests.app.websocket import Listener
 
@@ -43,6 +52,13 @@ def every_writing_request(client: httpx.AsyncClient, state: dict[str, Any]) -> d
     }
 
 
+def stored(client: httpx.AsyncClient) -> list[list[Any]]:
+    """Return all rows of the database."""
+    database = client._transport.app.state.workspace.database  # type: ignore[attr-defined]
+    with database.reading("look") as session:
+        return [[tuple(row) for row in session.execute(select(table))] for table in Table.metadata.sorted_tables]
+
+
 @pytest.mark.parametrize("name", STATUS_OF)
 async def test_what_cannot_be_written_is_a_problem_and_is_not_done(
     client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
@@ -50,7 +66,7 @@ async def test_what_cannot_be_written_is_a_problem_and_is_not_done(
     state = await created(client)
     state = (await put(client, state, moved(state, -0.01))).json()
     assert (await client.put("/api/garments/my-towel", json=towel())).status_code == 201
-    files = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    rows = stored(client)
     with refused(monkeypatch, tmp_path, name):
         for ask in every_writing_request(client, state).values():
             problem = assert_problem(await ask(), STATUS_OF[name])
@@ -60,7 +76,7 @@ async def test_what_cannot_be_written_is_a_problem_and_is_not_done(
         assert (await client.get(f"/api/documents/{state['id']}")).json() == state
         health = (await client.get("/api/health")).json()
         assert health["status"] == "degraded" and "written" in health["problem"]
-    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == files
+    assert stored(client) == rows
     assert "problem" not in (await client.get("/api/health")).json()
     assert (await put(client, state, moved(state, -0.03))).status_code == 200
 
@@ -83,40 +99,45 @@ async def test_a_document_that_could_not_be_removed_is_the_same_for_everybody(
     assert page.last["document"] == changed
     assert (await client.delete(f"/api/documents/{state['id']}")).status_code == 204
     assert_problem(await client.get(f"/api/documents/{state['id']}"), 404)
-    assert list((tmp_path / "documents").glob(f"{state['id']}*")) == []
     await page.hang_up()
 
 
-async def test_in_a_read_only_folder_a_spoilt_document_is_told_of_where_it_is_and_others_are_shown(
-    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+async def test_in_a_read_only_folder_everything_is_shown_and_nothing_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = DocumentRepository(Database(tmp_path / "pleat.db"))
+    (document_id, document), (spoilt, _) = kept_document(kept), kept_document(kept)
+    document.edit(Edit("one", moved_drawing(1)))
+    with kept._database.writing("spoil") as session:
+        session.execute(update(StepRow).where(StepRow.document_id == spoilt).values(drawing="{"))
+    with refused(monkeypatch, tmp_path, "EROFS", databases_too=False):
+        async with client_of(tmp_path) as client:
+            assert (await client.get("/")).headers["location"] == f"/d/{document_id}"
+            state = (await client.get(f"/api/documents/{document_id}")).json()
+            assert_problem(await client.get(f"/api/documents/{spoilt}"), 422)
+            assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == [spoilt]
+            for ask in every_writing_request(client, state).values():
+                assert_problem(await ask(), 403)
+            assert (await client.get(f"/api/documents/{document_id}")).json() == state
+
+
+async def test_a_database_that_does_not_answer_is_a_problem(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     state = await created(client)
-    spoilt = await created(client)
-    journal = tmp_path / "documents" / f"{spoilt['id']}.journal"
-    journal.write_bytes(journal.read_bytes()[:100])
     workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
     workspace.close_unused(-1.0)
-    with refused(monkeypatch, tmp_path, "EROFS"):
-        assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
-        problem = assert_problem(await client.get(f"/api/documents/{spoilt['id']}"), 422)
-        assert journal.name in problem["detail"]
-        assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == [spoilt["id"]]
-    assert len(journal.read_bytes()) == 100
 
+    def deny(*_: object) -> None:
+        error = sqlite3.OperationalError("unable to open database file")
+        error.sqlite_errorcode = sqlite3.SQLITE_CANTOPEN
+        raise error
 
-async def test_a_file_that_cannot_be_read_is_a_problem(
-    client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    state = await created(client)
-    client._transport.app.state.workspace.close_unused(-1.0)  # type: ignore[attr-defined]
-
-    def deny(path: Path, *_: object) -> bytes:
-        raise PermissionError(13, "Permission denied", str(path))
-
-    with monkeypatch.context() as patched:
-        patched.setattr(Path, "read_bytes", deny)
-        problem = assert_problem(await client.get(f"/api/documents/{state['id']}"), 403)
-        assert "Permission denied" in problem["detail"]
+    event.listen(workspace.database.engine(), "do_execute", deny)
+    problem = assert_problem(await client.get(f"/api/documents/{state['id']}"), 403)
+    assert "unable to open" in problem["detail"]
+    assert (await client.get("/api/health")).json()["checks"]["database"] != "ok"
+    event.remove(workspace.database.engine(), "do_execute", deny)
     assert (await client.get(f"/api/documents/{state['id']}")).json() == state
 
 

@@ -1,13 +1,19 @@
 """The list in the bar: a choice opens a document; no drawing is left or replaced without a question."""
 
+import json
 from collections.abc import Callable
 
 from playwright.sync_api import Locator, Page, expect
+from sqlalchemy import delete, insert
 
 from app.api.document_routes import PAGE_MAX
+from app.drawing.drawing_json import drawing_to_dict
+from app.store.database import Database
+from app.store.document_keeper import FORMAT
+from app.store.schema import DocumentRow, StepRow
 from tests.app.conftest import Served
 from tests.app.samples import towel
-from tests.app.store.drafts import TOWEL, older_file
+from tests.app.store.drafts import TOWEL
 from tests.browser.conftest import Garment, Sheet
 
 NewSheet = Callable[[Garment], Sheet]
@@ -63,13 +69,27 @@ def test_the_list_has_all_documents_however_many_pages_they_fill(
     page.goto(new_sheet("scarf").page_url)
     expect(bar(page).locator("option:checked")).to_have_text("Scarf")
     names = [f"many{number:04}" for number in range(PAGE_MAX + 20)]
-    paths = [designer.data / "documents" / f"{name}.json" for name in names]
-    for name, path in zip(names, paths, strict=True):
-        path.write_text(older_file(name, 1, TOWEL))
+    blank = {
+        "format": FORMAT,
+        "revision": 0,
+        "version": 1,
+        "changed_at": "",
+        "title": "",
+        "name": "",
+        "first": 0,
+        "now": 0,
+    }
+    drawing = json.dumps(drawing_to_dict(TOWEL.drawing))
+    database = Database(designer.data / "pleat.db")
+    with database.writing("many") as session:
+        session.execute(insert(DocumentRow), [{"id": name, **blank} for name in names])
+        step = {"number": 0, "label": "", "changed_at": "", "drawing": drawing}
+        session.execute(insert(StepRow), [{"document_id": name, **step} for name in names])
     bar(page).focus()
     expect(bar(page).locator("option[value^='document:many']")).to_have_count(len(names))
-    for path in paths:
-        path.unlink()
+    with database.writing("no more") as session:
+        session.execute(delete(DocumentRow).where(DocumentRow.id.in_(names)))
+    database.close()
 
 
 def test_without_the_server_the_document_stays_and_it_is_said(page: Page, new_sheet: NewSheet) -> None:

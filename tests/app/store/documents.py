@@ -1,7 +1,5 @@
 """Documents in a repository that many tests use."""
 
-from pathlib import Path
-
 from app.document import Document
 from app.drawing.draft import Draft
 from app.store.document_list import DocumentEntry
@@ -17,9 +15,22 @@ def kept_document(repository: DocumentRepository) -> tuple[str, Document]:
     return document_id, Document(TOWEL, keep=keeper.keep)
 
 
-def restored(repository: DocumentRepository, document_id: str, tmp_path: Path) -> tuple[int, Draft]:
+def reopened(repository: DocumentRepository, document_id: str) -> Document:
+    """Return a document as a server opens it that starts now."""
+    kept = repository.kept(document_id)
+    return Document(
+        kept.draft,
+        version=kept.version,
+        start=kept.start,
+        keep=kept.keeper.keep,
+        keep_start=kept.keeper.keep_start,
+        reread=lambda: repository.reread(kept.keeper),
+    )
+
+
+def restored(repository: DocumentRepository, document_id: str) -> tuple[int, Draft]:
     """Return the state that a server finds if it starts after this one was killed."""
-    kept = DocumentRepository(tmp_path / "documents").kept(document_id)
+    kept = repository.kept(document_id)
     return kept.version, kept.draft
 
 

@@ -8,6 +8,7 @@ import pytest
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
 from app.store.backup import NoBackupError, UsedFolderError, back_up, restore
+from app.store.copy_rows import UsedDatabaseError
 from app.store.data_folder import DataFolder
 from app.store.database import Database
 from app.store.document_repository import DocumentRepository
@@ -15,14 +16,19 @@ from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository
 from planner.cloth.garment import Garment
 from tests.app.samples import towel
+from tests.databases import emptied
 
 
-def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_works_on(tmp_path: Path) -> None:
-    folder = DataFolder(tmp_path / "data")
+@pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
+def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_works_on(
+    tmp_path: Path, database: Database, database_url: str | None, kind: str, request: pytest.FixtureRequest
+) -> None:
+    """From a database of each kind to one of each kind."""
+    folder = DataFolder(tmp_path)
     garment = Garment.from_dict(towel(name="my-towel"))
-    GarmentRepository(folder.garments).save(garment)
-    documents, database = DocumentRepository(folder.documents), Database(folder.database)
-    job = JobRepository(database).add("kind", "me", {"number": 1})
+    GarmentRepository(database).save(garment)
+    documents = DocumentRepository(database)
+    jobs = [JobRepository(database).add("kind", "me", {"number": number}) for number in range(2)]
     ids = [documents.new_id() for _ in range(3)]
     keepers = {document_id: documents.keeper(document_id) for document_id in ids}
     draft = draft_of(drawing_of(garment))
@@ -37,26 +43,37 @@ def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_work
             keepers[ids[0]].keep(version, draft)
 
     working = threading.Thread(target=work)
+    (tmp_path / "studies").mkdir()
+    (tmp_path / "studies" / "mine").write_text("a study")
+    target = tmp_path / ".backups"
+    target.mkdir()
     with folder.held():
         working.start()
         try:
-            for number in range(5):
-                back_up(folder, tmp_path / f"{number}.tar.gz")
+            for number in range(2):
+                back_up(folder, target / f"{number}.tar.gz", database_url)
         finally:
             is_over.set()
             working.join()
     database.close()
-    for number in range(5):
-        restored = DataFolder(tmp_path / f"restored-{number}")
-        restore(tmp_path / f"{number}.tar.gz", restored)
-        again = DocumentRepository(restored.documents)
+    for number in range(2):
+        into = emptied(request.getfixturevalue("postgresql_server")) if kind == "postgresql" else None
+        restored = DataFolder(target / f"restored-{number}")
+        restore(target / f"{number}.tar.gz", restored, into)
+        copied = Database(restored.database, into)
+        again = DocumentRepository(copied)
         assert all(again.kept(document_id).draft.history == draft.history for document_id in ids)
-        assert not list(restored.documents.glob("*.broken"))
-        assert GarmentRepository(restored.garments).garment("my-towel") == garment
-        copied = Database(restored.database)
-        assert JobRepository(copied).job(job.id) == job
+        assert GarmentRepository(copied).garment("my-towel") == garment
+        assert JobRepository(copied).newest(10) == jobs[::-1]
+        JobRepository(copied).add("kind", "me", {})
         copied.close()
+        assert (restored.path / "studies" / "mine").read_text() == "a study"
         assert not (restored.path / "server.json").exists()
+        assert restored.database.exists() == (into is None)
+        if into is not None:
+            with pytest.raises(UsedDatabaseError):
+                restore(target / f"{number}.tar.gz", DataFolder(target / "once-more"), into)
+            assert not (target / "once-more").exists()
 
 
 def test_nothing_is_restored_over_something(tmp_path: Path) -> None:

@@ -40,10 +40,10 @@ def test_what_a_dead_server_has_left_holds_nobody_up(tmp_path: Path) -> None:
     assert not (tmp_path / "server.json").exists()
 
 
-@pytest.mark.parametrize("inside", ["", "deeper", "documents", "garments"])
+@pytest.mark.parametrize("inside", ["", "deeper", "robots"])
 def test_a_file_in_the_place_of_a_folder_is_named(tmp_path: Path, inside: str) -> None:
     path = tmp_path / "data"
-    if inside in ("documents", "garments"):
+    if inside == "robots":
         path.mkdir()
         (path / inside).write_text("a file")
     else:
@@ -74,7 +74,7 @@ def test_a_folder_that_can_be_written_but_not_locked_is_not_used(
 
 
 @pytest.mark.parametrize("number", ["EACCES", "EROFS", "ENOSPC", "EDQUOT", "EIO"])
-@pytest.mark.parametrize("folder", [".", "documents", "garments"])
+@pytest.mark.parametrize("folder", [".", "robots"])
 def test_what_is_wrong_with_a_folder_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: str, folder: str
 ) -> None:

@@ -1,61 +1,58 @@
-"""Documents on the disk: what is kept is what was there, whatever happens to the server."""
+"""Documents in the database: what is kept is what was there, whatever happens to the server."""
 
-import itertools
-import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from sqlalchemy import delete, func, select, update
 
-from app.document import Document
-from app.drawing.edit import Edit, Phase
-from app.store.document_files import UnknownDocumentError
-from app.store.document_reader import BrokenDocumentError
+from app.drawing import history
+from app.drawing.edit import Edit, Phase, StaleVersionError
+from app.store.database import Database
+from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
+from app.store.document_keeper import FORMAT
+from app.store.document_list import DocumentEntry
 from app.store.document_repository import DocumentRepository
+from app.store.schema import DocumentRow, StepRow
 from app.store.storage_error import StorageError
 from tests.app.drawing.drawings import outlined
-from tests.app.store.documents import entries, kept_document, restored
-from tests.app.store.drafts import TOWEL, moved
+from tests.app.store.documents import entries, kept_document, reopened, restored
+from tests.app.store.drafts import TOWEL, moved, worked_on
 
 
-def test_every_committed_change_is_there_after_the_server_was_killed(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
+def test_every_committed_change_is_there_after_the_server_was_killed(repository: DocumentRepository) -> None:
     document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     document.edit(Edit("two", moved(2)))
     document.edit(Edit("spoilt", outlined(moved(2), (0.0, 0.0), (0.4, 0.3), (0.4, 0.0), (0.0, 0.3))))
     document.undo()
-    version, draft = restored(repository, document_id, tmp_path)
+    version, draft = restored(repository, document_id)
     assert version == document.state.version
     assert draft.drawing == document.state.drawing
     assert draft.history == document.state.draft.history
 
 
-def test_what_a_gesture_had_changed_is_a_step_after_the_server_was_killed(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
+def test_what_a_gesture_had_changed_is_a_step_after_the_server_was_killed(repository: DocumentRepository) -> None:
     document_id, document = kept_document(repository)
     document.edit(Edit("one", moved(1)))
     document.edit(Edit("drag", moved(2), Phase.PREVIEW))
     document.edit(Edit("drag", moved(3), Phase.PREVIEW))
-    version, draft = restored(repository, document_id, tmp_path)
+    version, draft = restored(repository, document_id)
     assert version == document.state.version
     assert draft.drawing == moved(3)
     assert [step.label for step in draft.history.past] == ["one", "drag"]
     assert draft.undone().drawing == moved(1)
 
 
-def test_a_gesture_that_was_cancelled_or_committed_is_over_for_the_disk_too(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
+def test_a_gesture_that_was_cancelled_or_committed_is_over_for_the_disk_too(repository: DocumentRepository) -> None:
     document_id, document = kept_document(repository)
     document.edit(Edit("drag", moved(1), Phase.PREVIEW))
     document.edit(Edit("", None, Phase.CANCEL))
-    version, draft = restored(repository, document_id, tmp_path)
+    version, draft = restored(repository, document_id)
     assert (version, draft.drawing, draft.history) == (3, TOWEL.drawing, TOWEL.history)
     document.edit(Edit("drag", moved(1), Phase.PREVIEW))
     document.edit(Edit("drag", moved(2), Phase.COMMIT))
-    version, draft = restored(repository, document_id, tmp_path)
+    version, draft = restored(repository, document_id)
     assert (version, draft.drawing, draft.history.can_undo) == (5, moved(2), "drag")
 
 
@@ -63,51 +60,72 @@ def test_a_gesture_that_another_closed_is_kept_as_its_step(repository: DocumentR
     document_id, document = kept_document(repository)
     document.edit(Edit("first", moved(1), Phase.PREVIEW, gesture="1"))
     document.edit(Edit("second", moved(2), Phase.PREVIEW, gesture="2"))
-    _, draft = restored(repository, document_id, tmp_path)
+    _, draft = restored(repository, document_id)
     assert [step.label for step in draft.history.past] == ["first", "second"]
     assert draft.undone().drawing == moved(1)
 
 
-def test_a_server_that_was_killed_while_it_wrote_leaves_the_old_file_and_no_rubbish(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
-    document_id, document = kept_document(repository)
-    document.edit(Edit("one", moved(1)))
-    half_written = tmp_path / "documents" / f".{document_id}-abcd"
-    half_written.write_text("{")
-    assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
-    assert not half_written.exists()
-
-
-@pytest.mark.parametrize(
-    "content", ["", "{", "[]", "null", '{"format": 2}', '{"format": "3"}', "\x00" * 100, "[" * 100_000]
-)
-def test_a_spoilt_file_is_put_aside_and_told_of_and_the_others_are_read(
-    repository: DocumentRepository, tmp_path: Path, content: str
+@pytest.mark.parametrize("drawing", ["", "{", "[]", "null", '{"outline": 1}', "[" * 100_000])
+def test_a_spoilt_document_is_told_of_and_left_alone_and_the_others_are_read(
+    database: Database, repository: DocumentRepository, drawing: str
 ) -> None:
     good, _ = kept_document(repository)
     spoilt, _ = kept_document(repository)
-    path = tmp_path / "documents" / f"{spoilt}.journal"
-    path.write_text(content)
-    with pytest.raises(BrokenDocumentError, match=f"{spoilt}.broken"):
+    with database.writing("spoil") as session:
+        session.execute(update(StepRow).where(StepRow.document_id == spoilt).values(drawing=drawing))
+    with pytest.raises(BrokenDocumentError, match=spoilt):
         repository.kept(spoilt)
-    assert (tmp_path / "documents" / f"{spoilt}.broken").read_text() == content
-    shown = entries(repository)
-    assert [entry.id for entry in shown] == [good, spoilt]
-    assert shown[0].problem is None
-    assert shown[1].problem is not None and "broken" in shown[1].problem
-    assert list(repository.recent()) == [good]
-    with pytest.raises(BrokenDocumentError):
-        repository.kept(spoilt)
+    assert {entry.id for entry in entries(repository)} == {good, spoilt}
+    assert repository.kept(good).draft == TOWEL
     repository.remove(spoilt)
     assert [entry.id for entry in entries(repository)] == [good]
 
 
-def test_a_spoilt_preview_loses_only_itself(repository: DocumentRepository, tmp_path: Path) -> None:
+def test_a_document_of_which_steps_are_missing_does_not_look_well(
+    database: Database, repository: DocumentRepository
+) -> None:
     document_id, document = kept_document(repository)
-    document.edit(Edit("one", moved(1)))
-    (tmp_path / "documents" / f"{document_id}.preview").write_text("{")
-    assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
+    for number in (1, 2):
+        document.edit(Edit("Move", moved(number)))
+    with database.writing("spoil") as session:
+        session.execute(delete(StepRow).where(StepRow.number == 2))
+    with pytest.raises(BrokenDocumentError, match="missing"):
+        repository.kept(document_id)
+    assert "missing" in str(entries(repository)[0].problem)
+
+
+def test_a_document_of_a_newer_format_is_refused_by_its_number(
+    database: Database, repository: DocumentRepository
+) -> None:
+    document_id, _ = kept_document(repository)
+    with database.writing("age") as session:
+        session.execute(update(DocumentRow).values(format=FORMAT + 1))
+    for ask in (repository.kept, repository.versions):
+        with pytest.raises(NewerDocumentError, match=f"format {FORMAT + 1}"):
+            ask(document_id)
+    assert f"format {FORMAT + 1}" in str(entries(repository)[0].problem)
+    assert list(repository.recent()) == []
+
+
+@pytest.mark.parametrize("size", [1, 3, 7])
+def test_the_pages_have_all_documents_once_the_one_changed_last_first(
+    database: Database, repository: DocumentRepository, size: int
+) -> None:
+    ids = [kept_document(repository)[0] for _ in range(7)]
+    with database.writing("age") as session:
+        for number, document_id in enumerate(ids):
+            changed_at = f"2026-01-0{1 + number % 3}"
+            session.execute(update(DocumentRow).where(DocumentRow.id == document_id).values(changed_at=changed_at))
+    shown: list[DocumentEntry] = []
+    page = repository.page(None, size)
+    while page.end is not None:
+        assert len(page.entries) == size
+        shown += page.entries
+        page = repository.page(page.end, size)
+    shown += page.entries
+    assert sorted(entry.id for entry in shown) == sorted(ids)
+    assert [entry.changed_at for entry in shown] == sorted((entry.changed_at for entry in shown), reverse=True)
+    assert all(entry.picture is not None and len(entry.picture.outline) == 4 for entry in shown)
 
 
 def test_the_list_has_the_one_changed_last_first(repository: DocumentRepository) -> None:
@@ -133,68 +151,66 @@ def test_what_is_no_document_is_unknown(repository: DocumentRepository, document
             ask(document_id)
 
 
-def test_a_change_that_cannot_be_written_says_so_and_is_not_made(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
+def test_a_change_that_cannot_be_written_says_so_and_is_not_made(tmp_path: Path) -> None:
+    repository = DocumentRepository(Database(tmp_path / "pleat.db"))
     _, document = kept_document(repository)
-    folder = tmp_path / "documents"
-    folder.rename(tmp_path / "elsewhere")
-    folder.write_text("in the way")
+    (tmp_path / "pleat.db").rename(tmp_path / "elsewhere")
     with pytest.raises(StorageError, match="not made"):
         document.edit(Edit("one", moved(1)))
     assert document.state.drawing == TOWEL.drawing
 
 
-def test_a_line_that_was_never_finished_is_no_harm_and_the_next_takes_its_place(
-    repository: DocumentRepository, tmp_path: Path
+def test_no_more_steps_are_kept_than_can_be_undone(
+    database: Database, repository: DocumentRepository, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(history, "STEPS_MAX", 10)
     document_id, document = kept_document(repository)
-    document.edit(Edit("one", moved(1)))
-    with (tmp_path / "documents" / f"{document_id}.journal").open("ab") as file:
-        file.write(b"0123abcd {" + b"x" * 100_000)
-    assert entries(repository)[0].problem is None
-    kept = DocumentRepository(tmp_path / "documents").kept(document_id)
-    assert kept.draft.drawing == moved(1)
-    Document(kept.draft, version=kept.version, keep=kept.keeper.keep).edit(Edit("two", moved(2)))
-    assert restored(repository, document_id, tmp_path)[1].drawing == moved(2)
-
-
-def test_without_its_head_a_document_is_the_same(repository: DocumentRepository, tmp_path: Path) -> None:
-    """A power failure may lose it, or bring an older one back."""
-    document_id, document = kept_document(repository)
-    head = tmp_path / "documents" / f"{document_id}.head"
-    older = head.read_bytes()
-    document.edit(Edit("one", moved(1)))
-    shown = entries(repository)
-    for content in (older, b"", None):
-        head.unlink() if content is None else head.write_bytes(content)
-        found = entries(DocumentRepository(tmp_path / "documents"))
-        assert [(one.id, one.title, one.problem) for one in found] == [(one.id, one.title, None) for one in shown]
-        assert restored(repository, document_id, tmp_path)[1].drawing == moved(1)
-
-
-def test_a_commit_writes_about_one_step_and_the_journal_does_not_grow_for_ever(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
-    document_id, document = kept_document(repository)
-    journal = tmp_path / "documents" / f"{document_id}.journal"
-    one_drawing, sizes = journal.stat().st_size, []
-    for number in range(450):
+    for number in range(25):
         document.edit(Edit("Move", moved(1 + number % 7)))
-        sizes.append(journal.stat().st_size)
-    grown = [after - before for before, after in itertools.pairwise(sizes)]
-    assert sum(size > 1.2 * one_drawing for size in grown) == 0
-    anew = sum(size < 0 for size in grown)
-    assert 1 <= anew <= 4, "now and then, not at every commit"
-    assert max(sizes) < 3 * 200 * one_drawing
-    assert restored(repository, document_id, tmp_path)[1].history == document.state.draft.history
+    with database.reading("count") as session:
+        assert session.scalar(select(func.count()).select_from(StepRow)) == 10 + 1
+    assert restored(repository, document_id)[1].history == document.state.draft.history
 
 
-def test_a_document_whose_files_somebody_took_away_is_written_whole_again(
-    repository: DocumentRepository, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_saved_is_the_history_after_any_work(repository: DocumentRepository, seed: int) -> None:
+    keeper = repository.keeper("abcdefgh")
+    for version, draft in enumerate(worked_on(seed, 40), 1):
+        keeper.keep(version, draft)
+        if draft.gesture is None:
+            found_version, found = restored(repository, "abcdefgh")
+            assert (found_version, found.drawing, found.history) == (version, draft.drawing, draft.history)
+
+
+def test_of_two_servers_that_change_a_document_the_slower_one_follows(repository: DocumentRepository) -> None:
+    document_id, _ = kept_document(repository)
+    quick, slow = reopened(repository, document_id), reopened(repository, document_id)
+    quick.edit(Edit("one", moved(1)))
+    quick.edit(Edit("two", moved(2)))
+    with pytest.raises(StaleVersionError):
+        slow.edit(Edit("mine", moved(5), base_version=1))
+    assert (slow.state.version, slow.state.drawing) == (3, moved(2))
+    slow.undo()
+    with pytest.raises(StaleVersionError):
+        quick.edit(Edit("three", moved(3)))
+    assert quick.state.drawing == moved(1)
+    assert quick.state.version > 3, "its pages have seen version 3"
+    quick.edit(Edit("three", moved(3)))
+    slow.follow()
+    assert slow.state.draft.history == quick.state.draft.history == restored(repository, document_id)[1].history
+
+
+def test_a_document_that_another_server_has_removed_cannot_be_changed(repository: DocumentRepository) -> None:
     document_id, document = kept_document(repository)
-    document.edit(Edit("one", moved(1)))
-    shutil.rmtree(tmp_path / "documents")
-    document.edit(Edit("two", moved(2)))
-    assert restored(repository, document_id, tmp_path)[1].history == document.state.draft.history
+    repository.remove(document_id)
+    with pytest.raises(UnknownDocumentError):
+        document.edit(Edit("one", moved(1)))
+    with pytest.raises(UnknownDocumentError):
+        repository.remove(document_id)
+
+
+def test_labels_and_titles_may_have_any_character(repository: DocumentRepository) -> None:
+    document_id, document = kept_document(repository)
+    document.edit(Edit("zero \x00, \u20ac, \U0001f9e6", replace(moved(1), title="\x00")))
+    assert restored(repository, document_id)[1].drawing.title == "\x00"
+    assert "\U0001f9e6" in str(restored(repository, document_id)[1].history.can_undo)

@@ -1,13 +1,13 @@
-"""The files of one document, and the data in them that can be read without its history.
+"""The files of one document as versions before the database kept them.
 
 ======== ==========================================================================
 ending   content
 ======== ==========================================================================
-.journal the document (see `app.store.journal`)
+.journal the document (see `app.store.older.journal`)
 .head    the journal's list entry and least length
 .preview the drawing changed by a gesture in progress
 .start   the world state from which the drawing is planned, if not from the beginning
-.json    a document of format 1 (see `app.store.document_file`); a journal supersedes it
+.json    a document of format 1 (see `app.store.older.document_file`); a journal supersedes it
 .broken  an unreadable file, renamed
 ======== ==========================================================================
 """
@@ -18,12 +18,11 @@ from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
-from pydantic_core import from_json, to_json
+from pydantic_core import from_json
 
-from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import DrawingModel, drawing_to_dict
-from app.store import document_file, journal
-from planner.errors import FoldingError
+from app.drawing.drawing_json import DrawingModel
+from app.store.document_errors import NewerDocumentError
+from app.store.older import document_file, journal
 from planner.strict_model import StrictModel
 from planner.task.world_state import WorldState
 
@@ -31,30 +30,6 @@ JOURNAL, HEAD, PREVIEW, START, JSON, BROKEN = ".journal", ".head", ".preview", "
 ID_PATTERN = re.compile(r"[a-z0-9]{8}")
 
 _FORMAT_AT_START = re.compile(rb'\s*\{\s*"format"\s*:\s*(\d{1,9})\b')
-
-
-@dataclass
-class UnknownDocumentError(FoldingError):
-    """No document has this id."""
-
-    document_id: str
-
-    def __str__(self) -> str:
-        return f"there is no document {self.document_id[:80]!r}"
-
-
-@dataclass
-class NewerDocumentError(FoldingError):
-    """A newer version of Pleat wrote the document."""
-
-    document_id: str
-    format: int
-
-    def __str__(self) -> str:
-        return (
-            f"document {self.document_id!r} is of format {self.format}, which this version of Pleat cannot read. "
-            "It is left as it is; open it with a newer version."
-        )
 
 
 class Head(StrictModel):
@@ -95,10 +70,6 @@ class DocumentFiles:
     id: str
     folder: Path
 
-    def __post_init__(self) -> None:
-        if not ID_PATTERN.fullmatch(self.id):
-            raise UnknownDocumentError(self.id)
-
     def path(self, suffix: str) -> Path:
         """Return the path of the file with this ending."""
         return self.folder / (self.id + suffix)
@@ -114,16 +85,6 @@ class DocumentFiles:
             return Head.model_validate_json(self.path(HEAD).read_bytes())
         except (OSError, ValueError):
             return None
-
-
-def preview_text(version: int, label: str, drawing: Drawing) -> bytes:
-    """Return the content of the file for a gesture in progress."""
-    return to_json({"version": version, "label": label, "drawing": drawing_to_dict(drawing)})
-
-
-def start_text(drawing: Drawing, start: WorldState) -> bytes:
-    """Return the content of the file for a start."""
-    return to_json({"drawing": drawing_to_dict(drawing), "start": start.to_dict()})
 
 
 def require_known_format(document_id: str, path: Path, data: bytes) -> None:

@@ -1,6 +1,6 @@
 """The document format before journals: one JSON object with the whole history.
 
-Such files are still read; the first change replaces them with a journal.
+Such files are taken over into the database.
 """
 
 from typing import Annotated, Literal

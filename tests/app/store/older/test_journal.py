@@ -5,9 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.drawing.edit import Edit
-from app.store.journal import change_line, read_journal, start_line
+from app.store.older.journal import read_journal
 from app.store.tape import Tape, tape_of, whole
 from tests.app.store.drafts import TOWEL, moved, worked_on
+from tests.app.store.older.journals import change_line, start_line
 
 
 def written(seed: int, count: int) -> tuple[list[bytes], list[Tape]]:

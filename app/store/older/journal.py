@@ -1,8 +1,8 @@
-"""The journal of a document: a file that only grows.
+"""The journal of a document, as versions before the database wrote it: a file that only grew.
 
 The first line names the document and the format. Each further line is one change of the document's tape (see
 `app.store.tape`) behind a checksum; the first of them is the whole tape. Reading skips a last line without an end, left
-unfinished by a killed server. From time to time the journal is rewritten with the current tape.
+unfinished by a killed server. From time to time the journal was rewritten with the current tape.
 """
 
 import zlib
@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
-from pydantic_core import from_json, to_json
+from pydantic_core import from_json
 
 from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import DrawingModel, drawing_to_dict
+from app.drawing.drawing_json import DrawingModel
 from app.store.tape import Sheet, Tape, TapeChange
 from planner.strict_model import StrictModel
 
@@ -88,27 +88,6 @@ class Journal:
         sheets, now = self.raw_tape
         drawings = (DrawingModel.model_validate(sheet.drawing).value() for sheet in sheets)
         return Tape(tuple(Sheet(sheet.label, drawing) for sheet, drawing in zip(sheets, drawings, strict=True)), now)
-
-
-def start_line(document_id: str, generation: int) -> bytes:
-    """Return the first line of a journal."""
-    return to_json({"format": FORMAT, "id": document_id, "generation": generation}) + b"\n"
-
-
-def change_line(version: int, changed_at: str, change: TapeChange[Drawing]) -> bytes:
-    """Return the line of a change."""
-    added = [{"label": sheet.label, "drawing": drawing_to_dict(sheet.drawing)} for sheet in change.added]
-    body = to_json(
-        {
-            "version": version,
-            "changed_at": changed_at,
-            "dropped": change.dropped,
-            "kept": change.kept,
-            "added": added,
-            "now": change.now,
-        }
-    )
-    return b"%08x %b\n" % (zlib.crc32(body), body)
 
 
 def read_journal(data: bytes) -> Journal:
