@@ -24,6 +24,7 @@ DOOR = (
     "planner.robots.known_robots",
     "planner.robots.load_robot",
     "planner.robots.own_robots",
+    "planner.robots.varied_card",
     "planner.robots.table_reach",
     "planner.robots.tool_path",
 )

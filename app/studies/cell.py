@@ -13,11 +13,14 @@ from planner.cloth.garment import Garment
 from planner.errors import FoldingError
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.planning.robot_task import default_placement, default_scene, task_for
+from planner.robots.varied_card import changed
 from planner.task.scene import Scene
-from planner.task.task import Task, TaskOptions
+from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
 
 ROBOT, PLACEMENT, START = "robot", "placement", "start_station"
-TABLE, SCENE, LIMITS, MOVED, MIDDLE = "table.", "scene.", "limits.", "placement.moved.", "placement.middle."
+TABLE, SCENE, LIMITS, CARD = "table.", "scene.", "limits.", "card."
+MOVED, MIDDLE = "placement.moved.", "placement.middle."
 """The prefixes of the axes' names."""
 
 
@@ -52,14 +55,25 @@ def cell_of(
     if case.garment is None:
         return Cell(index, case, values, None, case.error)
     try:
-        there = _scene(scene, values, has_stations)
+        robot = _robot(values)
+        usual = default_scene(robot)
+        if has_stations:
+            usual = replace(usual, stations=scene.stations)
+        there = _scene(usual, values, has_stations)
         options: Any = _within(LIMITS, values)
-        options["placement"] = _placement(case.garment, values, placements, scene.table, there.table)
-        options |= {name: values[name] for name in (ROBOT, START) if name in values}
+        own = default_placement(case.garment, robot)
+        options["placement"] = _placement(case.garment, own, values, placements, usual.table, there.table)
+        options |= {START: values[START]} if START in values else {}
+        options["robot"] = robot
         given: TaskOptions = options
-        return Cell(index, case, values, Task.of(case.garment, there, **given))
+        return Cell(index, case, values, task_for(case.garment, there, **given))
     except FoldingError as error:
         return Cell(index, case, values, None, str(error))
+
+
+def _robot(values: Mapping[str, Value]) -> str:
+    """Return the robot's name, with the changes of its card."""
+    return changed(str(values.get(ROBOT, DEFAULT_ROBOT)), _within(CARD, values))
 
 
 def _within(prefix: str, values: Mapping[str, Value]) -> dict[str, Value]:
@@ -89,15 +103,20 @@ def _beside(pose: Pose2, before: Table, table: Table) -> Pose2:
 
 
 def _placement(
-    garment: Garment, values: Mapping[str, Value], placements: Sequence[Pose2], before: Table, table: Table
+    garment: Garment,
+    usual: Pose2,
+    values: Mapping[str, Value],
+    placements: Sequence[Pose2],
+    before: Table,
+    table: Table,
 ) -> Pose2:
     """Return where the article lies.
 
-    Its own placement keeps its distance to the table's near edge; a turn is about the middle of its bounding box.
+    Its usual placement keeps its distance to the table's near edge; a turn is about the middle of its bounding box.
     """
     if PLACEMENT in values:
         return placements[int(values[PLACEMENT])]
-    own = garment.placement.moved((before.depth_m - table.depth_m) / 2, 0.0)
+    own = usual.moved((before.depth_m - table.depth_m) / 2, 0.0)
     outline = np.array(garment.outline)
     middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
     at = own.to_outer(middle)

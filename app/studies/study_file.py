@@ -1,13 +1,13 @@
 """Reading a study's TOML file, strictly: every error names the field, and the file is named by who asked."""
 
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from app.studies.axis import Axis, number_axis
-from app.studies.cell import LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
+from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
 from app.studies.fields import require_known, table, text, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.study import Sample, Study
@@ -17,7 +17,8 @@ from planner.geometry.given import GivenPose
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.json_form import JsonForm
-from planner.robots.load_robot import load_robot
+from planner.robots.load_robot import load_robot, robot_card_file
+from planner.robots.varied_card import changed
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, Limits
 
@@ -31,7 +32,8 @@ WORK_LIMIT_S = 10.0
 """The work for a cell by default, in seconds of a present-day machine; time is left for slower ones."""
 
 _FIELDS = (
-    "title", "garments", "robots", "start_stations", "table", "scene", "placements", "limits", "cells_max", "sample",
+    "title", "garments", "robots", "card", "start_stations", "table", "scene", "placements", "limits", "cells_max",
+    "sample",
 )  # fmt: skip
 _STATIONS = "stations"
 _POSE = tuple(field.name for field in fields(Pose2))
@@ -84,13 +86,15 @@ def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CE
         StudyError: a field is not valid, or there are more cells than `cells_max`.
     """
     require_known("", content, _FIELDS)
+    robots = content.get("robots", [DEFAULT_ROBOT])
     scene, axes = _scene(table("scene", content.get("scene", {})))
     poses, placed = _placements(content.get("placements", "own"))
     study = Study(
         text("title", content.get("title", "Study")),
         read_garments(content.get("garments"), sources),
         (
-            _names(ROBOT, "robots", content.get("robots", [DEFAULT_ROBOT]), load_robot),
+            _names(ROBOT, "robots", robots, load_robot),
+            *_card(table("card", content.get("card", {})), robots),
             *_stations(content, scene),
             *_TABLE.axes("table", table("table", content.get("table", {}))),
             *axes,
@@ -124,6 +128,28 @@ def _names(axis: str, field: str, given: object, check: Callable[[str], object])
         except FieldError as error:
             raise StudyError(f"{field}[{number}]", error.message) from None
     return Axis(axis, names, is_ordered=False)
+
+
+def _card(given: Mapping[str, Any], robots: Sequence[str]) -> Iterator[Axis]:
+    """Yield an axis for each field of the robots' cards that varies, by its path; every robot must have it."""
+    for path, value in _paths(given):
+        axis = number_axis(f"card.{path}", value)
+        for robot in robots:
+            for number in axis.values:
+                try:
+                    robot_card_file(changed(str(robot), {path: number}))
+                except FieldError as error:
+                    raise StudyError(f"card.{path}", error.message) from None
+        yield Axis(f"{CARD}{path}", axis.values)
+
+
+def _paths(given: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield each field with its path; TOML reads a dotted key as tables in tables."""
+    for name, value in given.items():
+        if isinstance(value, dict) and "from" not in value:
+            yield from _paths(value, f"{within}{name}.")
+        else:
+            yield f"{within}{name}", value
 
 
 def _stations(content: Mapping[str, Any], scene: Scene) -> Iterator[Axis]:

@@ -12,6 +12,7 @@ from planner.errors import FoldingError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.card_file import CardFile
 from planner.robots.load_robot import robot_card_file
+from planner.robots.varied_card import split_changes
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
 
@@ -70,7 +71,7 @@ def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
     turned as the garment's own placement and the card say, or by quarter turns from there if the table is too small for
     it that way.
     """
-    if robot == DEFAULT_ROBOT:
+    if split_changes(robot)[0] == DEFAULT_ROBOT:
         return garment.placement
     suits = robot_card_file(robot).scene
     usual_rad = garment.placement.yaw_rad + suits.placement.yaw_rad

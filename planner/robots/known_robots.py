@@ -7,6 +7,7 @@ from planner.errors import RequestError, RobotError, UnknownRobotError
 from planner.robots.card_file import CardFile
 from planner.robots.described_robot import read_card, shipped_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
+from planner.robots.varied_card import split_changes, varied
 
 
 def robot_names() -> tuple[str, ...]:
@@ -54,7 +55,9 @@ def card_path(name_or_path: str) -> Path | None:
 
 
 def require_name(robot: str) -> None:
-    """Raise `RequestError` for a robot that is given by anything but the name of one."""
-    known = robot_names()
-    if robot not in known:
-        raise RequestError("robot", f"there is no robot {robot[:80]!r}, only {', '.join(known)}")
+    """Raise `RequestError` for a robot that is given by anything but the name of one, changes of its card included."""
+    known, (base, changes) = robot_names(), split_changes(robot)
+    if base not in known:
+        raise RequestError("robot", f"there is no robot {base[:80]!r}, only {', '.join(known)}")
+    if changes:
+        varied(card_of(base), changes)

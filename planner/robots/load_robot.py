@@ -7,13 +7,17 @@ from typing import TypeAlias
 from planner.errors import RequestError
 from planner.robots.card_file import CardFile
 from planner.robots.card_robot import CardRobot
-from planner.robots.described_robot import read_card, read_described
+from planner.robots.described_robot import DescribedRobot, read_card
 from planner.robots.known_robots import card_path, robot_names
 from planner.robots.posture_maps import Progress
 from planner.robots.pr2 import Pr2
+from planner.robots.varied_card import split_changes, varied
 
 CLOSED_FORMS = {"pr2": Pr2}
 """The robots whose arms have a closed form, by name; the others have maps of postures."""
+
+_SCENE = "scene."
+"""Fields of a card that do not concern the robot itself begin with this."""
 
 _ROBOTS_KEPT = 16
 
@@ -24,13 +28,18 @@ _Stamp: TypeAlias = tuple[int, int, int]
 def load_robot(name_or_path: str) -> Pr2 | CardRobot:
     """Return a robot by its name, shipped or one's own, or by the path of its card; the same one until that changes.
 
+    A name or a path may be followed by changes of the card (see `planner.robots.varied_card`).
+
     Raises:
-        RequestError: there is no such robot.
+        RequestError: there is no such robot, or its card has no such field.
         RobotError: its card or its URDF is not valid.
     """
-    if name_or_path in CLOSED_FORMS:
-        return _closed_form(name_or_path)
-    return _described(*_found(name_or_path))
+    base, changes = split_changes(name_or_path)
+    card = robot_card_file(name_or_path)
+    if base in CLOSED_FORMS and all(path.startswith(_SCENE) for path, _ in changes):
+        return _closed_form(base)
+    path, stamp = _found(base)
+    return _described(path, stamp, card)
 
 
 def prepare_robot(name_or_path: str, progress: Progress) -> None:
@@ -49,7 +58,8 @@ def prepare_robot(name_or_path: str, progress: Progress) -> None:
 
 def robot_card_file(name_or_path: str) -> CardFile:
     """Return a robot's card without a look at its URDF; raises as `load_robot` does."""
-    return _card(*_found(name_or_path))
+    base, changes = split_changes(name_or_path)
+    return varied(_card(*_found(base)), changes)
 
 
 @cache
@@ -58,8 +68,8 @@ def _closed_form(name: str) -> Pr2:
 
 
 @lru_cache(_ROBOTS_KEPT)
-def _described(path: Path, _: _Stamp) -> CardRobot:
-    return CardRobot(read_described(path))
+def _described(path: Path, _: _Stamp, card: CardFile) -> CardRobot:
+    return CardRobot(DescribedRobot.of(card, path.parent))
 
 
 @lru_cache(_ROBOTS_KEPT)

@@ -10,6 +10,7 @@ from app.studies.study_error import StudyError
 from app.studies.study_file import read_study, study_of
 from planner import load_garment
 from planner.geometry.pose import Pose2
+from planner.planning.robot_task import default_scene, task_for
 from tests.app.samples import towel
 from tests.app.studies.study_samples import content, study
 
@@ -39,6 +40,28 @@ def test_every_cell_is_the_task_of_its_values():
     assert last.garment == load_garment("tie")
     assert (last.scene.table.height_m, last.scene.friction, last.scene.torso_m) == (0.8, 1.0, 0.2)
     assert (last.limits.comfort_radius_m, last.limits.heuristic) == (0.03, "arm_time")
+
+
+def test_each_robot_has_the_scene_and_the_place_that_suit_it():
+    found = study(garments=[{"name": "tie"}], robots=["pr2", "so101-pair"], table={})
+    first, second = (cell.task for cell in found.cells(found.indices()))
+    assert first is not None and second is not None
+    assert first.scene == default_scene("pr2") and second.scene == default_scene("so101-pair")
+    for task in (first, second):
+        assert task.start == task_for(load_garment("tie"), robot=task.robot).start
+
+
+def test_fields_of_the_robots_cards_are_axes():
+    found = study(robots=["so101-pair"], table={}, card={"mounts": {"0": {"y_m": [0.15, 0.2]}}, "scene.torso_m": 0.0})
+    cells = list(found.cells(found.indices()))
+    assert [cell.values["card.mounts.0.y_m"] for cell in cells] == [0.15, 0.2]
+    assert [cell.task.robot for cell in cells if cell.task] == [
+        "so101-pair@mounts.0.y_m=0.15:scene.torso_m=0.0",
+        "so101-pair@mounts.0.y_m=0.2:scene.torso_m=0.0",
+    ]
+    lower = study(table={}, card={"scene.table.height_m": [0.7]})
+    (cell,) = lower.cells(lower.indices())
+    assert cell.task is not None and cell.task.scene.table.height_m == 0.7
 
 
 def test_work_ends_a_cell_by_default_so_that_every_machine_gives_the_same_table():
@@ -188,6 +211,9 @@ def test_a_study_reads_back_from_its_json():
         ({"limits": {"comfort_radius_m": [0.5]}}, "limits.comfort_radius_m", "0.5"),
         ({"limits": {"heuristic": ["best"]}}, "limits.heuristic[0]", "best"),
         ({"limits": {"max_expanded": [1.5]}}, "limits.max_expanded", "1.5"),
+        ({"card": {"mounts": {"9": {"y_m": 0.1}}}}, "card.mounts.9.y_m", "no field"),
+        ({"card": {"scene.table.height_m": -1}}, "card.scene.table.height_m", "-1"),
+        ({"card": {"title": "x"}}, "card.title", "'x'"),
         ({"sample": {"cells": 0}}, "sample.cells", "0"),
         ({"cells_max": 3}, "cells_max", "4 cells (4 table.height_m)"),
     ],
