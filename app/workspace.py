@@ -91,7 +91,7 @@ class Workspace:
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
         start_template()
-        self.robots.mend()
+        self.robots.recover()
         try:
             self.jobs.resume()
         except FoldingError as error:

@@ -34,7 +34,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "planner/task/task.py": (r"pr2", "the robot of a task that names none, in one place"),
     "planner/task/scene.py": (r"left|right", "stations are named after the sides of the table"),
     "planner/cloth/g_state.py": (r"left|right", "edges of the table"),
-    "planner/motion/joint_track.py": (r"right", "a side of numpy's searchsorted"),
+    "planner/motion/joint_trajectory.py": (r"right", "a side of numpy's searchsorted"),
     "app/tables.py": (r"left|right", "columns of a table are aligned"),
     "app/cli/rehearse.py": (r"left|right", "columns of a table are aligned"),
     "app/files/sheet_pdf.py": (r"left", "where a line of text begins"),

@@ -100,12 +100,12 @@ class RobotRepository:
             if place.parent != self._folder or name.startswith(".") or not (place / CARD).is_file():
                 raise UnknownRobotError(name)
             before = self._folder / f"{_BEFORE}{name}"
-            # Its card goes first: interrupted between the two, the rest is no robot, and is removed by `mend`.
+            # Its card goes first: interrupted between the two, the rest is no robot, and is removed by `recover`.
             (place / CARD).unlink()
             place.rename(before)
             shutil.rmtree(before)
 
-    def mend(self) -> None:
+    def recover(self) -> None:
         """Finish what the end of a server has interrupted: a robot that was being replaced is as it was before."""
         with suppress(OSError):
             for path in self._folder.glob(f"{_BEFORE}*"):

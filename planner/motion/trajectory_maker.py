@@ -12,7 +12,7 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_top import TableTop
 from planner.motion.act import Act
-from planner.motion.joint_track import JointTrack
+from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.robot_port import Collisions
 from planner.motion.timed_phase import TimedPhase
@@ -95,7 +95,7 @@ class _TrajectoryBuilder:
         self._transits = transits
         self._dwell_s = dwell_s
         self._hands = TransitPlanner(transits, collisions, dwell_s)
-        self.track = JointTrack.at_rest(transits.home, len(transits.layout.arms))
+        self.track = JointTrajectory.at_rest(transits.home, len(transits.layout.arms))
         self._timed_phases: list[TimedPhase] = []
         self._free: list[TimedPhase] = []
         self._now = 0.0
@@ -148,7 +148,7 @@ class _TrajectoryBuilder:
 
     def _begin_holding(self, transfer: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
-        self.track = JointTrack.at_rest(
+        self.track = JointTrajectory.at_rest(
             transfer.carried.joints[transfer.carried.first], len(self._transits.layout.arms)
         )
         for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():

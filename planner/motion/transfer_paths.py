@@ -16,7 +16,7 @@ from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 
-_RUNS_KEPT = 512
+_TRANSFERS_KEPT = 512
 """Size of the cache of transfers, some 50 kB each."""
 
 
@@ -51,7 +51,7 @@ class TransferPaths:
         self._height_m = height_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._searched = lru_cache(_RUNS_KEPT)(self._search)
+        self._searched = lru_cache(_TRANSFERS_KEPT)(self._search)
         self.postures = FreePostures(machine, collisions, torso_m)
 
     def carried(self, moments: Moments, cloths: Cloths) -> Carried | NoPath:

@@ -11,7 +11,7 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
-from planner.motion.joint_track import CLOSED_M, OPEN_M
+from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.moments import Moments, moments_of
 from planner.motion.robot_port import Collisions, RobotPort
@@ -66,11 +66,11 @@ class TransferPlanner:
         self._cloths = LyingCloths(context, collisions)
         self.collisions = collisions
 
-    def real(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
+    def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
-        return self.first_real(ways_of(steps, tries), tries)
+        return self.first_valid(ways_of(steps, tries), tries)
 
-    def first_real(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> Transfer | None:
+    def first_valid(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> Transfer | None:
         """Return the transfer of the first valid choice of steps; None if none is found within the tries.
 
         If all take longer than their steps' estimates, return the quickest of the first few. Once one is found, choices
@@ -133,15 +133,15 @@ class TransferPlanner:
         """Return the transfer of a candidate; None if it has no path. Cached."""
         self.tries += 1
         if candidate not in self._made:
-            self._made[candidate] = self._run(candidate, self._paths.carried(candidate.moments, candidate.cloths))
+            self._made[candidate] = self._transfer(candidate, self._paths.carried(candidate.moments, candidate.cloths))
         return self._made[candidate]
 
     def made_like(self, candidate: "Candidate", like: Transfer) -> Transfer | None:
         """Return the transfer of a candidate, with joints near to those of another if possible; None without a path."""
         self.tries += 1
-        return self._run(candidate, self._paths.adapted(candidate.moments, candidate.cloths, like.carried))
+        return self._transfer(candidate, self._paths.adapted(candidate.moments, candidate.cloths, like.carried))
 
-    def _run(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
+    def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
             self._blocked.note(candidate, carried)
             return None

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.motion.joint_track import JointTrack
+from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.pacing import eased
 from planner.motion.robot_port import Collisions
 from planner.motion.transit_paths import TransitPaths
@@ -111,7 +111,7 @@ class TransitPlanner:
 
     def _is_clear(self, free: TransitTime, tail: Line, keyframes: Keyframes) -> bool:
         """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
-        track = JointTrack([free.start_s], [tail.joints[0]])
+        track = JointTrajectory([free.start_s], [tail.joints[0]])
         track.add(keyframes.times_s, keyframes.joints)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)

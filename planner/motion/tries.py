@@ -45,5 +45,5 @@ THOROUGH = Tries(
 )
 """The limits where the first round leaves a doubt."""
 
-MORE_RUNS = 160
+MORE_TRANSFERS = 160
 """Transfers planned in the second round while there is no plan yet."""

@@ -50,7 +50,7 @@ def _act(act: Act, problem: Problem, state: State, effort: Effort) -> Act | None
         return None if likest is None else Act(act.first, likest, None)
     maker = problem.maker
     with effort.on_joints():
-        transfer = maker.made_like(maker.candidate(likest), act.transfer) or maker.first_real(ways, _PATIENT)
+        transfer = maker.made_like(maker.candidate(likest), act.transfer) or maker.first_valid(ways, _PATIENT)
     return None if transfer is None else Act(act.first, transfer.steps, transfer)
 
 

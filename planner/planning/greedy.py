@@ -114,7 +114,7 @@ class _Greedy:
         key = (steps[0].before.key, *(step.after.key for step in steps))
         if key not in self._made:
             tries = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
-            self._made[key] = self._problem.maker.real(steps, tries)
+            self._made[key] = self._problem.maker.validated(steps, tries)
         transfer = self._made[key]
         return None if transfer is None else Act(first, transfer.steps, transfer)
 

@@ -49,7 +49,7 @@ class MotionValidator:
         maker: TransferPlanner,
         is_over: Callable[[], bool],
         tries: Tries = QUICK,
-        runs_max: float = math.inf,
+        transfers_max: float = math.inf,
     ) -> None:
         """Start with nothing known.
 
@@ -57,12 +57,12 @@ class MotionValidator:
             maker: plans the transfers.
             is_over: polled before each transfer and each look; true means that there is no time left.
             tries: how much is tried.
-            runs_max: the most transfers that the arms are led through.
+            transfers_max: the most transfers that the arms are led through.
         """
         self._maker = maker
         self._is_over = is_over
         self._tries = tries
-        self._last_run = maker.tries + runs_max
+        self._last_try = maker.tries + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
@@ -137,7 +137,7 @@ class MotionValidator:
         key = tuple(_key(step) for step in steps)
         if key not in self._made:
             ways = self._in_time(ways_of(steps, self._tries))
-            self._made[key] = self._maker.first_real(ways, self._tries)
+            self._made[key] = self._maker.first_valid(ways, self._tries)
         return self._made[key]
 
     def _reject(self, steps: tuple[Step, ...], path_s: float) -> None:
@@ -215,7 +215,7 @@ class MotionValidator:
             yield steps
 
     def _require_time(self) -> None:
-        if self._is_over() or self._maker.tries >= self._last_run:
+        if self._is_over() or self._maker.tries >= self._last_try:
             raise OutOfTimeError
 
     def _known_s(self, step: Step) -> float:

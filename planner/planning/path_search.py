@@ -80,14 +80,14 @@ class PathSearch:
     def quicker(self, found: tuple[Act, ...]) -> tuple[Act, ...]:
         """Return the acts of the quickest path found, or given ones where no quicker path is found."""
         self._found = found
-        self._real_path(self._problem.start)
+        self._validated_path(self._problem.start)
         return self._found
 
-    def _validator_with(self, tries: Tries, runs_max: float = math.inf) -> MotionValidator:
+    def _validator_with(self, tries: Tries, transfers_max: float = math.inf) -> MotionValidator:
         """Return a validator with nothing rejected, and limits on what it tries."""
-        return MotionValidator(self._problem.maker, self._is_out_of_budget, tries, runs_max)
+        return MotionValidator(self._problem.maker, self._is_out_of_budget, tries, transfers_max)
 
-    def _real_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
+    def _validated_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
         """Return the search's result for the quickest validated path, and the acts of that path."""
         bound, is_over = self._bound(start), self._is_over
         question = (start, self._edges.leaving, self._is_goal, bound, self._max_expanded, is_over)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from planner.motion.act import Act
-from planner.motion.tries import MORE_RUNS, THOROUGH
+from planner.motion.tries import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
 from planner.planning.path_search import PathSearch
@@ -83,7 +83,7 @@ class PlanSearch(PathSearch):
         unrest = self._problem.unrest
         if unrest is not None:
             return self._answer(Outcome.INFEASIBLE, (), self._tried(self._unrestful(unrest)), is_cut_short=False)
-        result, _ = self._real_path(self._problem.start)
+        result, _ = self._validated_path(self._problem.start)
         is_cut_short = result.outcome is Outcome.BUDGET_EXCEEDED and not self._blocking
         is_worth_more = self._is_patient or bool(self._found)
         if not is_cut_short and not self._blocking and self._is_in_doubt and is_worth_more:
@@ -109,8 +109,8 @@ class PlanSearch(PathSearch):
         self._try_with_less_room()
         if math.isinf(self._limit_s):
             first, reached = self._validator, set(self._reached)
-            self._validator = self._validator_with(THOROUGH, MORE_RUNS)
-            self._real_path(self._problem.start)
+            self._validator = self._validator_with(THOROUGH, MORE_TRANSFERS)
+            self._validated_path(self._problem.start)
             self._validator, self._reached = first, reached
         return self._is_out_of_budget()
 

@@ -59,5 +59,5 @@ def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
     steps = found.acts[-1].steps
     maker = TransferPlanner(found.problem.context, UnderCeiling(0.25))
     assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
-    assert maker.real(steps, replace(QUICK, ways=1)) is None
+    assert maker.validated(steps, replace(QUICK, ways=1)) is None
     assert list(maker.candidates([steps])) == []

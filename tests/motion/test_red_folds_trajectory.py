@@ -9,7 +9,7 @@ import pytest
 from planner import Plan, make_plan
 from planner.geometry.pose import FloatArray
 from planner.motion.cloth_surface import LAYER_GAP_M
-from planner.motion.joint_track import CLOSED_M, OPEN_M
+from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
 from planner.task.plan_step import PlanStep

@@ -7,7 +7,7 @@ import pytest
 
 from planner import Scene, make_plan
 from planner.geometry.pose import FloatArray, Pose2
-from planner.motion.joint_track import CLOSED_M, OPEN_M, JointTrack
+from planner.motion.joint_trajectory import CLOSED_M, OPEN_M, JointTrajectory
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.trajectory import Segment, Trajectory
@@ -149,22 +149,22 @@ def test_velocities_are_those_with_which_the_joints_go_on(name: str):
 
 
 def test_a_track_goes_evenly_from_keyframe_to_keyframe_and_rests_at_its_ends():
-    track = JointTrack.at_rest(HOME, arms=2)
+    track = JointTrajectory.at_rest(HOME, arms=2)
     track.add(np.array([1.0, 2.0]), np.array([HOME + 0.4, HOME]))
     found = track.joints_at(np.array([0.25, 1.5, -1.0, 9.0]))
     assert found == pytest.approx(np.array([HOME + 0.1, HOME + 0.2, HOME, HOME]))
-    assert JointTrack.at_rest(HOME, arms=2).joints_at(np.array([0.5])) == pytest.approx(HOME[None])
+    assert JointTrajectory.at_rest(HOME, arms=2).joints_at(np.array([0.5])) == pytest.approx(HOME[None])
 
 
 def test_keyframes_that_come_too_late_are_left_out():
-    track = JointTrack.at_rest(HOME, arms=2)
+    track = JointTrajectory.at_rest(HOME, arms=2)
     track.add(np.array([1.0, 1.0, 0.5]), np.array([HOME + 0.4, HOME + 0.8, HOME]))
     assert track.times_s == [0.0, 1.0]
     assert track.joints_at(np.array([1.0])) == pytest.approx(HOME[None] + 0.4)
 
 
 def test_fingers_close_and_open_evenly_and_when_they_are_told():
-    track = JointTrack.at_rest(HOME, arms=2)
+    track = JointTrajectory.at_rest(HOME, arms=2)
     track.close(1, 1.5, 2.0)
     track.open(1, 3.0, 3.5)
     assert track.openings(1) == ([0.0, 1.5, 2.0, 3.0, 3.5], [OPEN_M, OPEN_M, CLOSED_M, CLOSED_M, OPEN_M])

@@ -36,10 +36,10 @@ def some_fold(arm_motion_s: float = 3.0) -> tuple[TransferPlanner, tuple[Step, .
 def test_what_was_made_real_once_is_not_made_again_but_counted():
     maker, first, again = some_fold()
     assert first[0] is not again[0] and first[0].motion == again[0].motion
-    transfer = maker.real(first)
+    transfer = maker.validated(first)
     assert transfer is not None and maker.tries > 0
     tries, glances = maker.tries, maker.glances
-    assert maker.real(again) is transfer
+    assert maker.validated(again) is transfer
     assert (maker.tries, maker.glances) == (2 * tries, 2 * glances)
 
 
@@ -51,11 +51,11 @@ def test_no_two_ways_of_a_fold_have_the_same_motion():
 
 def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch):
     maker, first, _ = some_fold(arm_motion_s=1.0)
-    quick = maker.real(first, replace(QUICK, ways=1))
+    quick = maker.validated(first, replace(QUICK, ways=1))
     assert quick is not None and quick.is_late
     takes_s, led, made = sum(quick.durations_at_most_s()), [], maker.made
     slower = [(way,) for way in first[0].elsewhere(64) if way.duration_s > takes_s]
     assert len(slower) >= QUICK.late
     monkeypatch.setattr(maker, "made", lambda candidate: led.append(candidate.steps) or made(candidate))
-    assert maker.first_real([first, *slower], QUICK) is quick
+    assert maker.first_valid([first, *slower], QUICK) is quick
     assert led == [first]

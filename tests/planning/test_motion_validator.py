@@ -92,7 +92,7 @@ class Eager:
     def _duration_s(self, run: tuple[Step, ...]) -> float:
         if not any(step.grips for step in run):
             return sum(step.duration_s for step in run)
-        real = self._maker.real(run)
+        real = self._maker.validated(run)
         return math.inf if real is None else sum(real.durations_at_most_s())
 
 
@@ -214,22 +214,22 @@ def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
 
 
 def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
-    realizers = []
+    validators = []
 
     class Seen(validator.MotionValidator):
         def __init__(self, *given: Any) -> None:
             super().__init__(*given)
-            realizers.append(self)
+            validators.append(self)
 
     monkeypatch.setattr(path_search, "MotionValidator", Seen)
     barred(monkeypatch, lambda arm, base: arm == 0)
     searches = []
     for failures_max in (1, 1_000):
         give_up_after(monkeypatch, failures_max)
-        begun = len(realizers)
+        begun = len(validators)
         plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
         assert plan.status == "infeasible" and plan.reasons[0].code == Code.COLLISION
-        searches.append(realizers[begun])  # others follow, which try the reasons
+        searches.append(validators[begun])  # others follow, which try the reasons
     few, many = (Counter(run[-1].task for run in seen.rejected) for seen in searches)
     assert set(few.values()) == {1}, "after one failure they do not try with the cloth elsewhere"
     assert max(many.values()) > 1

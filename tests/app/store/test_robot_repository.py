@@ -17,7 +17,7 @@ def unpacked(folder: Path, content: str) -> Path:
 def test_a_robot_whose_replacement_was_interrupted_is_as_before(tmp_path: Path) -> None:
     unpacked(tmp_path / ".before-bench", "old")
     unpacked(tmp_path / ".new-abc", "new")
-    RobotRepository(tmp_path).mend()
+    RobotRepository(tmp_path).recover()
     assert (tmp_path / "bench" / "robot.json").read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["bench"]
 
@@ -26,7 +26,7 @@ def test_what_is_left_of_a_robot_that_was_replaced_or_removed_goes(tmp_path: Pat
     unpacked(tmp_path / "bench", "new")
     unpacked(tmp_path / ".before-bench", "old")
     (tmp_path / ".before-gone").mkdir()
-    RobotRepository(tmp_path).mend()
+    RobotRepository(tmp_path).recover()
     assert (tmp_path / "bench" / "robot.json").read_text() == "new"
     assert [path.name for path in tmp_path.iterdir()] == ["bench"]
 

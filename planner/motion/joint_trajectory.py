@@ -11,7 +11,7 @@ OPEN_M, CLOSED_M = 0.04, 0.004
 
 
 @dataclass(slots=True)
-class JointTrack:
+class JointTrajectory:
     """The joint trajectory of all arms, and the openings of their grippers.
 
     Attributes:
@@ -25,9 +25,9 @@ class JointTrack:
     _openings_m: list[list[float]] = field(default_factory=list)
 
     @staticmethod
-    def at_rest(joints: FloatArray, arms: int) -> "JointTrack":
+    def at_rest(joints: FloatArray, arms: int) -> "JointTrajectory":
         """Return a trajectory of some arms that begins at their joints, shape (joints,), with all grippers open."""
-        return JointTrack([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
+        return JointTrajectory([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
 
     @property
     def last(self) -> FloatArray:
