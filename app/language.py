@@ -27,7 +27,7 @@ def say(language: Language, key: str, **values: str | int) -> str:
     """Return the words of a key with values in its places; `count` chooses the form."""
     text = catalogue(language)[key]
     if not isinstance(text, str):
-        kind = Locale.parse(language).plural_form(values["count"])
+        kind = Locale.parse(language).plural_form(int(values["count"]))
         text = text.get(kind, text["other"])
     return re.sub(r"\{(\w+)\}", lambda place: str(values[place[1]]), text)
 

@@ -67,7 +67,9 @@ class EditPanel:
         self._mode.label, self._kind.label = say(language, "panel.mode"), say(language, "strip.fold")
         mode, kind = editor.mode, editor.kind  # other options choose the first one
         self._mode.options, self._kind.options = _labels(language, Mode), _labels(language, FoldKind)
-        self._mode.value, self._kind.value = say(language, mode), say(language, kind)
+        # To type checkers viser shows no setter of a handle's value.
+        self._mode.value = say(language, mode)  # type: ignore[misc]
+        self._kind.value = say(language, kind)  # type: ignore[misc]
 
     async def _mode_chosen(self, event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
         mode = _chosen(Mode, self._language, event.target.value)
