@@ -12,6 +12,8 @@ def step_words(step: PlanStep, garment: Garment) -> str:
             return garment.folds[int(details["fold"])].name
         case "drag":
             return f"{details['distance_m']:.2f} m towards the robot" + (", holds on" if details["holds"] else "")
+        case "arm_drag":
+            return f"{details['distance_m']:.2f} m by the arms"
         case "move":
             return f"{details['from'] or 'elsewhere'} to {details['to'] or 'elsewhere'}"
     return ""

@@ -114,6 +114,15 @@ class DragPart(StepPart):
     holds: bool
 
 
+class ArmDragPart(StepPart):
+    """A drag by the arms while the base stands (m), and its direction in the table frame (rad)."""
+
+    kind: Literal["arm_drag"]
+    distance_m: float
+    heading_rad: float
+    holds: bool
+
+
 class MovePart(StepPart):
     """A drive from one station to another, with the poses of the base in between (m, rad)."""
 
@@ -123,7 +132,7 @@ class MovePart(StepPart):
     waypoints: list[Point3]
 
 
-PrimitiveAnswer = Annotated[FoldPart | DragPart | MovePart, Field(discriminator="kind")]
+PrimitiveAnswer = Annotated[FoldPart | DragPart | ArmDragPart | MovePart, Field(discriminator="kind")]
 
 
 class DagPart(BaseModel):

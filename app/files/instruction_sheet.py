@@ -212,8 +212,10 @@ def _what(plan: Plan, step: PlanStep, language: Language) -> str:
     match step.kind:
         case "fold":
             return translated(language, plan.garment.folds[int(details["fold"])].name)
-        case "drag":
+        case "drag" | "arm_drag":
             length = f"{numeral(language, details['distance_m'], 2)} m"
+            if step.kind == "arm_drag":
+                return say(language, "sheet.by_arms", length=length)
             on = say(language, "sheet.holds_on") if details["holds"] else ""
             return say(language, "sheet.towards_robot", length=length) + on
         case "move":

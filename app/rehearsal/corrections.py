@@ -31,7 +31,7 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
 
     def carried_along(points: FloatArray) -> FloatArray:
         moved = np.column_stack([carried.apply(points[:, :2]), points[:, 2]])
-        if motion.kind != "drag":
+        if not motion.is_drag:
             return moved
         left = 1.0 - _progress(points)[:, None]
         return np.asarray(points + left * (moved[0] - points[0]))

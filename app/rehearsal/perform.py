@@ -77,7 +77,7 @@ class Performer:
                     continue
             else:
                 answer = self.world.perform(corrected(motion, carried))
-            self._judge(motion, step, answer, Isometry() if motion.kind == "drag" else carried)
+            self._judge(motion, step, answer, Isometry() if motion.is_drag else carried)
             number += 1
             self._made += 1
             self.progress(number / len(motions))

@@ -39,7 +39,7 @@ class StepMotion:
 
     Attributes:
         step: the index of the plan's step.
-        kind: the primitive's name: "fold", "drag" or "move".
+        kind: the primitive's name: "fold", "drag", "arm_drag" or "move".
         duration_s: the step's duration (s).
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the
@@ -53,6 +53,11 @@ class StepMotion:
     grips: tuple[GripMotion, ...] = ()
     needs_all: bool = False
     base: Pose2 | None = None
+
+    @property
+    def is_drag(self) -> bool:
+        """Whether the article as a whole is moved over the table."""
+        return self.kind in ("drag", "arm_drag")
 
 
 @dataclass(frozen=True, slots=True)

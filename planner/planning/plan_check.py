@@ -70,7 +70,7 @@ def _require_segments(plan: Plan, path: Trajectory) -> None:
 def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory) -> None:
     before, after = problem.state_of(step.before), problem.state_of(step.after)
     _require_cloth(problem, step, before, after)
-    tools = _Tools(problem, step, before) if step.grips else None
+    tools = _Tools(problem, step, before, after) if step.grips else None
     for segment in segments:
         for t_s in _moments(segment):
             _require_arms(problem, segment, path, t_s, tools)
@@ -106,7 +106,7 @@ def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State
 class _Tools:
     """The required tool poses while a step holds cloth."""
 
-    def __init__(self, problem: Problem, step: PlanStep, before: State) -> None:
+    def __init__(self, problem: Problem, step: PlanStep, before: State, after: State) -> None:
         names = problem.context.reach.arm_names
         self._placement = step.before.placement
         self._arms = {names.index(holding.arm): holding.point for holding in step.holdings}
@@ -120,7 +120,9 @@ class _Tools:
                 raise RequestError("holdings", "these grips do not hold what the fold needs")
             self._trial = found
         else:
-            ways = context.kept(DragWays).of(state)
+            move = (after.offset[0] - state.offset[0], after.offset[1] - state.offset[1])
+            drags = context.kept(DragWays)
+            ways = drags.by_arms(state, move) if step.kind == "arm_drag" else drags.of(state)
             way = next((way for way in ways if self._is_alike(way.taken)), None)
             if way is None:
                 raise RequestError("holdings", "these grips do not hold what the drag needs")

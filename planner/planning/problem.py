@@ -98,7 +98,8 @@ class Problem:
         reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort)
         behind = context.behind_max_m if behind_max_m is None else behind_max_m
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
-        fresh = Context(sequence, wanted, reach, changed.start.placement, context.circle_m, behind, apart, start)
+        limits = (context.circle_m, behind, apart)
+        fresh = Context(sequence, wanted, reach, changed.start.placement, *limits, start, is_fixed=context.is_fixed)
         fresh.adopt_rest(context)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
@@ -123,7 +124,15 @@ class Problem:
     def _with_reach(self, reach: Reach) -> "Problem":
         context = self.context
         limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
-        fresh = Context(context.sequence, context.scene, reach, context.placement, *limits, context.start)
+        fresh = Context(
+            context.sequence,
+            context.scene,
+            reach,
+            context.placement,
+            *limits,
+            context.start,
+            is_fixed=context.is_fixed,
+        )
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     @staticmethod
@@ -137,7 +146,10 @@ class Problem:
         machine, sequence = load_robot(task.robot), replayed(task.garment)
         scene, start = _searched(task, sequence, machine)
         reach = machine.reach(scene.torso_m, task.limits.comfort_radius_m)
-        context = Context(sequence, scene, reach, task.start.placement, machine.card.base_radius_m, start=start)
+        card = machine.card
+        context = Context(
+            sequence, scene, reach, task.start.placement, card.base_radius_m, start=start, is_fixed=card.is_fixed
+        )
         return Problem(task, context, machine, TransferPlanner(context, machine))
 
 

@@ -53,6 +53,8 @@ class Cases:
             yield Case(done)
         else:
             self._context.obstacles.note(obstacle)
+        if self._context.is_fixed:  # hands let go after drags by the arms
+            return
         seen: set[tuple[object, ...]] = set()
         for offset in self._offsets_that_matter(done, fold):
             for station in range(len(self._context.scene.stations)):

@@ -70,6 +70,7 @@ class Context:
         start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
         patience: the limit of the time that somebody waits for the answer.
+        is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
     """
 
     sequence: FoldSequence
@@ -82,6 +83,7 @@ class Context:
     start: State = _START
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
+    is_fixed: bool = False
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)

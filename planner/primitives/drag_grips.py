@@ -1,6 +1,7 @@
 """The direction, the length and the grips of a drag (paper, Theorem 2)."""
 
 import math
+from itertools import product
 
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
@@ -24,9 +25,32 @@ def dragged(context: Context, offset: Point2, station: int, steps: int) -> Point
     return (offset[0] - distance * math.cos(yaw), offset[1] - distance * math.sin(yaw))
 
 
+def arm_drag_steps(context: Context, station: int) -> tuple[Point2, ...]:
+    """Return the article's displacement in one step of a drag by the arms in each direction, table frame (m).
+
+    They lead to the eight neighbours on a grid along the axes of the station.
+    """
+    yaw, step = context.station_pose(station).yaw_rad, 1 / DRAGS_PER_M
+    ahead, aside = (step * math.cos(yaw), step * math.sin(yaw)), (-step * math.sin(yaw), step * math.cos(yaw))
+    return tuple(
+        (x * ahead[0] + y * aside[0], x * ahead[1] + y * aside[1]) for x, y in product((-1, 0, 1), repeat=2) if x or y
+    )
+
+
+def arm_dragged(offset: Point2, step: Point2, steps: int) -> Point2:
+    """Return the article's offset from the start (m) after a drag by the arms by some steps."""
+    return (offset[0] + steps * step[0], offset[1] + steps * step[1])
+
+
 def towards_robot(context: Context, station: int) -> Point2:
     """Return the direction of a drag from a station: a unit vector, article frame."""
     heading = context.station_pose(station).yaw_rad + math.pi - context.placement.yaw_rad
+    return (math.cos(heading), math.sin(heading))
+
+
+def along(context: Context, move: Point2) -> Point2:
+    """Return the direction of a displacement in the table frame: a unit vector, article frame."""
+    heading = math.atan2(move[1], move[0]) - context.placement.yaw_rad
     return (math.cos(heading), math.sin(heading))
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import grid_key
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import dragged
+from planner.primitives.drag_grips import arm_drag_steps, dragged
 
 
 def drag_offsets(context: Context, most: int) -> FloatArray:
@@ -19,6 +19,8 @@ def drag_offsets(context: Context, most: int) -> FloatArray:
     half = np.array([table.depth_m / 2, table.width_m / 2])
     (x0, y0), (x1, y1) = (-half - high).tolist(), (half - low).tolist()
     steps = [dragged(context, (0.0, 0.0), station, 1) for station in range(len(context.scene.stations))]
+    if context.is_fixed:
+        steps = list(arm_drag_steps(context, 0))
     found: dict[tuple[int, int], Point2] = {(0, 0): (0.0, 0.0)}
     front = [(0.0, 0.0)]
     while front and len(found) <= most:

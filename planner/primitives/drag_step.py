@@ -4,16 +4,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice, product
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from planner.geometry.pose import Approach, FloatArray, Point3
+from planner.geometry.pose import Approach, FloatArray, Point2, Point3
 from planner.geometry.table_top import TableTop
-from planner.primitives.context import BACK_OFF_STEP_M, BACK_OFFS_PER_M, DRAGS_PER_M, Context
+from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
-from planner.primitives.drag_way import DragWay, DragWays
-from planner.primitives.grasping import approaches_from_outside, by_nearness, holdings
+from planner.primitives.drag_way import DragWay, DragWays, hands_at
+from planner.primitives.grasping import by_nearness, holdings
 from planner.primitives.state import Held, State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import ClothMotion, Hand, Phase
@@ -39,6 +39,8 @@ class DragStep:
     first_stand: int
     approaches: tuple[int, ...] | None = None
     kind: str = "drag"
+    arm_motion: ClassVar[int | None] = None
+    """The index of the arm motion that moves the cloth; None: the base does."""
 
     @property
     def distance_m(self) -> float:
@@ -48,8 +50,18 @@ class DragStep:
     @property
     def duration_s(self) -> float:
         """The time to drive, reach and drag (s)."""
-        steps = abs(self.before.back_off - self.first_stand) + self.after.back_off - self.first_stand
-        return self.context.scene.arm_motion_s + self.context.drive_s(steps)
+        steps = abs(self.before.back_off - self.first_stand)
+        return self.context.scene.arm_motion_s + self.context.drive_s(steps) + self.dragging_s
+
+    @property
+    def dragging_s(self) -> float:
+        """The time from the grips to where the cloth is let go (s)."""
+        return self.context.drive_s(self.after.back_off - self.first_stand)
+
+    @property
+    def towards(self) -> Point2:
+        """The direction of the drag: a unit vector, article frame."""
+        return towards_robot(self.context, self.before.station)
 
     @property
     def grips(self) -> tuple[Grip, ...]:
@@ -69,8 +81,7 @@ class DragStep:
 
     def holdings(self) -> tuple[Holding, ...]:
         """Return what each arm holds, and which vertices Theorem 2 asks for."""
-        before = self.before
-        covers = drag_covers(self.context, before.done, before.offset, towards_robot(self.context, before.station))
+        covers = drag_covers(self.context, self.before.done, self.before.offset, self.towards)
         return holdings(self.way.taken, covers.vertices, self.context.reach.arm_names)
 
     def phases(self) -> tuple[Phase, ...]:
@@ -94,11 +105,10 @@ class DragStep:
         carried = ClothMotion(self.before.done, start, goal, top.open_towards(self._ends()[:, :2]))
         free: tuple[Hand | None, ...] = (None,) * len(context.reach.arm_names)
         drive = context.drive_s(abs(self.before.back_off - self.first_stand))
-        drag = context.drive_s(self.after.back_off - self.first_stand)
         return (
             Phase(drive, (begin, stand), free, still),
             Phase(context.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
-            Phase(drag, (stand, end), self._hands(is_reaching=False), carried),
+            Phase(self.dragging_s, (stand, end), self._hands(is_reaching=False), carried, self.arm_motion),
         )
 
     def variants(self) -> Iterator["DragStep"]:
@@ -112,15 +122,11 @@ class DragStep:
                 yield replace(self, approaches=approaches)
 
     def _able(self) -> list[list[int]]:
-        """Return the approaches in which each hand reaches its grip, the best first."""
-        context, way = self.context, self.way
-        turn = context.placed(self.before.offset).yaw_rad - context.station_pose(self.before.station).yaw_rad
+        """Return the approaches in which each hand can drag, the best first."""
         able = []
-        for grip, arm, pick in zip(way.grips, way.arms, way.picks, strict=True):
-            allowed = approaches_from_outside(context, self.before.done, turn, grip, arm)
-            point = context.in_base(self.before.station, pick[None])
-            masks = context.reach.back_offs(arm, point, allowed, context.back_offs, BACK_OFF_STEP_M)
-            able.append([int(a) for a in allowed[(masks[:, 0] >> np.uint32(self.first_stand) & 1) > 0]])
+        for grip, arm, pick in zip(self.way.grips, self.way.arms, self.way.picks, strict=True):
+            allowed, is_able = hands_at(self.context, self.before, grip, arm, pick, self.way.move)
+            able.append([int(a) for a in allowed[is_able[:, self.first_stand]]])
         return able
 
     @cached_property

@@ -1,5 +1,6 @@
 """Find the hands, the grips and the standoffs with which an article can be dragged."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,12 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import FloatArray, Point2, Pose2
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.context import BACK_OFF_STEP_M, Context
-from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
+from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_key, nearest_pair_m
 from planner.primitives.state import State
+
+_STILL: Point2 = (0.0, 0.0)
+
+_WAYPOINT_M = 0.05
+"""The largest distance between the points at which arms that drag must be within reach (m)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +31,14 @@ class DragWay:
         grips: the points held, article frame (m).
         picks: the grips as tool points in the table frame, shape (grips, 3), m.
         approaches: for each standoff each arm's approach, shape (standoffs, grips); -1 where out of reach.
+        move: what the arms move the cloth by (m), table frame; (0, 0) where the base drags it.
     """
 
     arms: tuple[int, ...]
     grips: tuple[Point2, ...]
     picks: FloatArray
     approaches: NDArray[np.int64]
+    move: Point2 = _STILL
 
     @cached_property
     def hands(self) -> tuple[object, ...]:
@@ -57,18 +65,28 @@ class DragWays:
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 
     def of(self, state: State) -> tuple[DragWay, ...]:
-        """Return all choices of arms and grips that can drag the article from where it lies."""
+        """Return all choices of arms and grips with which the base can drag the article from where it lies."""
+        return self._of(state, _STILL)
+
+    def by_arms(self, state: State, move: Point2) -> tuple[DragWay, ...]:
+        """Return all choices of arms and grips that can move the article from where it lies (m), table frame.
+
+        The hands keep their orientation, and the base stands still.
+        """
+        return self._of(state, move)
+
+    def _of(self, state: State, move: Point2) -> tuple[DragWay, ...]:
         _, x, y, station, *_ = state.key
-        key = (state.done, x, y, station)
+        key = (state.done, x, y, station, grid_key(move[0]), grid_key(move[1]))
         if key not in self._found:
-            ways = ((self._order(state, way.arms, way.picks), way) for way in self._search(state) if way.stands)
+            ways = ((self._order(state, way.arms, way.picks), way) for way in self._search(state, move) if way.stands)
             self._found[key] = tuple(way for _, way in sorted(ways, key=lambda pair: pair[0]))
         return self._found[key]
 
-    def _search(self, state: State) -> Iterator[DragWay]:
+    def _search(self, state: State, move: Point2) -> Iterator[DragWay]:
         context = self._context
         placement = context.placed(state.offset)
-        towards = towards_robot(context, state.station)
+        towards = towards_robot(context, state.station) if move == _STILL else along(context, move)
         if hangs_ahead(context, state.done, state.offset, towards):
             return
         for cover in drag_covers(context, state.done, state.offset, towards).covers:
@@ -78,7 +96,7 @@ class DragWays:
                 for arms in assignments(context, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]
                     grips, hands = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)
-                    yield self._way(state, grips, hands, picks[order], placement)
+                    yield self._way(state, grips, hands, picks[order], move)
 
     def _order(self, state: State, arms: tuple[int, ...], picks: FloatArray) -> list[tuple[tuple[int, ...], int, int]]:
         """Return each hand's key, arm and number, sorted."""
@@ -86,15 +104,34 @@ class DragWays:
         return sorted((hand_key(self._context, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
 
     def _way(
-        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, placement: Pose2
+        self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, move: Point2
     ) -> DragWay:
         context = self._context
-        turn = placement.yaw_rad - context.station_pose(state.station).yaw_rad
         chosen = np.full((context.back_offs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
-            allowed = approaches_from_outside(context, state.done, turn, grip, arm)
-            point = context.in_base(state.station, picks[i : i + 1])
-            masks = context.reach.back_offs(arm, point, allowed, context.back_offs, BACK_OFF_STEP_M)
-            is_able = (masks >> np.arange(context.back_offs, dtype=np.uint32) & 1).astype(bool)
+            allowed, is_able = hands_at(context, state, grip, arm, picks[i], move)
             chosen[:, i] = np.where(is_able.any(axis=0), allowed[is_able.argmax(axis=0)], -1)
-        return DragWay(arms, cover, picks, chosen)
+        return DragWay(arms, cover, picks, chosen, move)
+
+
+def hands_at(
+    context: Context, state: State, grip: Point2, arm: int, pick: FloatArray, move: Point2
+) -> tuple[NDArray[np.int64], BoolArray]:
+    """Return the approaches with which an arm may drag, best first, and the standoffs at which it can, (k, standoffs).
+
+    Args:
+        context: the planning context.
+        state: the state before the drag.
+        grip: the point held, article frame (m).
+        arm: the arm that takes it.
+        pick: the grip as a tool point in the table frame, shape (3,), m.
+        move: what the arm moves it by, table frame (m).
+    """
+    turn = context.placed(state.offset).yaw_rad - context.station_pose(state.station).yaw_rad
+    allowed = approaches_from_outside(context, state.done, turn, grip, arm)
+    shares = np.linspace(0.0, 1.0, math.ceil(math.hypot(*move) / _WAYPOINT_M) + 1)
+    points = context.in_base(state.station, pick + shares[:, None] * np.array([*move, 0.0]))
+    masks = context.reach.back_offs(arm, points, allowed, context.back_offs, BACK_OFF_STEP_M)
+    everywhere = np.bitwise_and.reduce(masks, axis=1)
+    is_able = (everywhere[:, None] >> np.arange(context.back_offs, dtype=np.uint32) & 1).astype(bool)
+    return allowed, is_able

@@ -122,6 +122,8 @@ def read_robot(name_or_path: str) -> DescribedRobot:
         return _shipped(name_or_path)
     path = own_card(name_or_path) or Path(name_or_path)
     if not path.is_file():
+        if name_or_path.endswith(".json"):
+            raise RobotError("robot", f"there is no file {name_or_path!r}")
         known = (*shipped_robots(), *own_robots())
         raise RobotError("robot", f"there is no robot {name_or_path!r}, only {', '.join(known)}")
     return read_described(path)

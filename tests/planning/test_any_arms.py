@@ -116,9 +116,18 @@ def test_a_fixed_base_has_no_plan_where_it_would_have_to_drive(found_for: Planni
     assert not found_for(BOLTED, load_garment("scarf")).plan.is_solved
 
 
-def test_a_fixed_base_is_told_to_have_the_cloth_brought_nearer(found_for: Planning):
+def test_a_fixed_base_drags_with_its_arms_what_lies_too_far_away(found_for: Planning):
     vest = load_garment("vest")
     away = replace(vest, placement=vest.placement.moved(0.25, 0.0))
+    usual, plan = found_for(BOLTED, vest).plan, found_for(BOLTED, away).plan
+    require_performed(plan, BOLTED)
+    assert [step.kind for step in plan.steps] == ["arm_drag", *(step.kind for step in usual.steps)]
+    assert plan.cost_s == pytest.approx((usual.cost_s or 0.0) + 6.0, abs=1.0)
+
+
+def test_a_fixed_base_is_told_to_have_the_cloth_brought_nearer(found_for: Planning):
+    vest = load_garment("vest")
+    away = replace(vest, placement=vest.placement.moved(0.75, 0.0))
     reason = found_for(BOLTED, away).plan.reasons[0]
     assert reason.code is Code.OUT_OF_REACH and reason.change is not None
     nearer = reason.change["placement"]

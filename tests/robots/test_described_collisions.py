@@ -68,8 +68,11 @@ def test_what_is_free_is_free_for_the_hulls_of_pinocchio(name):
     wrong = np.argwhere(touching & truth.is_must & is_free[:, None])
     assert not len(wrong), f"free, but {truth.names(wrong[0, 1])}"
     assert 0 < is_free.sum() < count
-    alarms = ~is_free & ~touching.any(axis=1)
-    assert alarms.sum() <= 0.07 * count
+    # Links near each other whose crude shapes overlap in most postures (Baxter's cylinders) say nothing about one.
+    is_telling = truth.is_must | (touching.mean(axis=0) < 0.5)
+    is_clear = ~touching[:, is_telling].any(axis=1)
+    assert is_clear.any(), "no posture is free by the truth: it cannot show a false alarm"
+    assert (is_clear & ~is_free).sum() <= 0.07 * count
     is_apart = asked.arms_apart((0, 1), postures)
     assert not np.any(is_apart[:, None] & touching & truth.is_must & truth.is_between_arms)
     alone = [asked.arm_free(arm, base, np.ascontiguousarray(postures[:, columns(robot, arm)])) for arm in (0, 1)]

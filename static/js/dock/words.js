@@ -8,7 +8,7 @@ import { place } from "../messages/names.js";
 
 /** @import { Primitive } from "pleat" */
 
-export const KINDS = { fold: say("kind.fold"), drag: say("kind.drag"), move: say("kind.move") };
+export const KINDS = { fold: say("kind.fold"), drag: say("kind.drag"), arm_drag: say("kind.arm_drag"), move: say("kind.move") };
 export const COLOURS = { blue: say("colour.blue"), red: say("colour.red") };
 export const MOVED = { blue: say("colour.all_layers"), red: say("colour.last_flap") };
 
@@ -35,6 +35,7 @@ export const foldName = (fold, index) => translated(fold?.name ?? "") || say("fo
 export function what(primitive, folds) {
   if (primitive.kind === "fold") return foldName(folds[primitive.fold], primitive.fold);
   if (primitive.kind === "drag") return say("step_words.towards_robot", { length: length(primitive.distance_m) });
+  if (primitive.kind === "arm_drag") return say("step_words.by_arms", { length: length(primitive.distance_m) });
   return say("step_words.from_to", { from: place(primitive.from), to: place(primitive.to) });
 }
 
@@ -44,7 +45,8 @@ export function what(primitive, folds) {
  * @param {{name?: string}[]} folds the garment's
  */
 export function briefly(primitive, folds) {
-  if (primitive.kind === "drag") return say("step_words.drag", { length: length(primitive.distance_m) });
+  if (primitive.kind === "drag" || primitive.kind === "arm_drag")
+    return say("step_words.drag", { length: length(primitive.distance_m) });
   return primitive.kind === "move"
     ? say("step_words.drive_to", { place: place(primitive.to) })
     : what(primitive, folds);
