@@ -83,7 +83,7 @@ def is_same_region(one: Region, other: Region, area_m2: float = 2e-5) -> bool:
 
 
 class WideReach:
-    """A robot whose arms reach every place from every back-off, or from those that a test allows."""
+    """A robot whose arms reach every place from every standoff, or from those that a test allows."""
 
     arm_names = ("left", "right")
     approaches = (Approach(0.0, math.radians(30.0)), Approach(0.0, math.pi / 2))
@@ -93,9 +93,9 @@ class WideReach:
 
     def __init__(self, allowed: Callable[[int, FloatArray, int], bool] | None = None) -> None:
         """Set `allowed`, a function of an arm's index, a point in the base frame at standoff 0, and a standoff."""
-        self._allowed = allowed or (lambda arm, point, back_off: True)
+        self._allowed = allowed or (lambda arm, point, standoff: True)
 
-    def back_offs(
+    def standoffs(
         self,
         arm: int,
         points: FloatArray,

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from planner.explain.reason_miss import Demand, Miss, least_miss, worst_miss
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Shortfall
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.state import State
 
@@ -49,7 +49,7 @@ def explained(context: Context, miss: Miss) -> Miss:
     """Return the miss, with the demand `ALONE` if its point is as far out of reach in every orientation."""
     if miss.demand is not Demand.ONE_ORIENTATION:
         return miss
-    stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.back_offs)
+    stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.standoffs)
     seen = _seen(context, miss.state, miss.trial.tools[miss.grip, miss.waypoint], stands)
     arm, approaches = miss.trial.arms[miss.grip], miss.trial.approaches[miss.grip]
     alone = context.reach.shortfall(arm, seen, approaches, miss.short_by_m, context.patience.is_long_over)
@@ -90,8 +90,8 @@ class _Attempt:
 
     def _in_one_orientation(self, hand: int, waypoints: Sequence[int]) -> Miss | None:
         context, trial = self._context, self._trial
-        begin = np.resize(_bits(self._stands), context.back_offs)
-        stands = [begin if waypoint == 0 else np.arange(context.back_offs) for waypoint in waypoints]
+        begin = np.resize(_bits(self._stands), context.standoffs)
+        stands = [begin if waypoint == 0 else np.arange(context.standoffs) for waypoint in waypoints]
         seen = np.stack(
             [_seen(context, self._state, trial.tools[hand, w], s) for w, s in zip(waypoints, stands, strict=True)]
         )
@@ -101,11 +101,11 @@ class _Attempt:
         if found is None:
             return None
         which, shortfall = found
-        back_off = int(stands[which][shortfall.seen_from])
-        return self._miss(hand, waypoints[which], back_off, shortfall, Demand.ONE_ORIENTATION)
+        standoff = int(stands[which][shortfall.seen_from])
+        return self._miss(hand, waypoints[which], standoff, shortfall, Demand.ONE_ORIENTATION)
 
-    def _miss(self, hand: int, waypoint: int, back_off: int, shortfall: Shortfall, demand: Demand) -> Miss:
-        return Miss(self._state, self._trial, self._stands, hand, waypoint, back_off, shortfall, demand)
+    def _miss(self, hand: int, waypoint: int, standoff: int, shortfall: Shortfall, demand: Demand) -> Miss:
+        return Miss(self._state, self._trial, self._stands, hand, waypoint, standoff, shortfall, demand)
 
     def _masks(self, hand: int) -> NDArray[np.uint32]:
         """Return for each approach and waypoint by itself the standoffs within the comfort radius, shape (k, n)."""
@@ -113,7 +113,7 @@ class _Attempt:
         points = context.in_base(self._state.station, trial.tools[hand])
         arm, approaches = trial.arms[hand], trial.approaches[hand]
         columns = [
-            context.reach.back_offs(arm, point[None], approaches, context.back_offs, BACK_OFF_STEP_M)
+            context.reach.standoffs(arm, point[None], approaches, context.standoffs, STANDOFF_STEP_M)
             for point in points
         ]
         return np.hstack(columns)
@@ -148,10 +148,10 @@ class _Attempt:
             before = after
         return None
 
-    def _lacking(self, hand: int, orientation: int, waypoint: int, back_offs: int, demand: Demand) -> Miss | None:
+    def _lacking(self, hand: int, orientation: int, waypoint: int, standoffs: int, demand: Demand) -> Miss | None:
         """Return what one tool point lacks in one orientation from some standoffs, given as a bit mask."""
         context, trial = self._context, self._trial
-        stands = _bits(back_offs)
+        stands = _bits(standoffs)
         seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
         approach = trial.approaches[hand][orientation : orientation + 1]
         found = context.reach.shortfall(
@@ -190,10 +190,10 @@ def _bits(mask: int) -> list[int]:
     return [bit for bit in range(mask.bit_length()) if mask >> bit & 1]
 
 
-def _seen(context: Context, state: State, tool: FloatArray, back_offs: Sequence[int] | NDArray[np.int64]) -> FloatArray:
+def _seen(context: Context, state: State, tool: FloatArray, standoffs: Sequence[int] | NDArray[np.int64]) -> FloatArray:
     """Transform a tool point from the table frame to the base frame at each of some standoffs, shape (n, 3), m."""
     at_station = context.in_base(state.station, tool[None])
-    return np.asarray(at_station + np.array(back_offs)[:, None] * np.array([BACK_OFF_STEP_M, 0.0, 0.0]))
+    return np.asarray(at_station + np.array(standoffs)[:, None] * np.array([STANDOFF_STEP_M, 0.0, 0.0]))
 
 
 def _spread(seed: int, mask: int) -> int:

@@ -109,7 +109,7 @@ def _next_folds(context: Context, state: State) -> tuple[int, ...]:
 def _is_next(context: Context, state: State, fold: int) -> bool:
     if geometric_obstacle(context, state, fold) is not None:
         return False
-    stands = 1 << state.back_off if state.held else None
+    stands = 1 << state.standoff if state.held else None
     return any(
         can_follow(context, at.station, trial, stands)
         for at in from_every_station(context, state)

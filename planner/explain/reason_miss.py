@@ -28,7 +28,7 @@ class Miss:
         stands: the standoffs at which the base may be when it begins, as a bit mask.
         grip: the index of the grip.
         waypoint: the index of the waypoint in the trial.
-        back_off: the standoff from which the point is least out of reach.
+        standoff: the standoff from which the point is least out of reach.
         shortfall: by how much, and why.
         demand: what the point must satisfy.
     """
@@ -38,7 +38,7 @@ class Miss:
     stands: int
     grip: int
     waypoint: int
-    back_off: int
+    standoff: int
     shortfall: Shortfall
     demand: Demand
 

@@ -12,7 +12,7 @@ from planner.explain.reason_miss import Miss
 from planner.explain.reason_remedy import FURTHEST_M, remedy
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.primitives.context import BACK_OFFS_PER_M, Context
+from planner.primitives.context import STANDOFFS_PER_M, Context
 from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 from planner.words.catalogue import worded
@@ -39,7 +39,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         "comfort_m": found.comfort_m,
         "wanted_comfort_m": context.reach.comfort_m,
         "station": station or None,
-        "back_off_m": miss.back_off / BACK_OFFS_PER_M,
+        "back_off_m": miss.standoff / STANDOFFS_PER_M,
         **dragged(miss.state),
         "shift_m": None,
         "shift_towards": None,
@@ -60,7 +60,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         towards=_turned(pose, found.towards),
         arm=arm,
         station=station or None,
-        back_off_m=miss.back_off / BACK_OFFS_PER_M,
+        back_off_m=miss.standoff / STANDOFFS_PER_M,
         approach=context.reach.approaches[found.approach],
         offset_m=miss.state.offset,
         shift_m=None if needed is None else needed.distance_m,

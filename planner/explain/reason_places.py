@@ -35,7 +35,7 @@ class Places:
     def __init__(self, context: Context, reached: Collection[Situation]) -> None:
         """Prepare the decision from the situations that the search reached."""
         self._context = context
-        self._everywhere = (1 << context.back_offs) - 1
+        self._everywhere = (1 << context.standoffs) - 1
         self._drags = GDrag(context)
         counts = np.arange(1, longest_drag(context) + 1)[:, None]
         self._shifts = tuple(
@@ -47,9 +47,9 @@ class Places:
         self._led_to: dict[tuple[int, int, _Place, int], tuple[State, ...]] = {}
         self._taken: dict[tuple[int, int], frozenset[tuple[_Place, ...]]] = {}
         self._reached: dict[tuple[object, ...], dict[_Place, int]] = {}
-        for done, x, y, held, is_dragged, back_off in reached:
+        for done, x, y, held, is_dragged, standoff in reached:
             at = self._reached.setdefault((done, held, is_dragged), {})
-            at[(x, y)] = at.get((x, y), 0) | (1 << back_off if held else self._everywhere)
+            at[(x, y)] = at.get((x, y), 0) | (1 << standoff if held else self._everywhere)
 
     def worth_trying(self, attempt: Attempt) -> NDArray[np.int64]:
         """Return the indices of an attempt's places that may have `stands`; a quick first check."""
@@ -125,7 +125,7 @@ class Places:
             drags = self._drags.by(State(state.done, before, station, 0), count)
             self._led_to[key] = tuple(step.after for step in drags)
         held = tuple(h.key for h in state.held)
-        ends = {after.back_off for after in self._led_to[key] if tuple(h.key for h in after.held) == held}
+        ends = {after.standoff for after in self._led_to[key] if tuple(h.key for h in after.held) == held}
         return sum(1 << end for end in ends)
 
 

@@ -16,7 +16,7 @@ from planner.explain.reason_miss import Miss
 from planner.explain.reason_places import Places
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import away_from_shoulders
@@ -77,7 +77,7 @@ def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Pl
             break
         state = candidate.state
         is_to_be_sure = bool(state.held) or number >= _UNSURE_MAX
-        stands = places.stands(state) if is_to_be_sure else (1 << context.back_offs) - 1
+        stands = places.stands(state) if is_to_be_sure else (1 << context.standoffs) - 1
         if stands and geometric_obstacle(context, state, fold) is None:
             examined += 1
             miss = _miss(context, candidate.attempt, state, stands, at_most_m)
@@ -92,7 +92,7 @@ def miss_in(context: Context, state: State, fold: int) -> Miss | None:
     for at in from_every_station(context, state):
         for trial in fold_trials(context, at, fold):
             at_most_m = math.inf if best is None else best.short_by_m
-            stands = 1 << at.back_off if at.held else (1 << context.back_offs) - 1
+            stands = 1 << at.standoff if at.held else (1 << context.standoffs) - 1
             miss = miss_of(context, at, trial, stands, at_most_m)
             if miss is None:
                 return None
@@ -104,7 +104,7 @@ def miss_in(context: Context, state: State, fold: int) -> Miss | None:
 def from_every_station(context: Context, state: State) -> Iterator[State]:
     """Yield a state with the base at each station, or at its own station where something is held."""
     for station in (state.station,) if state.held else range(len(context.scene.stations)):
-        yield State(state.done, state.offset, station, state.back_off, state.held, state.dragged)
+        yield State(state.done, state.offset, station, state.standoff, state.held, state.dragged)
 
 
 def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int) -> Iterator[_Candidate]:
@@ -119,7 +119,7 @@ def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int
     bounds = np.zeros(len(worthy))
     for arm, ways, approaches in zip(attempt.arms, tools, attempt.approaches, strict=True):
         in_base = context.in_base(station, ways.transpose(1, 0, 2))
-        found = context.reach.at_least_short(arm, in_base, approaches, context.back_offs, BACK_OFF_STEP_M)
+        found = context.reach.at_least_short(arm, in_base, approaches, context.standoffs, STANDOFF_STEP_M)
         bounds = np.maximum(bounds, found)
     for place, bound in zip(worthy, bounds, strict=True):
         yield _Candidate(attempt, int(place), float(bound))

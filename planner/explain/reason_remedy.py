@@ -13,7 +13,7 @@ import numpy as np
 
 from planner.explain.reason_miss import Miss
 from planner.geometry.pose import FloatArray, Point3
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_way import can_follow
 
 FURTHEST_M = 0.2
@@ -102,7 +102,7 @@ class _Shifted:
         return max(
             float(
                 context.reach.at_least_short(
-                    arm, self._seen(hand, shift)[None], approaches, context.back_offs, BACK_OFF_STEP_M
+                    arm, self._seen(hand, shift)[None], approaches, context.standoffs, STANDOFF_STEP_M
                 )[0]
             )
             for hand, (arm, approaches) in enumerate(zip(trial.arms, trial.approaches, strict=True))

@@ -10,7 +10,7 @@ from planner.task.scene import STATIONS_MAX, Scene
 from planner.task.task import Task
 from planner.words.catalogue import worded
 
-STAND_OFF_M = 0.15
+BESIDE_TABLE_M = 0.15
 """Distance of the base's centre outside the table's edge (m)."""
 
 _SAME_M = 0.05
@@ -45,7 +45,7 @@ def _others(scene: Scene) -> Iterator[tuple[str, Pose2]]:
 
 
 def _on_the_sides(scene: Scene) -> Iterator[tuple[str, Pose2]]:
-    x, y = scene.table.depth_m / 2 + STAND_OFF_M, scene.table.width_m / 2 + STAND_OFF_M
+    x, y = scene.table.depth_m / 2 + BESIDE_TABLE_M, scene.table.width_m / 2 + BESIDE_TABLE_M
     yield "far", Pose2(x, 0.0, math.pi)
     yield "middle_left", Pose2(0.0, y, -math.pi / 2)
     yield "middle_right", Pose2(0.0, -y, math.pi / 2)

@@ -1,4 +1,4 @@
-"""How a base may drive to and fro while hands follow their paths: the types of a reach query and of its answer."""
+"""The types of a reach query for a base that drives while hands follow their paths, and of its answer."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias

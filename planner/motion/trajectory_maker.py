@@ -76,7 +76,7 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
 def _standing(context: Context) -> Phase:
     """Return a phase of no length in which nothing moves: all that a plan without steps shows."""
     state = context.start
-    base, placement = context.base_pose(state.station, state.back_off), context.placed(state.offset)
+    base, placement = context.base_pose(state.station, state.standoff), context.placed(state.offset)
     still = ClothMotion(state.done, placement, placement, TableTop.of(context.scene.table))
     return Phase(0.0, (base, base), (None,) * len(context.reach.arm_names), still)
 

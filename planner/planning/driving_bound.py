@@ -76,13 +76,13 @@ class DrivingBound:
         if number is None:
             return 0.0
         least = self._left(state.done)
-        if state.back_off == ANYWHERE:
+        if state.standoff == ANYWHERE:
             return float(least[FREE, number].min())
         if not state.is_dragged:
-            return float(least[FREE, number, state.back_off])
+            return float(least[FREE, number, state.standoff])
         if self._service.is_possible(state.offset, state.station):
-            return float(least[HELD, number, state.back_off])
-        return float(least[FREE, number, state.back_off]) + self._context.scene.arm_motion_s
+            return float(least[HELD, number, state.standoff])
+        return float(least[FREE, number, state.standoff]) + self._context.scene.arm_motion_s
 
     def _left(self, done: int) -> FloatArray:
         """Return the bound for the folds left, shape (2, sites, standoffs), s."""
@@ -118,7 +118,7 @@ class DrivingBound:
             steps = np.array([of_site for _, of_site in found]).swapaxes(0, 1)
             self._is_served = self._served(within)
             alone = self._each_alone(self._map.sites(within, is_service_over=False), steps)
-            needed_s = float(alone[:, FREE, 0, self._start.back_off].max())
+            needed_s = float(alone[:, FREE, 0, self._start.standoff].max())
             is_enough = needed_s < horizon_s - _BEYOND_S or are_all or len(within) >= _SITES_MAX
             if is_enough or self._is_over():
                 return self._without_the_impossible(within, steps, alone)
@@ -128,7 +128,7 @@ class DrivingBound:
         self, within: tuple[Site, ...], steps: NDArray[np.int64], alone: FloatArray
     ) -> tuple[tuple[Site, ...], NDArray[np.int64], FloatArray]:
         """Drop the folds that cannot be done from anywhere; finding out why is left to the search."""
-        is_possible = np.isfinite(alone[:, FREE, 0, self._start.back_off])
+        is_possible = np.isfinite(alone[:, FREE, 0, self._start.standoff])
         self._folds = [fold for fold, is_kept in zip(self._folds, is_possible, strict=True) if is_kept]
         self._is_served = self._is_served[is_possible]
         return within, steps[is_possible], alone[is_possible]
@@ -152,7 +152,7 @@ class DrivingBound:
     def _far_apart(self) -> list[int]:
         """Choose the folds that together need the most time from the start, greedily adding the fold that adds most."""
         sites = self._map.sites(self._within, is_service_over=False)
-        start = self._start.back_off
+        start = self._start.standoff
         chosen: list[int] = []
         needed_s = 0.0
         kinds = {self._steps[n].tobytes(): n for n in reversed(range(len(self._folds)))}

@@ -66,9 +66,9 @@ class Edges:
         """
         left = self._left.setdefault((state.done, state.place, state.station), [])
         drive_s = self._context.drive_s
-        if any(before_s + drive_s(abs(back_off - state.back_off)) <= cost_s + TIME_S for back_off, before_s in left):
+        if any(before_s + drive_s(abs(standoff - state.standoff)) <= cost_s + TIME_S for standoff, before_s in left):
             return True
-        left.append((state.back_off, cost_s))
+        left.append((state.standoff, cost_s))
         return False
 
     def _of(self, state: State, found: Iterable[Step | Deferred[Step]]) -> Successors[State, Step]:

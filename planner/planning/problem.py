@@ -12,7 +12,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_planner import TransferPlanner
-from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
 from planner.primitives.reach import Reach
 from planner.primitives.state import Held, State
 from planner.primitives.unlimited_reach import UnlimitedReach
@@ -66,7 +66,7 @@ class Problem:
             world.done,
             (there.x_m - here.x_m, there.y_m - here.y_m),
             names.index(station),
-            0 if is_fixed else nearest_whole(world.base.back_off_m * BACK_OFFS_PER_M),
+            0 if is_fixed else nearest_whole(world.base.back_off_m * STANDOFFS_PER_M),
             _held(world, self.robot),
             nearest_whole(world.dragged_m * DRAGS_PER_M),
         )
@@ -160,14 +160,14 @@ def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[S
     """
     start, scene = task.start, task.scene
     _require_folds_in_order(start, sequence)
-    station, back_off = _stand(task)
+    station, standoff = _stand(task)
     if machine.card.is_fixed:
-        scene, station, back_off = replace(scene, stations=(("", start.base.pose),), back_off_max_m=0.0), 0, 0
+        scene, station, standoff = replace(scene, stations=(("", start.base.pose),), back_off_max_m=0.0), 0, 0
     elif station is None:
         scene = replace(scene, stations=(*scene.stations, ("", start.base.pose)))
         station = len(scene.stations) - 1
     dragged = nearest_whole(start.dragged_m * DRAGS_PER_M)
-    return scene, State(start.done, (0.0, 0.0), station, back_off, _held(start, machine), dragged)
+    return scene, State(start.done, (0.0, 0.0), station, standoff, _held(start, machine), dragged)
 
 
 def _as_given(scene: Scene, given: Scene) -> Scene:
@@ -182,12 +182,12 @@ def _as_given(scene: Scene, given: Scene) -> Scene:
 def _stand(task: Task) -> tuple[int | None, int]:
     """Return the base's station and standoff on its grid; the station is None where the base stands elsewhere."""
     base, scene = task.start.base, task.scene
-    back_off = nearest_whole(base.back_off_m * BACK_OFFS_PER_M)
+    standoff = nearest_whole(base.back_off_m * STANDOFFS_PER_M)
     for number, (name, pose) in enumerate(scene.stations):
-        at = pose.ahead(-back_off / BACK_OFFS_PER_M)
+        at = pose.ahead(-standoff / STANDOFFS_PER_M)
         is_there = max(abs(at.x_m - base.x_m), abs(at.y_m - base.y_m)) <= LENGTH_M
-        if name == base.station and is_there and back_off / BACK_OFFS_PER_M <= scene.back_off_max_m + LENGTH_M:
-            return number, back_off
+        if name == base.station and is_there and standoff / STANDOFFS_PER_M <= scene.back_off_max_m + LENGTH_M:
+            return number, standoff
     return None, 0
 
 

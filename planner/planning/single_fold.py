@@ -22,7 +22,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.planning.single_fold_cases import Case, Cases
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_offsets import drag_offsets
 from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
@@ -203,17 +203,17 @@ class SingleFold:
         """
         context = self._context
         points = context.in_base(station, tools)
-        steps = np.floor(points[:, 0] / BACK_OFF_STEP_M + LENGTH_M)
-        phases = np.column_stack([points[:, 0] - steps * BACK_OFF_STEP_M, points[:, 1:]])
+        steps = np.floor(points[:, 0] / STANDOFF_STEP_M + LENGTH_M)
+        phases = np.column_stack([points[:, 0] - steps * STANDOFF_STEP_M, points[:, 1:]])
         _, first, group = np.unique(np.round(phases / LENGTH_M), axis=0, return_index=True, return_inverse=True)
-        lowest, highest = int(steps.min()), int(steps.max()) + context.back_offs
+        lowest, highest = int(steps.min()), int(steps.max()) + context.standoffs
         found = np.zeros((len(approaches), len(first)), dtype=bool)
         for start in range(lowest, highest, _BITS):
             if self._has_to_stop():
                 break
-            lines = phases[first] + np.array([start * BACK_OFF_STEP_M, 0.0, 0.0])
+            lines = phases[first] + np.array([start * STANDOFF_STEP_M, 0.0, 0.0])
             count = min(_BITS, highest - start)
-            found |= context.reach.from_anywhere(arm, lines, approaches, count, BACK_OFF_STEP_M)
+            found |= context.reach.from_anywhere(arm, lines, approaches, count, STANDOFF_STEP_M)
         return found[:, group.ravel()]
 
     def _can_follow(self, state: State, fold: int, trial: FoldTrial) -> bool:

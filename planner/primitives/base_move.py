@@ -126,7 +126,7 @@ class BaseMove:
 
     def _later(self, state: State, station: int) -> Deferred[MoveStep]:
         """Return a deferred move whose lower bound ignores all obstacles: the straight drive and the turn."""
-        scene, start = self._context.scene, self._context.base_pose(state.station, state.back_off)
+        scene, start = self._context.scene, self._context.base_pose(state.station, state.standoff)
         goal = self._context.station_pose(station)
         drive_s = math.dist(place_of(start), place_of(goal)) / scene.base_speed_m_s
         turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
@@ -139,10 +139,10 @@ class BaseMove:
         return (MoveStep(self._context, self._route(state, station), state, after),)
 
     def _route(self, state: State, station: int) -> Route:
-        key = (state.station, state.back_off, station)
+        key = (state.station, state.standoff, station)
         if key not in self._routes:
             context = self._context
-            start = context.base_pose(state.station, state.back_off)
+            start = context.base_pose(state.station, state.standoff)
             out = clear_of_table(start, context.scene.table, context.circle_m)
             goal = context.station_pose(station)
             outside = clear_of_table(goal, context.scene.table, context.circle_m)

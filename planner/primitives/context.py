@@ -1,6 +1,6 @@
 """The planning context: what all primitives of one task share.
 
-It holds the garment's folds, the scene, the robot's reach and the article's placement. The *standoff* (`back_off` in
+It holds the garment's folds, the scene, the robot's reach and the article's placement. The *standoff* (`standoff` in
 names) is how far the base stands back from its station; the search knows it in steps of a grid.
 """
 
@@ -28,10 +28,10 @@ T = TypeVar("T")
 GRIPS_APART_M = 0.10
 """The default smallest distance between two grips (m)."""
 
-BACK_OFFS_PER_M = 20
+STANDOFFS_PER_M = 20
 """The resolution of the grid of standoffs: one every 5 cm (1/m)."""
 
-BACK_OFF_STEP_M = 1 / BACK_OFFS_PER_M
+STANDOFF_STEP_M = 1 / STANDOFFS_PER_M
 """The distance between neighbouring standoffs (m)."""
 
 DRAGS_PER_M = 10
@@ -116,9 +116,9 @@ class Context:
         return (id(self.sequence), self.placement, scene.table, scene.friction, scene.support_angle_rad)
 
     @cached_property
-    def back_offs(self) -> int:
+    def standoffs(self) -> int:
         """The number of standoffs on the grid."""
-        return math.floor(self.scene.back_off_max_m * BACK_OFFS_PER_M + LENGTH_M) + 1
+        return math.floor(self.scene.back_off_max_m * STANDOFFS_PER_M + LENGTH_M) + 1
 
     def placed(self, offset: Point2) -> Pose2:
         """Return the article's placement after drags by `offset`."""
@@ -128,18 +128,18 @@ class Context:
         """Return a station's base pose, table frame."""
         return self.scene.stations[station][1]
 
-    def base_pose(self, station: int, back_off: int) -> Pose2:
+    def base_pose(self, station: int, standoff: int) -> Pose2:
         """Return the base's pose at a station and a standoff (grid steps), table frame."""
-        return self.station_pose(station).ahead(-back_off / BACK_OFFS_PER_M)
+        return self.station_pose(station).ahead(-standoff / STANDOFFS_PER_M)
 
     def base_stop(self, state: State) -> BaseStop:
         """Return where the base stands in a state; the stop of an unnamed station has no name."""
         name, pose = self.scene.stations[state.station]
-        return BaseStop.at(name or None, pose, state.back_off / BACK_OFFS_PER_M)
+        return BaseStop.at(name or None, pose, state.standoff / STANDOFFS_PER_M)
 
     def drive_s(self, steps: float) -> float:
         """Return the time to drive a number of steps of the grid of standoffs (s)."""
-        return steps / BACK_OFFS_PER_M / self.scene.base_speed_m_s
+        return steps / STANDOFFS_PER_M / self.scene.base_speed_m_s
 
     def in_base(self, station: int, points: FloatArray) -> FloatArray:
         """Return tool points of the table frame, shape (n, 3), in the base frame at standoff 0 (m)."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3
 from planner.geometry.table_top import TableTop
-from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
 from planner.primitives.drag_way import DragWay, DragWays, hands_at
 from planner.primitives.grasping import by_nearness, holdings
@@ -45,18 +45,18 @@ class DragStep:
     @property
     def distance_m(self) -> float:
         """The distance over which the article is dragged (m)."""
-        return (self.after.back_off - self.first_stand) / BACK_OFFS_PER_M
+        return (self.after.standoff - self.first_stand) / STANDOFFS_PER_M
 
     @property
     def duration_s(self) -> float:
         """The time to drive, reach and drag (s)."""
-        steps = abs(self.before.back_off - self.first_stand)
+        steps = abs(self.before.standoff - self.first_stand)
         return self.context.scene.arm_motion_s + self.context.drive_s(steps) + self.dragging_s
 
     @property
     def dragging_s(self) -> float:
         """The time from the grips to where the cloth is let go (s)."""
-        return self.context.drive_s(self.after.back_off - self.first_stand)
+        return self.context.drive_s(self.after.standoff - self.first_stand)
 
     @property
     def towards(self) -> Point2:
@@ -97,14 +97,14 @@ class DragStep:
         context = self.context
         begin, stand, end = (
             context.base_pose(self.before.station, b)
-            for b in (self.before.back_off, self.first_stand, self.after.back_off)
+            for b in (self.before.standoff, self.first_stand, self.after.standoff)
         )
         start, goal = context.placed(self.before.offset), context.placed(self.after.offset)
         top = TableTop.of(context.scene.table)
         still = ClothMotion(self.before.done, start, start, top)
         carried = ClothMotion(self.before.done, start, goal, top.open_towards(self._ends()[:, :2]))
         free: tuple[Hand | None, ...] = (None,) * len(context.reach.arm_names)
-        drive = context.drive_s(abs(self.before.back_off - self.first_stand))
+        drive = context.drive_s(abs(self.before.standoff - self.first_stand))
         return (
             Phase(drive, (begin, stand), free, still),
             Phase(context.scene.arm_motion_s, (stand, stand), self._hands(is_reaching=True), still),
@@ -137,7 +137,7 @@ class DragStep:
     @cached_property
     def situation(self) -> tuple[object, ...]:
         """The key it shares with drags in which the hands move alike and the base stands elsewhere."""
-        length = self.after.back_off - self.first_stand
+        length = self.after.standoff - self.first_stand
         return (self.kind, length, bool(self.after.held), self.before.station, self.before.place, self.way.hands)
 
     @property
@@ -155,10 +155,10 @@ class DragStep:
         For each standoff several choices of approaches follow one another, the best first, because the arms cannot
         always carry out the preferred one.
         """
-        length = self.after.back_off - self.first_stand
-        stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.context.back_offs]
+        length = self.after.standoff - self.first_stand
+        stands = [s for s in self.way.stands if s != self.first_stand and s + length < self.context.standoffs]
         for stand in stands[:: max(1, len(stands) // count)]:
-            after = replace(self.after, back_off=stand + length)
+            after = replace(self.after, standoff=stand + length)
             there = replace(self, after=after, first_stand=stand, approaches=None)
             yield from islice(there.variants(), max(1, count // len(stands)))
 
@@ -167,15 +167,15 @@ class DragStep:
 
         Drags from other standoffs follow, the nearest first; then drags by other hands.
         """
-        steps = self.after.back_off - self.first_stand
-        count = steps * DRAGS_PER_M // BACK_OFFS_PER_M
+        steps = self.after.standoff - self.first_stand
+        count = steps * DRAGS_PER_M // STANDOFFS_PER_M
         offset = dragged(context, state.offset, state.station, count)
         if context.unrest(state.done, offset) is not None:
             return
         for way in by_nearness(self.way, context.kept(DragWays).of(state)):
             held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()
             for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):
-                if stand + steps < context.back_offs:
+                if stand + steps < context.standoffs:
                     after = State(state.done, offset, state.station, stand + steps, held, count if held else 0)
                     yield from self._turned_alike(DragStep(context, way, state, after, stand))
 

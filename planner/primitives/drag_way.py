@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_key, nearest_pair_m
 from planner.primitives.state import State
@@ -107,7 +107,7 @@ class DragWays:
         self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, move: Point2
     ) -> DragWay:
         context = self._context
-        chosen = np.full((context.back_offs, len(cover)), -1, dtype=np.int64)
+        chosen = np.full((context.standoffs, len(cover)), -1, dtype=np.int64)
         for i, (grip, arm) in enumerate(zip(cover, arms, strict=True)):
             allowed, is_able = hands_at(context, state, grip, arm, picks[i], move)
             chosen[:, i] = np.where(is_able.any(axis=0), allowed[is_able.argmax(axis=0)], -1)
@@ -131,7 +131,7 @@ def hands_at(
     allowed = approaches_from_outside(context, state.done, turn, grip, arm)
     shares = np.linspace(0.0, 1.0, math.ceil(math.hypot(*move) / _WAYPOINT_M) + 1)
     points = context.in_base(state.station, pick + shares[:, None] * np.array([*move, 0.0]))
-    masks = context.reach.back_offs(arm, points, allowed, context.back_offs, BACK_OFF_STEP_M)
+    masks = context.reach.standoffs(arm, points, allowed, context.standoffs, STANDOFF_STEP_M)
     everywhere = np.bitwise_and.reduce(masks, axis=1)
-    is_able = (everywhere[:, None] >> np.arange(context.back_offs, dtype=np.uint32) & 1).astype(bool)
+    is_able = (everywhere[:, None] >> np.arange(context.standoffs, dtype=np.uint32) & 1).astype(bool)
     return allowed, is_able

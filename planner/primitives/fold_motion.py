@@ -75,8 +75,8 @@ class FoldMotion:
 
     def _begin(self, points: "list[_Points]") -> tuple[Phase, ...]:
         still = self._cloth(0.0, 0.0)
-        start, stand = self._base(self.before.back_off), self._base(self.first_stand)
-        drive = self.context.drive_s(abs(self.before.back_off - self.first_stand))
+        start, stand = self._base(self.before.standoff), self._base(self.first_stand)
+        drive = self.context.drive_s(abs(self.before.standoff - self.first_stand))
         free: tuple[Hand | None, ...] = (None,) * len(self.context.reach.arm_names)
         return (
             Phase(drive, (start, stand), free, still),
@@ -86,7 +86,7 @@ class FoldMotion:
     def _pieces(self) -> Iterator[_Piece]:
         """Yield the pieces of even motion, split at the apex and where the base drives, and the base's drives."""
         strip = self.way.strip(self.context, self.before.station)
-        stands = legs(strip, self.first_stand, self.end, self.context.back_offs)
+        stands = legs(strip, self.first_stand, self.end, self.context.standoffs)
         at, sweep = self.first_stand, 0.0
         for waypoint, stand in zip(self.way.trial.sweeps.tolist(), stands, strict=True):
             if stand != at or abs(waypoint - 1.0) <= ANGLE_RAD:
@@ -141,8 +141,8 @@ class FoldMotion:
     def _approach(self, grip: int) -> Approach:
         return self.context.reach.approaches[self.way.approaches[grip]]
 
-    def _base(self, back_off: int) -> Pose2:
-        return self.context.base_pose(self.before.station, back_off)
+    def _base(self, standoff: int) -> Pose2:
+        return self.context.base_pose(self.before.station, standoff)
 
     def _cloth(self, start: float, end: float) -> ClothMotion:
         placement = self.context.placed(self.before.offset)

@@ -24,13 +24,13 @@ class End:
     """A standoff at which the base may stand after a fold.
 
     Attributes:
-        back_off: the standoff.
+        standoff: in grid steps (see `State`).
         steps: the least steps of driving in all.
         first: the standoff of the base when the hands begin, for that many steps.
         way: the way to fold with that many steps.
     """
 
-    back_off: int
+    standoff: int
     steps: int
     first: int
     way: FoldWay
@@ -45,7 +45,7 @@ class FoldQuestion:
         self._state = state
         self._trials = tuple(self._search(fold))
         self._hands = tuple(trial.following(context, state.station) for trial in self._trials)
-        self._least = np.zeros(context.back_offs, dtype=np.int64)
+        self._least = np.zeros(context.standoffs, dtype=np.int64)
         self._is_noted = False
 
     def _search(self, fold: int) -> Iterator[FoldTrial]:
@@ -107,7 +107,7 @@ class FoldQuestion:
 
 def _beats(one: End, other: End, is_before: bool) -> bool:
     """Return whether one end makes another useless: driving on from it is as cheap."""
-    away = abs(one.back_off - other.back_off)
+    away = abs(one.standoff - other.standoff)
     return one is not other and one.steps + away <= other.steps and (away > 0 or one.steps < other.steps or is_before)
 
 
@@ -117,7 +117,7 @@ class FoldQuestions:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._kept: dict[tuple[object, ...], FoldQuestion] = {}
-        places = np.arange(context.back_offs)
+        places = np.arange(context.standoffs)
         away = np.abs(places[:, None] - places)
         self._driven = {False: away, True: np.where(away > 0, IMPOSSIBLE, 0)}
 
@@ -134,5 +134,5 @@ class FoldQuestions:
 
         While the hands hold cloth, the base cannot drive first.
         """
-        steps: NDArray[np.int64] = self._driven[bool(state.held)][state.back_off]
+        steps: NDArray[np.int64] = self._driven[bool(state.held)][state.standoff]
         return steps

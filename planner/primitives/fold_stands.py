@@ -29,7 +29,7 @@ class FoldStands:
         """Start without results; they are computed on request."""
         self._context = context
         self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
-        self._places = np.arange(context.back_offs)
+        self._places = np.arange(context.standoffs)
         self._surroundings = context.kept(Surroundings)
 
     def least(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
@@ -51,7 +51,7 @@ class FoldStands:
     def _search(self, fold: int, offset: Point2, station: int) -> NDArray[np.int64]:
         context = self._context
         state = State((1 << fold) - 1, offset, station, 0)
-        driven = np.full(context.back_offs, IMPOSSIBLE)
+        driven = np.full(context.standoffs, IMPOSSIBLE)
         if is_line_on_table(context, fold, offset) and grips_obstacle(context, state, fold) is None:
             for trial in fold_trials(context, state, fold):
                 np.minimum(driven, self._driven(trial, station), out=driven)
@@ -69,5 +69,5 @@ class FoldStands:
             for grip, arm, allowed in zip(trial.cover, trial.arms, trial.approaches, strict=True)
         )
         back = replace(trial, tools=trial.tools[:, ::-1], approaches=approaches)
-        anywhere = np.zeros(context.back_offs, dtype=np.int64)
+        anywhere = np.zeros(context.standoffs, dtype=np.int64)
         return np.asarray(back.following(context, station).least_driving(anywhere, wanted="every").steps)

@@ -48,7 +48,7 @@ class FoldStep:
     @property
     def duration_s(self) -> float:
         """The time of the arm motions and of all the base's legs (s)."""
-        steps = self.driven + abs(self.before.back_off - self.first_stand)
+        steps = self.driven + abs(self.before.standoff - self.first_stand)
         motions = 2 if self.before.held else 3
         return motions * self.context.scene.arm_motion_s + self.context.drive_s(steps)
 
@@ -88,16 +88,16 @@ class FoldStep:
 
     @property
     def _motion(self) -> FoldMotion:
-        return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.back_off)
+        return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.standoff)
 
     def variants(self) -> Iterator["FoldStep"]:
         """Yield this step, then every other way between the same states, the quickest first."""
         yield self
-        fold, end = self.way.trial.fold, self.after.back_off
+        fold, end = self.way.trial.fold, self.after.standoff
         for variant in fold_variants(self.context, self.before, fold, end):
             if variant.first == self.first_stand and variant.way.is_like(self.way):
                 continue
-            driven = variant.steps - abs(variant.first - self.before.back_off)
+            driven = variant.steps - abs(variant.first - self.before.standoff)
             yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 
     @cached_property
@@ -121,8 +121,8 @@ class FoldStep:
 
     def begun_in(self, state: State) -> "FoldStep":
         """Return the fold begun in another state of the same situation."""
-        steps = self.driven + abs(self.first_stand - state.back_off)
-        return fold_step(self.context, self.way, state, self.first_stand, self.after.back_off, steps)
+        steps = self.driven + abs(self.first_stand - state.standoff)
+        return fold_step(self.context, self.way, state, self.first_stand, self.after.standoff, steps)
 
     def elsewhere(self, count: int) -> Iterator["FoldStep"]:
         """Yield up to `count` other ways to do the same fold in the same state, at any standoffs."""
@@ -140,15 +140,15 @@ class FoldStep:
         is_red_from_drag = is_next and state.is_dragged and context.sequence.folds[old.fold].is_red
         if not is_next or is_red_from_drag or geometric_obstacle(context, state, old.fold) is not None:
             return
-        first, end = state.back_off if state.held else self.first_stand, self.after.back_off
-        is_on_grid = max(first, end) < context.back_offs
+        first, end = state.standoff if state.held else self.first_stand, self.after.standoff
+        is_on_grid = max(first, end) < context.standoffs
         orientation = dict(zip(old.arms, self.way.approaches, strict=True))
         for trial in by_nearness(old, fold_trials(context, state, old.fold)):
             same = FoldWay(trial, tuple(orientation.get(arm, -1) for arm in trial.arms))
             if is_on_grid and all(a in allowed for a, allowed in zip(same.approaches, trial.approaches, strict=True)):
-                driven = int(travel(same.strip(context, state.station)[None], context.back_offs)[0, first, end])
+                driven = int(travel(same.strip(context, state.station)[None], context.standoffs)[0, first, end])
                 if driven < IMPOSSIBLE:
-                    yield fold_step(context, same, state, first, end, driven + abs(first - state.back_off))
+                    yield fold_step(context, same, state, first, end, driven + abs(first - state.standoff))
             for v in _variants_like(context, state, trial, orientation, end):
                 yield fold_step(context, v.way, state, v.first, v.end, v.steps)
 
@@ -177,7 +177,7 @@ def fold_step(context: Context, way: FoldWay, state: State, first: int, end: int
             Held(arm, over.apply_point(grip)) for arm, grip in sorted(zip(way.trial.arms, way.trial.cover, strict=True))
         )
     after = State(state.done | 1 << fold, state.offset, state.station, end, held)
-    return FoldStep(context, way, state, after, first, steps - abs(first - state.back_off))
+    return FoldStep(context, way, state, after, first, steps - abs(first - state.standoff))
 
 
 def _variants_like(

@@ -13,7 +13,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_obstacles import Depths
 from planner.primitives.grasping import (
     all_approaches,
@@ -85,7 +85,7 @@ class FoldTrial:
 
     def following(self, context: Context, station: int) -> Following:
         """Return the query about hands that follow the tool paths from a station."""
-        return context.reach.following(self.arms, self.in_base(context, station), self.approaches, BACK_OFF_STEP_M)
+        return context.reach.following(self.arms, self.in_base(context, station), self.approaches, STANDOFF_STEP_M)
 
 
 def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import BoolArray
 from planner.primitives.base_legs import travel
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
@@ -88,13 +88,13 @@ def trial_variants(
     masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
     masks, chosen, ranks = np.ascontiguousarray(masks[::every]), chosen[::every], ranks[::every]
-    steps = np.where(_allowed(context, state, end), travel(masks, context.back_offs), IMPOSSIBLE)
-    begin = np.abs(np.arange(context.back_offs) - state.back_off)
+    steps = np.where(_allowed(context, state, end), travel(masks, context.standoffs), IMPOSSIBLE)
+    begin = np.abs(np.arange(context.standoffs) - state.standoff)
     total = steps if end is None else np.minimum(steps + begin[:, None], IMPOSSIBLE)
-    total = total.reshape(len(steps), context.back_offs**2)
+    total = total.reshape(len(steps), context.standoffs**2)
     least = total.argmin(axis=1)
     for number in np.flatnonzero(total.min(axis=1) < IMPOSSIBLE):
-        first, last = divmod(int(least[number]), context.back_offs)
+        first, last = divmod(int(least[number]), context.standoffs)
         way = FoldWay(trial, tuple(int(approach) for approach in chosen[number]))
         driven = int(steps[number, first, last])
         yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
@@ -102,9 +102,9 @@ def trial_variants(
 
 def _allowed(context: Context, state: State, end: int | None) -> BoolArray:
     """Return at which standoffs a path may be begun and ended, shape (standoffs, standoffs)."""
-    every = np.arange(context.back_offs)
-    is_first = every == state.back_off if state.held else np.ones(context.back_offs, dtype=bool)
-    is_last = every == end if end is not None else np.ones(context.back_offs, dtype=bool)
+    every = np.arange(context.standoffs)
+    is_first = every == state.standoff if state.held else np.ones(context.standoffs, dtype=bool)
+    is_last = every == end if end is not None else np.ones(context.standoffs, dtype=bool)
     return np.asarray(is_first[:, None] & is_last)
 
 
@@ -117,11 +117,11 @@ def _all_strips(
         Bit masks of standoffs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); and
             ranks, how far from natural each combination is.
     """
-    start = state.back_off if state.held else None
+    start = state.standoff if state.held else None
     masks, numbers = [], []
     for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
         points = context.in_base(state.station, tools)
-        found = context.reach.back_offs(arm, points, allowed, context.back_offs, BACK_OFF_STEP_M, start=start)
+        found = context.reach.standoffs(arm, points, allowed, context.standoffs, STANDOFF_STEP_M, start=start)
         able = np.flatnonzero(found.all(axis=1))
         masks.append(found[able])
         numbers.append(able)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import FloatArray
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State
@@ -36,7 +36,7 @@ class FoldWay:
         """Return the standoffs that keep every hand within the comfort radius, as bit masks, shape (waypoints,)."""
         hands = zip(self.trial.arms, self.trial.in_base(context, station), self.approaches, strict=True)
         masks = [
-            context.reach.back_offs(arm, points, np.array([approach]), context.back_offs, BACK_OFF_STEP_M)[0]
+            context.reach.standoffs(arm, points, np.array([approach]), context.standoffs, STANDOFF_STEP_M)[0]
             for arm, points, approach in hands
         ]
         return np.asarray(np.bitwise_and.reduce(masks))
@@ -51,9 +51,9 @@ def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | N
         trial: grips, arms and path.
         stands: the standoffs at one of which the path is begun, as a bit mask; None: any.
     """
-    begun = np.zeros(context.back_offs, dtype=np.int64)
+    begun = np.zeros(context.standoffs, dtype=np.int64)
     if stands is not None:
-        begun[[not stands >> back_off & 1 for back_off in range(context.back_offs)]] = IMPOSSIBLE
+        begun[[not stands >> standoff & 1 for standoff in range(context.standoffs)]] = IMPOSSIBLE
     return bool(trial.following(context, station).least_driving(begun, wanted="any").ends)
 
 

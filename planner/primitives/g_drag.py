@@ -70,11 +70,11 @@ class GDrag:
         for way in ways:
             for stand in way.stands:
                 best.setdefault(stand, way)
-        steps = np.full(self._context.back_offs, IMPOSSIBLE)
+        steps = np.full(self._context.standoffs, IMPOSSIBLE)
         for stand in best:
             end = stand + count * STEPS_PER_DRAG
             if end < len(steps):
-                steps[end] = abs(state.back_off - stand) + end - stand
+                steps[end] = abs(state.standoff - stand) + end - stand
         for end in unbeaten(steps):
             stand = end - count * STEPS_PER_DRAG
             after = State(state.done, offset, state.station, end)

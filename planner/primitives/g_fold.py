@@ -44,7 +44,7 @@ class GFold:
         That bound is computed once for all of the many states in which loose folds may be done.
         """
         if self._stands is not None and not state.held:
-            least = int(self._stands.least(fold, state.offset, state.station)[state.back_off])
+            least = int(self._stands.least(fold, state.offset, state.station)[state.standoff])
             if driven < least:
                 yield self._later(state, fold, least)
                 return
@@ -59,6 +59,6 @@ class GFold:
             # The limit grows geometrically, so that a fold far away is queried only a few times.
             ends, more = question.ends(begun, driven, 3 * driven)
         for end in ends:
-            yield fold_step(self._context, end.way, state, end.first, end.back_off, end.steps)
+            yield fold_step(self._context, end.way, state, end.first, end.standoff, end.steps)
         if more < IMPOSSIBLE:
             yield self._later(state, fold, more)

@@ -12,7 +12,7 @@ import numpy as np
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
-from planner.primitives.context import BACK_OFFS_PER_M, DRAGS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_question import FoldQuestions
@@ -20,7 +20,7 @@ from planner.primitives.held_covers import held_covers
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 
-STEPS_PER_DRAG = BACK_OFFS_PER_M // DRAGS_PER_M
+STEPS_PER_DRAG = STANDOFFS_PER_M // DRAGS_PER_M
 """The steps of the grid of standoffs in one step of the grid of drags."""
 
 
@@ -69,12 +69,12 @@ class HoldingDrags:
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
         held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
         driven = count * STEPS_PER_DRAG
-        ends = (stand + driven for stand in way.stands if stand + driven < self._context.back_offs)
+        ends = (stand + driven for stand in way.stands if stand + driven < self._context.standoffs)
         afters = tuple(State(state.done, offset, state.station, end, held, count) for end in ends)
         return _Drag(state, way, driven, afters)
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
-        return DragStep(self._context, drag.way, drag.before, after, after.back_off - drag.driven)
+        return DragStep(self._context, drag.way, drag.before, after, after.standoff - drag.driven)
 
     def _served(self, drag: _Drag) -> list[int]:
         """Return the folds that can be done with the grips."""
@@ -87,14 +87,14 @@ class HoldingDrags:
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags that serve a fold best, where drag and fold take at least `least` steps of driving in all."""
-        begun = np.full(self._context.back_offs, IMPOSSIBLE)
+        begun = np.full(self._context.standoffs, IMPOSSIBLE)
         for after in drag.afters:
-            stand = after.back_off - drag.driven
-            begun[after.back_off] = abs(drag.before.back_off - stand) + drag.driven
+            stand = after.standoff - drag.driven
+            begun[after.standoff] = abs(drag.before.standoff - stand) + drag.driven
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
         ends, more = self._questions.of(drag.afters[0], fold).ends(begun, least, most)
-        after_at = {after.back_off: after for after in drag.afters}
+        after_at = {after.standoff: after for after in drag.afters}
         for end in ends:
             step = self._step(drag, after_at[end.first])
             yield self._later(drag, end.steps, partial(iter, (step,)))

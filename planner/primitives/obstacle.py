@@ -30,8 +30,8 @@ The folds done (a bit mask), the article's place, the grips held, whether they a
 
 def situation(state: State) -> Situation:
     """Return the part of a state that decides whether a fold is possible, places on the grid."""
-    done, x, y, _, back_off, held, dragged = state.key
-    return (done, x, y, held, dragged > 0, back_off if held else -1)
+    done, x, y, _, standoff, held, dragged = state.key
+    return (done, x, y, held, dragged > 0, standoff if held else -1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -115,7 +115,7 @@ class Attempt:
         """Return the state with the article at one of the places."""
         x, y = (float(c) for c in self.places[index])
         state = self.state
-        return State(state.done, (x, y), state.station, state.back_off, state.held, state.dragged)
+        return State(state.done, (x, y), state.station, state.standoff, state.held, state.dragged)
 
     @property
     def kind(self) -> tuple[object, ...]:

@@ -142,7 +142,7 @@ class Reach(Counted, Shortfalls, Protocol):
         """The position of each shoulder, base frame (m); for telling near from far, not for reach."""
         ...
 
-    def back_offs(
+    def standoffs(
         self,
         arm: int,
         points: FloatArray,

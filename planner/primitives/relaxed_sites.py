@@ -18,7 +18,7 @@ OUTSIDE, NOWHERE = -1, -2
 """Markers in place of a site's number: beyond the horizon; no such site."""
 
 FREE, HELD = 0, 1
-"""Whether the hands are empty, or hold on to the grips of a drag."""
+"""The two kinds of states: the hands are empty, or hold on to the grips of a drag."""
 
 
 class Sites(NamedTuple):
@@ -55,8 +55,8 @@ def to_go(sites: Sites, served: NDArray[np.int64], is_served: BoolArray) -> Floa
     Returns:
         Seconds, shape (sets of folds as bit masks, 2, sites, standoffs): `FREE` or `HELD`.
     """
-    folds, count, back_offs = served.shape
-    found = np.full((1 << folds, 2, count, back_offs), np.inf)
+    folds, count, standoffs = served.shape
+    found = np.full((1 << folds, 2, count, standoffs), np.inf)
     found[0] = 0.0
     for left in range(1, 1 << folds):
         here = found[left]
@@ -83,11 +83,11 @@ def _serve(
     site: int,
 ) -> None:
     """Do a fold at a site; it may end at any standoff that the base can reach in the steps that the fold takes."""
-    back_offs = here.shape[2]
-    for start in range(back_offs):
+    standoffs = here.shape[2]
+    for start in range(standoffs):
         steps = served[site, start]
         if steps < IMPOSSIBLE:
-            for end in range(max(0, start - steps), min(back_offs, start + steps + 1)):
+            for end in range(max(0, start - steps), min(standoffs, start + steps + 1)):
                 total = steps * sites.step_s + after[FREE, site, end]
                 here[FREE, site, start] = min(here[FREE, site, start], total)
         if is_served[site]:
@@ -97,16 +97,16 @@ def _serve(
 @njit(cache=True, nogil=True)
 def _relax(sites: Sites, here: FloatArray, site: int) -> bool:
     """Look for shorter ways from a site, and return whether there were any."""
-    back_offs, has_changed = here.shape[2], False
-    for number in range(2 * back_offs):
-        start = number if number < back_offs else 2 * back_offs - 1 - number
+    standoffs, has_changed = here.shape[2], False
+    for number in range(2 * standoffs):
+        start = number if number < standoffs else 2 * standoffs - 1 - number
         least = here[FREE, site, start]
         for beside in (start - 1, start + 1):
-            if 0 <= beside < back_offs:
+            if 0 <= beside < standoffs:
                 least = min(least, sites.step_s + here[FREE, site, beside])
         for count in range(sites.drags.shape[1]):
             goal, steps = sites.drags[site, count], (count + 1) * sites.per_drag
-            if goal == NOWHERE or start + steps >= back_offs:
+            if goal == NOWHERE or start + steps >= standoffs:
                 break
             go_on = 0.0 if goal == OUTSIDE else here[FREE, goal, start + steps] + sites.motion_s
             if goal >= 0 and sites.may_hold[goal]:

@@ -80,7 +80,7 @@ class SiteMap:
         stations = len(context.scene.stations)
         drags = np.full((len(within), self._longest), NOWHERE)
         moves = np.full((len(within), stations), NOWHERE)
-        move_s = np.zeros((len(within), stations, context.back_offs))
+        move_s = np.zeros((len(within), stations, context.standoffs))
         may_hold = np.zeros(len(within), dtype=bool)
         for number, site in enumerate(within):
             may_hold[number] = not is_service_over and self._service.is_possible(site.offset, site.station)
@@ -113,5 +113,5 @@ class SiteMap:
 
     def _moved_s(self, station: int, goal: int) -> FloatArray:
         """Return the duration of a move from each standoff (s)."""
-        starts = (State(0, (0.0, 0.0), station, back_off) for back_off in range(self._context.back_offs))
+        starts = (State(0, (0.0, 0.0), station, standoff) for standoff in range(self._context.standoffs))
         return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])

@@ -44,7 +44,7 @@ class State:
         done: the folds finished, as a bit mask.
         offset: how far drags have carried the article since the start, table frame (m).
         station: index of the base's station in the scene's order.
-        back_off: the standoff: how many grid steps the base stands back from its station.
+        standoff: how many grid steps the base stands back from its station.
         held: the grips held; empty when the hands are.
         dragged: the length of the drag from which they are held, in steps of the grid of drags; a fold's real duration
             may depend on it. 0 if nothing is held, or if a fold left them held for a red fold.
@@ -54,7 +54,7 @@ class State:
     done: int
     offset: Point2
     station: int
-    back_off: int
+    standoff: int
     held: tuple[Held, ...] = ()
     dragged: int = 0
     key: StateKey = field(init=False, repr=False)
@@ -64,7 +64,7 @@ class State:
         """Compute the key: the state on the grid."""
         x, y = self.offset
         held = tuple([h.key for h in self.held])
-        key = (self.done, grid_key(x), grid_key(y), self.station, self.back_off, held, self.dragged)
+        key = (self.done, grid_key(x), grid_key(y), self.station, self.standoff, held, self.dragged)
         object.__setattr__(self, "key", key)
         object.__setattr__(self, "_hash", hash(key))
 
@@ -76,7 +76,7 @@ class State:
     @property
     def hold(self) -> tuple[object, ...]:
         """The grips held, and the standoff; empty while nothing is held, because the standoff then does not matter."""
-        return (*(h.key for h in self.held), self.is_dragged, self.back_off) if self.held else ()
+        return (*(h.key for h in self.held), self.is_dragged, self.standoff) if self.held else ()
 
     @property
     def grasp(self) -> tuple[object, ...]:

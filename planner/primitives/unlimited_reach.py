@@ -29,7 +29,7 @@ class UnlimitedReach:
     def forget(self) -> None:
         """Do nothing: there are no caches."""
 
-    def back_offs(
+    def standoffs(
         self,
         arm: int,
         points: FloatArray,

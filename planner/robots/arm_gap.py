@@ -70,7 +70,7 @@ def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
 
 @njit(cache=True, nogil=True)
 def least_gaps(
-    shape: ArmShape, ways: FloatArray, axes: FloatArray, back_offs: int, step: float, comfort: float
+    shape: ArmShape, ways: FloatArray, axes: FloatArray, standoffs: int, step: float, comfort: float
 ) -> FloatArray:
     """Return for each way a lower bound on how far its worst point is from the comfort radius (m), shape (n,).
 
@@ -80,7 +80,7 @@ def least_gaps(
         shape: the arm.
         ways: tool points at standoff 0, all to be reached in one approach for each way, shape (n, p, 3).
         axes: approach axes, shape (k, 3).
-        back_offs: the number of standoffs; for each point the best of them counts.
+        standoffs: the number of standoffs; for each point the best of them counts.
         step: the distance between standoffs (m), by which the points move along x.
         comfort: the comfort radius (m).
     """
@@ -90,7 +90,7 @@ def least_gaps(
         for axis in axes:
             worst = 0.0
             for point in ways[i]:
-                worst = max(worst, _least_gap(shape, point, axis, back_offs, step, comfort))
+                worst = max(worst, _least_gap(shape, point, axis, standoffs, step, comfort))
                 if worst >= gaps[i]:
                     break
             gaps[i] = min(gaps[i], worst)
@@ -99,12 +99,12 @@ def least_gaps(
 
 @njit(cache=True, nogil=True)
 def _least_gap(
-    shape: ArmShape, point: FloatArray, axis: FloatArray, back_offs: int, step: float, comfort: float
+    shape: ArmShape, point: FloatArray, axis: FloatArray, standoffs: int, step: float, comfort: float
 ) -> float:
     """Return a lower bound on a point's gap (m) in one approach from the best standoff."""
     least = math.inf
-    for back_off in range(back_offs):
-        aim = aim_at(shape, point[0] + back_off * step, point[1], point[2], axis[0], axis[1], axis[2])
+    for standoff in range(standoffs):
+        aim = aim_at(shape, point[0] + standoff * step, point[1], point[2], axis[0], axis[1], axis[2])
         if gap(shape, aim.x, aim.y, aim.z) < least:
             least = min(least, comfort_gap(shape, aim, comfort))
             if least <= 0.0:

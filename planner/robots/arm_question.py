@@ -59,12 +59,12 @@ def is_in_height(_ask: Question, _place: Place) -> bool:
     raise NotImplementedError("compiled alone")
 
 
-def is_in_length(_ask: Question, _place: Place, _back_off: int) -> bool:
+def is_in_length(_ask: Question, _place: Place, _standoff: int) -> bool:
     """Return whether the arm is long enough for a place, ignoring most limits."""
     raise NotImplementedError("compiled alone")
 
 
-def is_had(_ask: Question, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _back_off: int) -> bool:
+def is_had(_ask: Question, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _standoff: int) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     raise NotImplementedError("compiled alone")
 
@@ -107,10 +107,10 @@ def _is_in_height(_ask: types.Type, _place: types.Type) -> Any:  # noqa: ANN401
 
 
 @overload(is_in_length, strict=False)
-def _is_in_length(_ask: types.Type, _place: types.Type, _back_off: types.Type) -> Any:  # noqa: ANN401
+def _is_in_length(_ask: types.Type, _place: types.Type, _standoff: types.Type) -> Any:  # noqa: ANN401
     if _is_mapped(_ask):
-        return lambda _ask, _place, _back_off: mapped_in_length(_ask, _place, _back_off)
-    return lambda _ask, _place, _back_off: closed_in_length(_ask, _place, _back_off)
+        return lambda _ask, _place, _standoff: mapped_in_length(_ask, _place, _standoff)
+    return lambda _ask, _place, _standoff: closed_in_length(_ask, _place, _standoff)
 
 
 @overload(is_had, strict=False)
@@ -120,10 +120,10 @@ def _is_had(
     _room: types.Type,
     _space: types.Type,
     _place: types.Type,
-    _back_off: types.Type,
+    _standoff: types.Type,
 ) -> Any:  # noqa: ANN401
     if _is_mapped(_ask):
-        return lambda _ask, _hints, _room, _space, _place, _back_off: mapped_had(_ask, _space, _place, _back_off)
-    return lambda _ask, _hints, _room, _space, _place, _back_off: closed_had(
-        _ask, _hints, _room, _space, _place, _back_off
+        return lambda _ask, _hints, _room, _space, _place, _standoff: mapped_had(_ask, _space, _place, _standoff)
+    return lambda _ask, _hints, _room, _space, _place, _standoff: closed_had(
+        _ask, _hints, _room, _space, _place, _standoff
     )

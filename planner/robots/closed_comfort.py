@@ -52,9 +52,9 @@ def closed_question(
 
 
 @njit(cache=True, nogil=True)
-def aim_from(ask: ClosedQuestion, place: Place, back_off: int) -> ToolPose:
+def aim_from(ask: ClosedQuestion, place: Place, standoff: int) -> ToolPose:
     """Return the tool pose at a place with the base at a standoff."""
-    x, rest, axis = place.x + back_off * ask.step, ask.rest, ask.axis
+    x, rest, axis = place.x + standoff * ask.step, ask.rest, ask.axis
     ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
     return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
 
@@ -66,18 +66,18 @@ def closed_in_height(ask: ClosedQuestion, place: Place) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def closed_in_length(ask: ClosedQuestion, place: Place, back_off: int) -> bool:
+def closed_in_length(ask: ClosedQuestion, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place, ignoring most limits."""
-    aim = aim_from(ask, place, back_off)
+    aim = aim_from(ask, place, standoff)
     return is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim)
 
 
 @njit(cache=True, nogil=True)
 def closed_had(
-    ask: ClosedQuestion, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, back_off: int
+    ask: ClosedQuestion, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, standoff: int
 ) -> bool:
     """Return whether a place is within the comfort radius from a standoff; `arcs` is scratch space."""
-    aim = aim_from(ask, place, back_off)
+    aim = aim_from(ask, place, standoff)
     answer: bool = is_comfortable(ask.shape, aim, ask.comfort, arcs, hints[ask.label])[0]
     if answer and may_be_hindered(aim):
         answer = has_room_about(ask.shape, room, ask.label, aim, arcs)

@@ -125,7 +125,7 @@ def from_cell(bits: int, cell: int) -> int:
 
 @njit(cache=True, nogil=True, inline="always")
 def is_comfortable_at(
-    ask: Question, memory: Memory, room: Room, space: Space, slot: int, place: Place, back_off: int
+    ask: Question, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
 ) -> bool:
     """Return whether a tool is within the comfort radius at a place from a standoff, from memory if it is known there.
 
@@ -133,16 +133,16 @@ def is_comfortable_at(
 
     `space` is working memory.
     """
-    cell = cell_of(place.x + back_off * ask.step)
+    cell = cell_of(place.x + standoff * ask.step)
     bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
     if memory.bits[slot, KNOWN] & bit != 0:
         return bool(memory.bits[slot, GOOD] & bit != 0)
     answer = False
-    if is_in_length(ask, place, back_off):
+    if is_in_length(ask, place, standoff):
         if memory.bits[slot, TESTED] & bit != 0:
             answer = memory.bits[slot, PASSED] & bit != 0
         else:
-            answer = is_had(ask, memory.hints, room, space, place, back_off)
+            answer = is_had(ask, memory.hints, room, space, place, standoff)
             memory.bits[slot, TESTED] |= bit
             memory.bits[slot, PASSED] |= bit if answer else 0
         memory.counts[QUERIES] += YES if answer and ask.comfort > 0.0 else NO

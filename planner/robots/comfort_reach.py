@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.asked_arms import AskedArms
-from planner.robots.back_offs import anywhere, back_off_masks
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
 from planner.robots.comfort_memories import Memories
 from planner.robots.driving_task import UNSEEN, Task
 from planner.robots.following import Following
 from planner.robots.posture_room import Room, no_walls
+from planner.robots.standoffs import anywhere, standoff_masks
 
-_MOST_BACK_OFFS = 32
+_MOST_STANDOFFS = 32
 """Largest number of standoffs: one bit of a mask each."""
 
 _SMALL_BITS = 4
@@ -110,7 +110,7 @@ class ComfortReach:
         """Time spent answering (s), memory included."""
         return self._query_time_s
 
-    def back_offs(
+    def standoffs(
         self,
         arm: int,
         points: FloatArray,
@@ -135,10 +135,10 @@ class ComfortReach:
             Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
             there; a row is 0 if it cannot follow them all.
         """
-        if count > _MOST_BACK_OFFS:
-            raise ValueError(f"{count} back-offs do not fit into a mask of {_MOST_BACK_OFFS} bits")
+        if count > _MOST_STANDOFFS:
+            raise ValueError(f"{count} standoffs do not fit into a mask of {_MOST_STANDOFFS} bits")
         started = thread_time()
-        masks = back_off_masks(
+        masks = standoff_masks(
             self._asked.numbers,
             self._shoulders[arm],
             self._memory,

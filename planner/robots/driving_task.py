@@ -70,18 +70,18 @@ def ask_each(task: Task, space: Space, hand: int, approach: int, waypoint: int, 
     x, y, z = task.places[hand, waypoint]
     place = Place(x, y, z)
     ask = question(task.numbers, task.shoulder, task.axes, task.labels[hand, approach], task.comfort, task.step)
-    slot, found, back_off = row_slot(ask, task.memory.keys, task.memory.counts, place), 0, 0
+    slot, found, standoff = row_slot(ask, task.memory.keys, task.memory.counts, place), 0, 0
     if task.step == ROW_STEP:
         task.slots[hand, approach, waypoint] = slot
         if slot != FORGETFUL:
             bits, cell = task.memory.bits[slot], task.cells[hand, waypoint]
             found = wanted & from_cell(bits[GOOD], cell)
             wanted &= ~from_cell(bits[KNOWN], cell)
-    while wanted >> back_off:
-        is_wanted = (wanted >> back_off) & 1 == 1
-        if is_wanted and is_comfortable_at(ask, task.memory, task.room, space, slot, place, back_off):
-            found |= 1 << back_off
-        back_off += 1
+    while wanted >> standoff:
+        is_wanted = (wanted >> standoff) & 1 == 1
+        if is_wanted and is_comfortable_at(ask, task.memory, task.room, space, slot, place, standoff):
+            found |= 1 << standoff
+        standoff += 1
     return found
 
 

@@ -1,4 +1,4 @@
-"""How far joints are within their limits at one pan: the *slack* that is maximised, in closed form.
+"""The slack at one pan: the distance of the joints from their limits, maximised in closed form.
 
 A slack is the sine of an angle, so that it needs no arc functions: negative outside of the limits, and as smooth as the
 angle itself near them. The formulas are those of `planner.robots.kernel`.

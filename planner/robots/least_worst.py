@@ -14,19 +14,8 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
-from planner.robots.nearest_comfort import (
-    MANY_QUERIES,
-    ROOM_QUERIES,
-    Scratch,
-    Wanted,
-    aim_of,
-    aims_gap,
-    is_wanted,
-    lines_from,
-    nearest_comfort,
-    rooms_tested,
-    scratch_for,
-)
+from planner.robots.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, lines_from, nearest_comfort
+from planner.robots.wanted_place import Scratch, Wanted, aim_of, aims_gap, is_wanted, rooms_tested, scratch_for
 
 
 class Ranking(NamedTuple):

@@ -23,14 +23,14 @@ ARM_LABELS = 64
 """Labels of each arm in the memory: 0 is none, the others are the approaches'."""
 
 _REST, _LENGTH, _SCALE, _CELL, _LOW, _TOOL, _OFFSET, _JOINTS = 0, 3, 4, 5, 6, 9, 18, 21
-"""Where an arm's numbers are: the root's distance from the grid, the arm's length, the scale of angles, cell and lowest
+"""Indices of an arm's numbers: root's distance from the grid, the arm's length, the scale of angles, cell and lowest
 corner of its map, its tool, and its joints, each array of `_PER_JOINT` numbers a joint after the other."""
 
 _PER_JOINT = 16
 """Numbers of a joint: rotation, offset, limits, and the middle and half of its range."""
 
 _COUNT, _ROWS, _CELLS, _START, _STARTS = 0, 1, 2, 5, 6
-"""Where an arm's whole numbers are: its joints, what it is asked of a pose, the cells of its map along three axes, and
+"""Indices of an arm's whole numbers: its joints, what it is asked of a pose, the cells of its map along three axes, and
 where the starts of its map begin and how many there are."""
 
 
@@ -183,18 +183,18 @@ def mapped_in_height(ask: MappedQuestion, place: Place) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def mapped_in_length(ask: MappedQuestion, place: Place, back_off: int) -> bool:
+def mapped_in_length(ask: MappedQuestion, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place."""
-    x = (place.x + back_off * ask.step) * LENGTH_M - ask.rest[0]
+    x = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
     y, z = place.y * LENGTH_M - ask.rest[1], place.z * LENGTH_M - ask.rest[2]
     return x * x + y * y + z * z <= ask.length * ask.length
 
 
 @njit(cache=True, nogil=True)
-def mapped_had(ask: MappedQuestion, space: MappedSpace, place: Place, back_off: int) -> bool:
+def mapped_had(ask: MappedQuestion, space: MappedSpace, place: Place, standoff: int) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     point = space.point
-    point[0] = (place.x + back_off * ask.step) * LENGTH_M - ask.rest[0]
+    point[0] = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
     point[1], point[2] = place.y * LENGTH_M - ask.rest[1], place.z * LENGTH_M - ask.rest[2]
     return is_held_round(ask, space, point)
 

@@ -18,15 +18,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
 from planner.robots.closed_comfort import is_comfortable
-from planner.robots.pan_arcs import MOST_ARCS
-from planner.robots.posture_room import Room, blocked_for, has_room_about
+from planner.robots.posture_room import blocked_for
+from planner.robots.wanted_place import Scratch, Wanted, aim_of, aims_gap, is_wanted, rooms_tested, scratch_for
 
 SHELL_M, WIDENING = 0.002, 0.03
 """Thickness of a shell (m), or as a fraction of its distance where that is more."""
@@ -44,24 +43,8 @@ MANY_QUERIES = 1 << 62
 """More queries than any search makes."""
 
 
-class Wanted(NamedTuple):
-    """The requirements on a place.
-
-    Attributes:
-        axes: the approach axes allowed, shape (k, 3).
-        labels: the labels of the axes in the room's memory, shape (k,).
-        comfort: the comfort radius (m).
-        room: the obstacles to the arm's postures.
-    """
-
-    axes: FloatArray
-    labels: NDArray[np.int64]
-    comfort: float
-    room: Room
-
-
 class Lines(NamedTuple):
-    """How far a search has come along its lines: from each place, in each approach, along each direction.
+    """The progress of a search along its lines: from each place, in each approach, along each direction.
 
     Attributes:
         hopeless: displacements up to which a line has nothing to offer (m), shape (n, k, m).
@@ -74,57 +57,11 @@ class Lines(NamedTuple):
     inner: FloatArray
 
 
-class Scratch(NamedTuple):
-    """Scratch space.
-
-    Attributes:
-        arcs: shape (MOST_ARCS, 2).
-        hint: the pan that served last (rad), and its branch, shape (2,).
-    """
-
-    arcs: FloatArray
-    hint: FloatArray
-
-
-@njit(cache=True, nogil=True)
-def scratch_for(shape: ArmShape) -> Scratch:
-    """Return scratch space for a search that has not begun."""
-    return Scratch(np.empty((MOST_ARCS, 2)), np.array([0.5 * (shape.pan.low + shape.pan.high), 1.0]))
-
-
-@njit(cache=True, nogil=True)
-def aim_of(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
-    """Return the tool pose that brings the tool to a point in an approach."""
-    axis = wanted.axes[approach]
-    return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
-
-
-@njit(cache=True, nogil=True)
-def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
-    """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
-    return comfort_gap(shape, aim_of(shape, wanted, point, approach), wanted.comfort)
-
-
 @njit(cache=True, nogil=True)
 def _aim_along(shape: ArmShape, axis: FloatArray, point: FloatArray, far: float, towards: FloatArray) -> ToolPose:
     """Return the tool pose that brings the tool to a point displaced along a direction."""
     x, y, z = point[0] + far * towards[0], point[1] + far * towards[1], point[2] + far * towards[2]
     return aim_at(shape, x, y, z, axis[0], axis[1], axis[2])
-
-
-@njit(cache=True, nogil=True)
-def is_wanted(
-    shape: ArmShape, wanted: Wanted, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
-) -> tuple[bool, int]:
-    """Return whether a tool pose meets the requirements in its approach, with a comfort radius; queries made."""
-    found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
-    return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
-
-
-@njit(cache=True, nogil=True)
-def rooms_tested(wanted: Wanted) -> int:
-    """Return the number of cells tested so far for whether the body leaves the arm room."""
-    return int(wanted.room.memory.entries[0])
 
 
 @njit(cache=True, nogil=True)
@@ -189,17 +126,35 @@ def nearest_comfort(
                     queries += asked
                     if not found:
                         continue
-                    while far - near > FINEST_M:
-                        middle = 0.5 * (near + far)
-                        aim = _aim_along(shape, axis, start, middle, towards)
-                        found, asked = is_wanted(shape, wanted, aim, approach, comfort, scratch)
-                        queries += asked
-                        near, far = (near, middle) if found else (middle, far)
+                    far, asked = _nearest_on(shape, wanted, approach, start, towards, near, far, scratch)
+                    queries += asked
                     best, best_place, best_approach, best_direction = far, place, approach, direction
                     limit = far - FINEST_M
         inner = outer
     lines.inner[0] = inner
     return best, best_place, best_approach, best_direction, queries
+
+
+@njit(cache=True, nogil=True)
+def _nearest_on(
+    shape: ArmShape,
+    wanted: Wanted,
+    approach: int,
+    start: FloatArray,
+    towards: FloatArray,
+    near: float,
+    far: float,
+    scratch: Scratch,
+) -> tuple[float, int]:
+    """Return the least displacement along a direction that meets the requirements, by bisection; queries made."""
+    queries = 0
+    while far - near > FINEST_M:
+        middle = 0.5 * (near + far)
+        aim = _aim_along(shape, wanted.axes[approach], start, middle, towards)
+        found, asked = is_wanted(shape, wanted, aim, approach, wanted.comfort, scratch)
+        queries += asked
+        near, far = (near, middle) if found else (middle, far)
+    return far, queries
 
 
 @njit(cache=True, nogil=True)

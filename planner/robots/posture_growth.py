@@ -1,4 +1,4 @@
-"""How a map of postures grows: a posture found in one cell is the start in the cells beside it. Compiled.
+"""Grow a map of postures: a posture found in one cell is the start in the cells beside it. Compiled.
 
 Cells whose middle is out of reach, but that lie beside one whose is not, take over postures of their neighbours.
 """

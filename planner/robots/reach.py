@@ -21,11 +21,12 @@ from planner.robots.arm_gap import least_gaps
 from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort_memories import Memories
 from planner.robots.least_worst import least_worst, ranked
-from planner.robots.nearest_comfort import PIECE_QUERIES, Wanted
+from planner.robots.nearest_comfort import PIECE_QUERIES
 from planner.robots.posture_room import Room
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
 from planner.robots.shortfall_reach import ShortfallReach
 from planner.robots.sided_arm import SidedArm
+from planner.robots.wanted_place import Wanted
 
 
 class Pr2Reach(ShortfallReach):

@@ -14,15 +14,8 @@ from planner.geometry.shortfall import Cause, Shortfall
 from planner.robots.arm import ArmShape
 from planner.robots.kernel import reachable_batch
 from planner.robots.limiting_joint import limiting_joint
-from planner.robots.nearest_comfort import (
-    PIECE_QUERIES,
-    Wanted,
-    aims_gap,
-    is_hindered,
-    lines_from,
-    nearest_comfort,
-    widest_comfort,
-)
+from planner.robots.nearest_comfort import PIECE_QUERIES, is_hindered, lines_from, nearest_comfort, widest_comfort
+from planner.robots.wanted_place import Wanted, aims_gap
 
 FURTHEST_M = 0.8
 """Largest displacement tried (m)."""

@@ -8,7 +8,8 @@ import numpy as np
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm import MIRROR, ArmShape
 from planner.robots.closed_form_samples import filled, solutions
-from planner.robots.inverse_kinematics import nearest_joints, tool_places, tool_pose
+from planner.robots.forward_kinematics import tool_places, tool_pose
+from planner.robots.inverse_kinematics import nearest_joints
 from planner.robots.kernel import reachable_batch
 
 _MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])

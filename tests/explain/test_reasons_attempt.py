@@ -24,7 +24,7 @@ class BandReach(WideReach):
     """Arms that reach every point whose x in the base frame lies in one of their bands (m), in either approach."""
 
     def __init__(self, bands: Mapping[int, Sequence[Band]]) -> None:
-        super().__init__(lambda arm, point, back_off: self._lacks(arm, point[0] + 0.05 * back_off) == 0.0)
+        super().__init__(lambda arm, point, standoff: self._lacks(arm, point[0] + 0.05 * standoff) == 0.0)
         self._bands = bands
 
     def _lacks(self, arm: int, x: float) -> float:
@@ -63,10 +63,10 @@ def test_nothing_is_lacking_where_every_point_is_reached():
     assert _miss({0: [(0.3, 1.5)]}, [0.4, 0.6, 0.5]) is None
 
 
-def test_of_start_apex_and_end_the_one_furthest_out_counts_from_its_nearest_back_off():
+def test_of_start_apex_and_end_the_one_furthest_out_counts_from_its_nearest_standoff():
     # Backing off leads further away: 0.9, 0.8 and 0.7 m ahead are 0.4, 0.3 and 0.2 m beyond a reach of 0.5 m.
     miss = _miss({0: [(0.3, 0.5)]}, [0.9, 0.8, 0.7])
-    assert (miss.grip, miss.waypoint, miss.back_off) == (0, 0, 0)
+    assert (miss.grip, miss.waypoint, miss.standoff) == (0, 0, 0)
     assert miss.short_by_m == pytest.approx(0.4)
 
 
@@ -76,21 +76,21 @@ def test_in_between_too_the_way_must_be_in_reach():
     assert (miss.waypoint, miss.short_by_m) == (1, pytest.approx(0.1))
 
 
-def test_the_base_must_be_able_to_drive_from_one_back_off_to_the_next():
+def test_the_base_must_be_able_to_drive_from_one_standoff_to_the_next():
     # The hand goes from 0.45 to 0.65 m ahead, and the arm reaches 0.40 to 0.50 and 0.70 to 0.80. Each point is in one
-    # of them from somewhere; but who begins at back-off 0 is in the first, cannot drive through the gap to the second,
+    # of them from somewhere; but who begins at standoff 0 is in the first, cannot drive through the gap to the second,
     # and lacks 0.05 m at 0.55.
     miss = _miss({0: [(0.4, 0.5), (0.7, 0.8)]}, [0.45, 0.5, 0.55, 0.6, 0.65], stands=0b1)
     assert miss.demand is Demand.DRIVING
-    assert (miss.waypoint, miss.back_off, miss.short_by_m) == (2, 0, pytest.approx(0.05))
+    assert (miss.waypoint, miss.standoff, miss.short_by_m) == (2, 0, pytest.approx(0.05))
     assert _miss({0: [(0.4, 0.8)]}, [0.45, 0.5, 0.55, 0.6, 0.65], stands=0b1) is None
 
 
 def test_where_the_base_may_begin_is_kept_to():
-    # What is held, 0.4 m ahead at back-off 0, is in reach from there; after a drag that ended 6 steps back it is not.
+    # What is held, 0.4 m ahead at standoff 0, is in reach from there; after a drag that ended 6 steps back it is not.
     assert _miss({0: [(0.3, 0.5)]}, [0.4, 0.4, 0.4], stands=0b111) is None
     miss = _miss({0: [(0.3, 0.5)]}, [0.4, 0.4, 0.4], stands=0b1100000)
-    assert (miss.waypoint, miss.back_off, miss.short_by_m) == (0, 5, pytest.approx(0.15))
+    assert (miss.waypoint, miss.standoff, miss.short_by_m) == (0, 5, pytest.approx(0.15))
 
 
 def test_both_hands_must_be_in_reach_at_once():
@@ -100,7 +100,7 @@ def test_both_hands_must_be_in_reach_at_once():
     miss = _miss(bands, [0.4, 0.4, 0.4], [0.4, 0.4, 0.4])
     assert miss.demand is Demand.WITH_THE_OTHER_HAND
     assert miss.short_by_m == pytest.approx(0.2)
-    assert (miss.grip, miss.back_off) in {(1, 2), (0, 6)}
+    assert (miss.grip, miss.standoff) in {(1, 2), (0, 6)}
     assert _miss({0: [(0.4, 0.6)], 1: [(0.6, 0.8)]}, [0.4, 0.4, 0.4], [0.4, 0.4, 0.4]) is None
 
 

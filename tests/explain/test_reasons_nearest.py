@@ -77,7 +77,7 @@ def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere
     back = np.array([reason.back_off_m, 0.0, 0.0])
     assert context.reach.from_anywhere(arm, there + back + (reason.short_by_m + 0.001) * towards, every, 1, 0.0).any()
     for distance in np.arange(0.0, reason.short_by_m - 0.002, 0.004):
-        assert not context.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, context.back_offs, 0.05).any()
+        assert not context.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, context.standoffs, 0.05).any()
 
 
 @pytest.mark.parametrize("name", ["scarf", "low"])

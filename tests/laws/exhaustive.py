@@ -2,7 +2,7 @@
 
 What a fold or a drag must hold, which arm may take it and along which path is asked of the planner; whether the cloth
 stays where it is, too. What makes the planner quick is left out: every approach of every arm is combined with every
-other, the base may stand at every waypoint wherever the hands allow, every back-off is an end, hands may hold on after
+other, the base may stand at every waypoint wherever the hands allow, every standoff is an end, hands may hold on after
 every drag, and no state is ever passed over.
 """
 
@@ -18,7 +18,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.primitives.base_move import BaseMove
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
@@ -81,7 +81,7 @@ class Exhaustive:
         """Return for each combination of approaches the standoffs that suit all hands at each waypoint, as bits."""
         key = (state.done, state.offset, state.station, state.held, trial.fold, trial.cover, trial.arms)
         if key not in self._strips:
-            whole = np.full((1, len(trial.sweeps)), (1 << self._context.back_offs) - 1, dtype=np.uint32)
+            whole = np.full((1, len(trial.sweeps)), (1 << self._context.standoffs) - 1, dtype=np.uint32)
             for arm, tools, approaches in zip(trial.arms, trial.tools, trial.approaches, strict=True):
                 rows = np.array([self._able(state.station, arm, tool, approaches) for tool in tools]).T
                 both = whole[:, None, :] & rows[None, :, :]
@@ -95,16 +95,16 @@ class Exhaustive:
         if key not in self._masks:
             context = self._context
             point = context.in_base(station, tool[None])
-            self._masks[key] = context.reach.back_offs(arm, point, approaches, context.back_offs, BACK_OFF_STEP_M)[:, 0]
+            self._masks[key] = context.reach.standoffs(arm, point, approaches, context.standoffs, STANDOFF_STEP_M)[:, 0]
         return self._masks[key]
 
     def _travel(self, strip: tuple[int, ...], state: State) -> list[float]:
         """Return the fewest steps of the base until it stands at each standoff at the end of a path."""
-        stands = range(self._context.back_offs)
+        stands = range(self._context.standoffs)
         if state.held:
-            steps = [0.0 if stand == state.back_off else math.inf for stand in stands]
+            steps = [0.0 if stand == state.standoff else math.inf for stand in stands]
         else:
-            steps = [float(abs(stand - state.back_off)) for stand in stands]
+            steps = [float(abs(stand - state.standoff)) for stand in stands]
         for mask in strip:
             steps = [s if mask >> stand & 1 else math.inf for stand, s in enumerate(steps)]
             for _ in stands:
@@ -132,7 +132,7 @@ class Exhaustive:
                 hands = zip(arms, picks, allowed, strict=True)
                 able = [self._able(state.station, *hand) for hand in hands]
                 held = tuple(Held(arm, grip) for arm, grip in sorted(zip(arms, cover, strict=True)))
-                for stand in range(context.back_offs):
+                for stand in range(context.standoffs):
                     if all(any(int(mask) >> stand & 1 for mask in masks) for masks in able):
                         yield from self._carried(state, stand, held)
 
@@ -141,7 +141,7 @@ class Exhaustive:
         context = self._context
         for tenths in range(1, longest_drag(context) + 1):
             end, offset = stand + 2 * tenths, dragged(context, state.offset, state.station, tenths)
-            if end < context.back_offs and context.unrest(state.done, offset) is None:
-                seconds = context.scene.arm_motion_s + context.drive_s(abs(stand - state.back_off) + end - stand)
+            if end < context.standoffs and context.unrest(state.done, offset) is None:
+                seconds = context.scene.arm_motion_s + context.drive_s(abs(stand - state.standoff) + end - stand)
                 yield seconds, State(state.done, offset, state.station, end)
                 yield seconds, State(state.done, offset, state.station, end, held, dragged=1)

@@ -116,7 +116,7 @@ def bound_of(name: str, context: Context, start: State) -> Heuristic:
 
 
 @st.composite
-def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_offs: int = 9) -> Problem:
+def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, standoffs: int = 9) -> Problem:
     """Return a small garment in front of the first station, one to a few folds, some of the five stations."""
     wanted = draw(st.sampled_from(range(1, most_folds + 1)))
     cloth = draw(folded(draw(_small_outlines()), wanted, least_folds=wanted))
@@ -130,7 +130,7 @@ def problems(draw: st.DrawFn, most_folds: int = 3, most_stations: int = 3, back_
         friction=draw(st.sampled_from((0.2, 0.5, 1.0))),
         support_angle_rad=draw(st.sampled_from((0.0, math.radians(5.0), math.radians(60.0)))),
         approach_cone_rad=draw(st.sampled_from((math.radians(75.0), math.pi))),
-        back_off_max_m=0.05 * draw(st.sampled_from(range(back_offs))),
+        back_off_max_m=0.05 * draw(st.sampled_from(range(standoffs))),
     )
     return Problem(cloth, scene, draw(st.sampled_from(stations))[0], draw(st.sampled_from((0.0, 0.03))))
 

@@ -42,7 +42,7 @@ def test_one_more_primitive_never_costs_more(problem: Problem, some, another):
     assert problem.cost_s(kinds=more) <= problem.cost_s(kinds=some) + SECOND
 
 
-@given(problems(back_offs=7), st.integers(1, 3))
+@given(problems(standoffs=7), st.integers(1, 3))
 @law("planning", short=8, long=30)
 def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
     scene = problem.scene

@@ -14,7 +14,7 @@ from tests.laws.scenes import BOUNDS, Problem, bound_of, problems
 SECOND = 1e-6
 
 
-@given(problems(most_folds=3, most_stations=2, back_offs=6))
+@given(problems(most_folds=3, most_stations=2, standoffs=6))
 @law("planning", short=12, long=50)
 def test_the_search_finds_what_trying_everything_finds(problem: Problem):
     found, tried = problem.cost_s(), Exhaustive(problem.context).cost_s(problem.first_state)

@@ -90,11 +90,11 @@ def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done:
     questions, stands = context.kept(FoldQuestions), FoldStands(context)
     for offset in ((0.0, 0.0), (-0.2, 0.0), (-0.4, 0.0)):
         for fold in (2, 7):
-            for back_off in (0, 3, 8):
-                state = State(done, offset, 0, back_off)
+            for standoff in (0, 3, 8):
+                state = State(done, offset, 0, standoff)
                 ends, _ = questions.of(state, fold).ends(questions.begun(state), 0, IMPOSSIBLE)
                 asked = min((end.steps for end in ends), default=IMPOSSIBLE)
-                assert stands.least(fold, offset, 0)[back_off] == asked, (offset, fold, back_off)
+                assert stands.least(fold, offset, 0)[standoff] == asked, (offset, fold, standoff)
 
 
 def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for_drags():

@@ -40,7 +40,7 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str):
     assert max(left_out) > 0, "else nothing is tested"
 
 
-def test_from_a_back_off_passed_on_the_way_only_the_base_moves_on():
+def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on():
     case = planned("tie").found
     context = case.problem.context
     edges = edges_of(context)

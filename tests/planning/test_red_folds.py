@@ -45,7 +45,7 @@ def banner(bar_m: float, radius_m: float = 0.127) -> Garment:
 
 def step_of(problem: Context, state: State, index: int = 0) -> FoldStep:
     """Return the only successor of a state, for a robot that reaches everything, without driving."""
-    steps = [s for s in GFold(problem).successors(state) if s.after.back_off == state.back_off]
+    steps = [s for s in GFold(problem).successors(state) if s.after.standoff == state.standoff]
     return next(s for s in steps if s.way.trial.fold == index or state.held)
 
 

@@ -47,7 +47,7 @@ def drags(of: Context, state: State = START) -> list[ArmDragStep]:
 def reaching(to_x_m: float) -> WideReach:
     """Return the reach of arms that go no farther than an x of the base frame."""
 
-    def allowed(arm: int, point: FloatArray, back_off: int) -> bool:
+    def allowed(arm: int, point: FloatArray, standoff: int) -> bool:
         return bool(point[0] <= to_x_m)
 
     return WideReach(allowed)

@@ -1,4 +1,4 @@
-"""The base's legs along a path, against Dijkstra's search on the strip of waypoints and back-offs."""
+"""The base's legs along a path, against Dijkstra's search on the strip of waypoints and standoffs."""
 
 import random
 
@@ -49,7 +49,7 @@ def random_strips(seed: int) -> tuple[NDArray[np.uint32], int]:
     return np.array(masks, dtype=np.uint32), count
 
 
-def test_where_one_back_off_suits_every_waypoint_the_base_stays():
+def test_where_one_standoff_suits_every_waypoint_the_base_stays():
     (steps,) = travel(strip_of(0b111, 0b110, 0b011)[None], 3)
     assert steps[1, 1] == 0
 
@@ -83,6 +83,6 @@ def test_the_legs_realise_the_travel(seed: int):
         driven, at = 0, int(start)
         for mask, stand in zip(strip.tolist(), stands, strict=True):
             low, high = sorted((at, stand))
-            assert all(mask >> j & 1 for j in range(low, high + 1)), "every back-off on the way is in reach"
+            assert all(mask >> j & 1 for j in range(low, high + 1)), "every standoff on the way is in reach"
             driven, at = driven + abs(stand - at), stand
         assert driven == steps[start, end]

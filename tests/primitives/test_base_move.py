@@ -21,10 +21,10 @@ QUARTER = math.pi / 2
 TOWEL = garment(rectangle_points(0.4, 0.3))
 
 
-def move(start: str, goal: str, back_off: int = 0, scene: Scene | None = None):
+def move(start: str, goal: str, standoff: int = 0, scene: Scene | None = None):
     scene = scene or Scene()
     names = [name for name, _ in scene.stations]
-    state = State(0, (0.0, 0.0), names.index(start), back_off)
+    state = State(0, (0.0, 0.0), names.index(start), standoff)
     found = {s.details["to"]: s for s in BaseMove(context(TOWEL, scene)).successors(state)}
     return found[goal]
 
@@ -55,12 +55,12 @@ def test_along_one_side_the_base_backs_out_drives_by_and_drives_in():
 
 
 def test_a_base_that_has_backed_off_has_less_to_go_out():
-    assert move("front", "left").duration_s - move("front", "left", back_off=4).duration_s == pytest.approx(0.2 / 0.25)
+    assert move("front", "left").duration_s - move("front", "left", standoff=4).duration_s == pytest.approx(0.2 / 0.25)
 
 
 def test_a_base_backed_off_beyond_the_grown_table_need_not_back_out():
     # 0.4 m back: x = -1.35, already clear; straight to the corner (-1.27, 0.96) is hypot(0.08, 0.96).
-    step = move("front", "left", back_off=8)
+    step = move("front", "left", standoff=8)
     driven = math.hypot(0.08, 0.96) + 1.72 + 0.32
     turned = math.atan2(0.96, 0.08) + math.atan2(0.96, 0.08) + QUARTER
     assert step.duration_s == pytest.approx(driven / 0.25 + turned / 0.5)
@@ -69,7 +69,7 @@ def test_a_base_backed_off_beyond_the_grown_table_need_not_back_out():
 def test_there_is_one_move_to_each_other_station_and_it_ends_not_backed_off():
     steps = list(BaseMove(context(TOWEL)).successors(State(0, (0.0, 0.0), 1, 3)))
     assert [s.after.station for s in steps] == [0, 2, 3, 4]
-    assert all(s.after.back_off == 0 and not s.after.held for s in steps)
+    assert all(s.after.standoff == 0 and not s.after.held for s in steps)
 
 
 def test_the_base_does_not_move_with_cloth_in_its_hands():
@@ -77,12 +77,12 @@ def test_the_base_does_not_move_with_cloth_in_its_hands():
     assert list(BaseMove(context(TOWEL)).successors(holding)) == []
 
 
-def test_between_any_two_stations_the_way_is_legal_and_shortest_from_every_back_off():
+def test_between_any_two_stations_the_way_is_legal_and_shortest_from_every_standoff():
     scene = Scene()
     for start, goal in itertools.permutations(dict(scene.stations), 2):
-        for back_off in (0, 5, 9, 16):
-            step = move(start, goal, back_off)
-            pose = dict(scene.stations)[start].ahead(-0.05 * back_off)
+        for standoff in (0, 5, 9, 16):
+            step = move(start, goal, standoff)
+            pose = dict(scene.stations)[start].ahead(-0.05 * standoff)
             goal_pose = dict(scene.stations)[goal]
             primitive = {"waypoints": step.details["waypoints"], "duration_s": step.duration_s}
             require_way_round(

@@ -29,8 +29,8 @@ def towel(*folds, x_m: float = -0.75, y_m: float = 0.2) -> Garment:
     return garment(rectangle_points(0.4, 0.3), *folds, placement=Pose2(x_m, y_m, BACK))
 
 
-def start(back_off: int = 0) -> State:
-    return State(0, (0.0, 0.0), 0, back_off)
+def start(standoff: int = 0) -> State:
+    return State(0, (0.0, 0.0), 0, standoff)
 
 
 def folds_of(problem: Context, state: State | None = None):
@@ -44,7 +44,7 @@ def drags_of(problem: Context, state: State | None = None):
 def test_a_fold_in_reach_from_where_the_base_stands_takes_three_arm_motions():
     (step,) = folds_of(context(towel(NEAR_HALF)))
     assert step.duration_s == 9.0
-    assert step.after.done == 1 and step.after.back_off == 0 and not step.after.held
+    assert step.after.done == 1 and step.after.standoff == 0 and not step.after.held
     assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.0)
 
 
@@ -73,9 +73,9 @@ def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other
 
 def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it():
     # In reach only from 0.15 m back: 0.15 / 0.25 = 0.6 s more.
-    far = WideReach(lambda arm, point, back_off: back_off == 3)
+    far = WideReach(lambda arm, point, standoff: standoff == 3)
     (step,) = folds_of(context(towel(NEAR_HALF), reach=far))
-    assert step.after.back_off == 3
+    assert step.after.standoff == 3
     assert step.duration_s == pytest.approx(9.6)
     assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.6)
 
@@ -83,16 +83,16 @@ def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it():
 def test_the_base_follows_its_hands_where_no_one_place_will_do():
     # The hands go from x = 0.2 to 0.5 m ahead of the base at 0. Only x + 0.05 b between 0.4 and 0.6 is in reach:
     # 0.2 needs b = 4..8, 0.5 needs b = 0..2: at least two steps forward, and from b = 0 first four back.
-    band = WideReach(lambda arm, point, back_off: 0.4 - 1e-9 <= point[0] + 0.05 * back_off <= 0.6 + 1e-9)
+    band = WideReach(lambda arm, point, standoff: 0.4 - 1e-9 <= point[0] + 0.05 * standoff <= 0.6 + 1e-9)
     steps = folds_of(context(towel(NEAR_HALF), reach=band))
     nearest = min(steps, key=lambda s: s.duration_s)
-    assert nearest.after.back_off == 2
+    assert nearest.after.standoff == 2
     assert nearest.duration_s == pytest.approx(9.0 + (4 + 2) * 0.2)
     assert sum(phase.duration_s for phase in nearest.phases()) == pytest.approx(nearest.duration_s)
 
 
 def test_what_no_arm_reaches_is_noted_and_not_done():
-    problem = context(towel(NEAR_HALF), reach=WideReach(lambda arm, point, back_off: False))
+    problem = context(towel(NEAR_HALF), reach=WideReach(lambda arm, point, standoff: False))
     assert folds_of(problem) == []
     assert [code.value for code in problem.obstacles.codes(0)] == ["out_of_reach"]
 
@@ -126,7 +126,7 @@ def test_a_fold_before_a_red_one_keeps_hold_and_the_red_one_saves_the_reach():
     # The flap's free edge comes to lie at y = 0.24; its outer third turns back down over y = 0.2.
     red = fold((0.0, 0.2), (0.4, 0.2), "red")
     problem = context(towel(blue, red))
-    holding = [s for s in folds_of(problem) if s.after.back_off == 0]
+    holding = [s for s in folds_of(problem) if s.after.standoff == 0]
     assert len(holding) == 1 and holding[0].details == {"fold": 0, "holds": True}
     held = holding[0].after
     assert not held.is_dragged
@@ -144,7 +144,7 @@ def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_articles_leng
     assert {s.details["distance_m"] for s in steps} == {0.1, 0.2}
     for step in steps:
         assert step.after.offset == pytest.approx((-step.distance_m, 0.0))
-        assert step.after.back_off == step.first_stand + round(20 * step.distance_m)
+        assert step.after.standoff == step.first_stand + round(20 * step.distance_m)
         assert sum(p.duration_s for p in step.phases()) == pytest.approx(step.duration_s)
 
 

@@ -8,7 +8,7 @@ import pytest
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.primitives.base_legs import legs
-from planner.primitives.context import BACK_OFF_STEP_M, Context
+from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
 from planner.primitives.g_fold import GFold
@@ -42,7 +42,7 @@ def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
     for arm, tools, approach in zip(trial.arms, trial.tools, variant.way.approaches, strict=True):
         points = context.in_base(station, tools)
         for number, point in enumerate(points):
-            row = context.reach.back_offs(arm, point[None], np.array([approach]), context.back_offs, BACK_OFF_STEP_M)
+            row = context.reach.standoffs(arm, point[None], np.array([approach]), context.standoffs, STANDOFF_STEP_M)
             found[number] &= int(row[0, 0])
     return found
 
@@ -55,7 +55,7 @@ def travel_m(step: FoldStep) -> float:
 
 def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_searchs(context: Context):
     for step in GFold(context).successors(START):
-        fold, end = step.way.trial.fold, step.after.back_off
+        fold, end = step.way.trial.fold, step.after.standoff
         found = list(fold_variants(context, START, fold, end))
         durations = [step_of(context, START, v).duration_s for v in found]
         assert len(found) > 1 and durations == sorted(durations)
@@ -65,7 +65,7 @@ def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_
 
 def test_each_way_is_another_one(context: Context):
     (step, *_) = GFold(context).successors(START)
-    found = list(fold_variants(context, START, step.way.trial.fold, step.after.back_off))
+    found = list(fold_variants(context, START, step.way.trial.fold, step.after.standoff))
     looks = {(v.way.trial.cover, v.way.trial.arms, v.way.approaches) for v in found}
     assert len(looks) == len(found)
 
@@ -73,9 +73,9 @@ def test_each_way_is_another_one(context: Context):
 def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Context):
     for variant in list(fold_spread(context, BACKED_OFF, 0, COUNT))[::4]:
         seen, at = masks(context, START.station, variant), variant.first
-        for mask, stand in zip(seen, legs(seen, variant.first, variant.end, context.back_offs), strict=True):
+        for mask, stand in zip(seen, legs(seen, variant.first, variant.end, context.standoffs), strict=True):
             between = range(min(at, stand), max(at, stand) + 1)
-            assert all(int(mask) >> back_off & 1 for back_off in between)
+            assert all(int(mask) >> standoff & 1 for standoff in between)
             at = stand
         assert at == variant.end
 
@@ -83,7 +83,7 @@ def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Con
 def test_the_travel_told_is_what_the_phases_drive(context: Context):
     for variant in fold_spread(context, BACKED_OFF, 0, COUNT):
         step = step_of(context, BACKED_OFF, variant)
-        assert travel_m(step) == pytest.approx(variant.steps * BACK_OFF_STEP_M)
+        assert travel_m(step) == pytest.approx(variant.steps * STANDOFF_STEP_M)
         assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(step.duration_s)
 
 
@@ -100,6 +100,6 @@ def test_a_spread_is_as_large_as_asked_or_has_all_there_are(context: Context, co
 def test_with_grips_held_the_base_begins_where_it_stands():
     context = problem("letter-towel")
     held = max(GFold(context).successors(START), key=lambda s: len(s.after.held)).after
-    assert held.held and held.back_off < context.back_offs
+    assert held.held and held.standoff < context.standoffs
     found = list(fold_spread(context, held, 1, COUNT))
-    assert found and {v.first for v in found} == {held.back_off}
+    assert found and {v.first for v in found} == {held.standoff}

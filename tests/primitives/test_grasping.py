@@ -90,9 +90,9 @@ def test_the_nearest_pair_of_fewer_than_two_is_nowhere_near():
     assert nearest_pair_m(np.array([[0.0, 0.0], [3.0, 4.0], [0.0, 1.0]])) == pytest.approx(1.0)
 
 
-def test_the_base_stands_on_the_back_off_grid():
+def test_the_base_stands_on_the_standoff_grid():
     problem = context(TOWEL)
-    assert problem.back_offs == 17
+    assert problem.standoffs == 17
     assert problem.base_pose(0, 4) == Pose2(-1.15, 0.0, 0.0)
-    assert context(TOWEL, Scene(back_off_max_m=0.0)).back_offs == 1
-    assert context(TOWEL, Scene(back_off_max_m=0.29)).back_offs == 6
+    assert context(TOWEL, Scene(back_off_max_m=0.0)).standoffs == 1
+    assert context(TOWEL, Scene(back_off_max_m=0.29)).standoffs == 6

@@ -24,7 +24,7 @@ def test_sums_in_another_order_are_the_same_state():
         State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3001, 0.4)),), dragged=1),
         State(0b01, (0.1, 0.2), 1, 3, HERE.held, dragged=2),
     ],
-    ids=["folds", "placement", "station", "back-off", "free hands", "other arm", "other grip", "held from a fold"],
+    ids=["folds", "placement", "station", "standoff", "free hands", "other arm", "other grip", "held from a fold"],
 )
 def test_whatever_differs_makes_another_state(other: State):
     assert other != HERE

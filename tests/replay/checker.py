@@ -163,7 +163,7 @@ class Checker(World):
         """
         arms_s = (2 if self.held else 3) * self.scene["arm_motion_s"]
         steps = (primitive["duration_s"] - arms_s) * self.scene["base_speed_m_s"] / GRID_M
-        least = abs(primitive["base"]["back_off_m"] - self.back_off) / GRID_M
+        least = abs(primitive["base"]["back_off_m"] - self.standoff) / GRID_M
         assert steps >= least - 1e-5, f"{name}: takes {primitive['duration_s']} s, too few for arms and base"
         driven = math.floor(steps + 1e-5)
         assert steps - driven < 0.5 - 1e-5, f"{name}: its legs are no multiple of 5 cm"
@@ -194,7 +194,7 @@ class Checker(World):
         self._note_ways(primitive["grips"], spots, [(tuple(g["pick"]), tuple(g["place"])) for g in primitive["grips"]])
         first = primitive["base"]["back_off_m"] - distance
         assert first >= -1e-9, f"a drag of {distance} m ends {primitive['base']['back_off_m']} m from the station"
-        driven = abs(first - self.back_off) + distance
+        driven = abs(first - self.standoff) + distance
         wanted_s = self.scene["arm_motion_s"] + driven / self.scene["base_speed_m_s"]
         assert abs(primitive["duration_s"] - wanted_s) < SECOND, f"a drag takes {wanted_s} s, not as the plan says"
         self.x, self.y = self.x + shift[0], self.y + shift[1]
@@ -206,8 +206,8 @@ class Checker(World):
         assert primitive["to"] != self.station, "a move to where the base is"
         assert not primitive["grips"], "a move with cloth in the hands"
         yaw = self.scene["stations"][self.station]["yaw_rad"]
-        start = (*self._base_xy(self.station, self.back_off), yaw)
+        start = (*self._base_xy(self.station, self.standoff), yaw)
         goal = tuple(self.scene["stations"][primitive["to"]][k] for k in ("x_m", "y_m", "yaw_rad"))
         require_way_round(primitive, start, goal, self.scene)
         assert abs(primitive["base"]["back_off_m"]) < 1e-9, "a move ends at the station, not backed off"
-        self.station, self.back_off = primitive["to"], 0.0
+        self.station, self.standoff = primitive["to"], 0.0

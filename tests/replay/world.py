@@ -36,7 +36,7 @@ class World:
         self.done: list[int] = []
         placement = garment["placement"]
         self.x, self.y, self.yaw = placement["x_m"], placement["y_m"], placement["yaw_rad"]
-        self.station, self.back_off = start, 0.0
+        self.station, self.standoff = start, 0.0
         self.held: dict[str, Place] = {}
         self.held_from = ""
         self.now = 0.0
@@ -57,10 +57,10 @@ class World:
     def _on_table(self) -> list[BaseGeometry]:
         return [self._placed(shape) for shape in self.stack.shapes]
 
-    def _base_xy(self, station: str, back_off: float) -> Place:
+    def _base_xy(self, station: str, standoff: float) -> Place:
         pose = self.scene["stations"][station]
         yaw = pose["yaw_rad"]
-        return pose["x_m"] - back_off * math.cos(yaw), pose["y_m"] - back_off * math.sin(yaw)
+        return pose["x_m"] - standoff * math.cos(yaw), pose["y_m"] - standoff * math.sin(yaw)
 
     def _require_dag(self, dag: dict[str, Any]) -> None:
         assert dag["folds"] == len(self.folds), f"the DAG has {dag['folds']} folds, not {len(self.folds)}"
@@ -75,15 +75,15 @@ class World:
     def _require_base(self, primitive: dict[str, Any], number: int) -> None:
         base = primitive["base"]
         assert base["station"] == self.station, f"{number}: the base is at {base['station']}, not {self.station}"
-        back_off, most = base["back_off_m"], self.scene["back_off_max_m"]
-        steps = back_off / GRID_M
-        assert abs(steps - round(steps)) < 1e-6, f"{number}: a back-off of {back_off} m is off the 5 cm grid"
-        assert -1e-9 <= back_off <= most + 1e-9, f"{number}: a back-off of {back_off} m is not within 0..{most} m"
-        x, y = self._base_xy(self.station, back_off)
+        standoff, most = base["back_off_m"], self.scene["back_off_max_m"]
+        steps = standoff / GRID_M
+        assert abs(steps - round(steps)) < 1e-6, f"{number}: a standoff of {standoff} m is off the 5 cm grid"
+        assert -1e-9 <= standoff <= most + 1e-9, f"{number}: a standoff of {standoff} m is not within 0..{most} m"
+        x, y = self._base_xy(self.station, standoff)
         assert math.dist((x, y), (base["x_m"], base["y_m"])) < NEAR_M, f"{number}: the base's place is another"
         turn = base["yaw_rad"] - self.scene["stations"][self.station]["yaw_rad"]
         assert abs(math.remainder(turn, math.tau)) < 1e-6, f"{number}: the base looks another way"
-        self.back_off = back_off
+        self.standoff = standoff
 
     def _require_placement(self, placement: dict[str, Any]) -> None:
         gap = math.dist((self.x, self.y), (placement["x_m"], placement["y_m"]))

@@ -12,7 +12,7 @@ from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.replay import hulls
 from tests.robots.collision_samples import CARD, HOME, ROBOT, TORSO_M
 
-BACK_OFFS_M = np.arange(0.0, 0.81, 0.05)
+STANDOFFS_M = np.arange(0.0, 0.81, 0.05)
 
 
 def test_the_top_lies_under_its_upper_side_and_legs_stand_on_the_floor():
@@ -38,9 +38,9 @@ def test_parts_of_any_table_are_within_it(size):
 
 @pytest.mark.parametrize("torso_m", [0.2, TORSO_M, 0.31])
 @pytest.mark.parametrize("station", DEFAULT_STATIONS)
-def test_the_robot_stands_at_every_station_at_every_back_off(station, torso_m):
+def test_the_robot_stands_at_every_station_at_every_standoff(station, torso_m):
     collisions = ROBOT.collisions(Table(), torso_m)
-    for back_off_m in BACK_OFFS_M:
+    for back_off_m in STANDOFFS_M:
         assert collisions.free(DEFAULT_STATIONS[station].ahead(-float(back_off_m)), HOME[None]).all()
 
 

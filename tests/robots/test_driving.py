@@ -47,8 +47,8 @@ def _case(rng: np.random.Generator, given: tuple[int, ...] | None) -> Case:
     more = np.array([0.0, 0.1, 0.0])
     paths = np.array([path + (beside if arm == 0 else -beside) + (n // 2) * more for n, arm in enumerate(arms)])
     allowed = tuple(rng.permutation(AHEAD)[:4] for _ in arms)
-    back_off = int(rng.integers(COUNT))
-    begun = np.abs(np.arange(COUNT) - back_off)
+    standoff = int(rng.integers(COUNT))
+    begun = np.abs(np.arange(COUNT) - standoff)
     if rng.random() < 0.5:
         begun[begun > 0] = IMPOSSIBLE
     return Case(arms, np.round(paths, 5), allowed, begun)

@@ -25,7 +25,7 @@ AHEAD = (0.6, 0.188, 0.9)
 def is_in_reach(place: tuple[float, float, float], arm: int = 0) -> bool:
     """Return whether a tool point is in reach, level, and the body leaves the arm room."""
     reach = ROBOT.reach(TORSO_M, 0.0)
-    return bool(reach.back_offs(arm, np.array([place]), np.array([LEVEL]), 1, 0.05)[0, 0])
+    return bool(reach.standoffs(arm, np.array([place]), np.array([LEVEL]), 1, 0.05)[0, 0])
 
 
 def is_within_limits(place: tuple[float, float, float]) -> bool:

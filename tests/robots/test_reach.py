@@ -83,12 +83,12 @@ def test_rolling_the_tool_about_its_axis_changes_nothing():
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_back_offs_are_what_the_naive_loop_finds(arm, comfort_m):
+def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m):
     asked = bodiless(comfort_m)
     for points in _paths(np.random.default_rng(15)):
-        masks = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
         np.testing.assert_array_equal(masks, _naive_masks(arm, points, comfort_m))
-        again = asked.back_offs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        again = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
         np.testing.assert_array_equal(masks, again)
 
 
@@ -107,10 +107,10 @@ def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
     assert asked.queries == queries
 
 
-def test_from_anywhere_and_back_offs_share_what_they_remember():
+def test_from_anywhere_and_standoffs_share_what_they_remember():
     asked = bodiless(0.03)
     point = np.array([[0.3, 0.1, 0.9]])
-    masks = asked.back_offs(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    masks = asked.standoffs(0, point, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
     anywhere = asked.from_anywhere(0, point, EVERY_APPROACH, COUNT, STEP_M)
     np.testing.assert_array_equal(anywhere, masks != 0)
@@ -120,22 +120,22 @@ def test_from_anywhere_and_back_offs_share_what_they_remember():
 def test_what_was_asked_before_is_not_queried_again():
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(16)))
-    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
     assert queries > 0
     assert asked.query_time_s > 0.0
-    asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     assert asked.queries == queries
 
 
 def test_the_right_arm_profits_from_what_the_left_one_was_asked():
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(17)))
-    left = asked.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+    left = asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     queries = asked.queries
     by_direction = {(a.heading_rad, a.pitch_rad): i for i, a in enumerate(APPROACHES)}
     mirrored = np.array([by_direction[-a.heading_rad, a.pitch_rad] for a in APPROACHES])
-    right = asked.back_offs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
+    right = asked.standoffs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
     np.testing.assert_array_equal(left, right)
     assert asked.queries == queries
 
@@ -143,15 +143,15 @@ def test_the_right_arm_profits_from_what_the_left_one_was_asked():
 def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were_the_first():
     memories, paths = Memories(), list(_paths(np.random.default_rng(19)))
     first, fresh = bodiless(0.03, memories), bodiless(0.03)
-    expected = [first.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
+    expected = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
     queries = first.queries
     first.forget()
     assert first.queries == queries
     again = bodiless(0.03, memories)
     assert again.queries == 0
     for points, masks in zip(paths, expected, strict=True):
-        np.testing.assert_array_equal(again.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
-        fresh.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M)
+        np.testing.assert_array_equal(again.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
+        fresh.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
     assert again.queries == fresh.queries == queries
     again.forget()
     left = memories.take()
@@ -174,13 +174,13 @@ def test_a_full_memory_changes_no_answer(monkeypatch):
     forgetful = bodiless(0.03)
     for points in _paths(np.random.default_rng(18)):
         np.testing.assert_array_equal(
-            forgetful.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
-            usual.back_offs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+            forgetful.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+            usual.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M),
         )
 
 
-def test_no_points_have_no_back_offs():
-    masks = bodiless(0.0).back_offs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
+def test_no_points_have_no_standoffs():
+    masks = bodiless(0.0).standoffs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
     assert masks.shape == (len(APPROACHES), 0)
 
 
@@ -190,18 +190,18 @@ def test_what_cannot_be_asked_is_refused():
     with pytest.raises(RequestError, match="comfort_m"):
         ROBOT.reach(0.1, -0.01)
     with pytest.raises(ValueError, match="33"):
-        ROBOT.reach(0.1, 0.0).back_offs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
+        ROBOT.reach(0.1, 0.0).standoffs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
 
 
-def test_a_back_off_beyond_a_gap_does_not_count():
+def test_a_standoff_beyond_a_gap_does_not_count():
     """The base cannot drive through a place from which the tool, resting, is out of reach."""
     asked = bodiless(0.0)
     for points in _paths(np.random.default_rng(19)):
         shifted = points + np.array([0.4, 0.0, 0.0])
         path = np.vstack([points[:1], shifted[-1:]])
-        free = asked.back_offs(0, shifted[-1:], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
-        start = asked.back_offs(0, points[:1], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
-        followed = asked.back_offs(0, path, EVERY_APPROACH, COUNT, STEP_M)
+        free = asked.standoffs(0, shifted[-1:], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        start = asked.standoffs(0, points[:1], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
+        followed = asked.standoffs(0, path, EVERY_APPROACH, COUNT, STEP_M)
         for row, first, last in zip(followed, start, free, strict=True):
             expected = _connected(int(first), int(last))
             assert int(row[1]) == expected

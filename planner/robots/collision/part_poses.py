@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.robots.arm import ArmShape
 from planner.robots.collision.parts import ARM_PARTS, PALM
-from planner.robots.inverse_kinematics import X, Y, Z, turn
+from planner.robots.forward_kinematics import X, Y, Z, turn
 
 EACH = len(ARM_PARTS)
 """Number of parts of an arm."""

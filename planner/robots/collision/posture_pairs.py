@@ -45,16 +45,14 @@ def postures_apart(
     are_apart = np.zeros((len(left), len(right)), dtype=np.bool_)
     if are_apart.size == 0:
         return are_apart
-    is_left_hand, is_right_hand = pairs[:, 0] >= of_arms[a, HAND], pairs[:, 1] >= of_arms[b, HAND]
+    of_hands, with_right, with_left, with_both = _by_hands(pairs, of_arms[a, HAND], of_arms[b, HAND])
     of_left, of_right = slice(of_arms[a, FIRST], of_arms[a, END]), slice(of_arms[b, FIRST], of_arms[b, END])
     lefts = _placed(kinematics, lift_m, a, bounds[of_left], left)
     rights = _placed(kinematics, lift_m, b, bounds[of_right], right)
     both = np.zeros((of_arms[b, END], 5, 3))
     both[of_left], both[of_right] = lefts[0], rights[0]
-    if first_close_pair(corners, spans, bounds, both, pairs[is_left_hand & is_right_hand], 0, margin) >= 0:
+    if first_close_pair(corners, spans, bounds, both, of_hands, 0, margin) >= 0:
         return are_apart
-    with_right, with_left = pairs[~is_left_hand & is_right_hand], pairs[is_left_hand & ~is_right_hand]
-    with_both = pairs[~is_left_hand & ~is_right_hand]
     left_clear, right_clear = np.full(len(left), _UNKNOWN), np.full(len(right), _UNKNOWN)
     last_left = last_right = last_both = 0
     for i in range(len(left)):
@@ -79,6 +77,24 @@ def postures_apart(
             if is_one_enough:
                 return are_apart
     return are_apart
+
+
+@njit(cache=True, nogil=True)
+def _by_hands(pairs: Index, left_hand: int, right_hand: int) -> tuple[Index, Index, Index, Index]:
+    """Return the pairs of two hands, of the right hand alone, of the left hand alone, and of neither.
+
+    Args:
+        pairs: numbers of parts, the left arm's first, shape (q, 2).
+        left_hand: the first part of the left hand.
+        right_hand: the first part of the right hand.
+    """
+    is_left, is_right = pairs[:, 0] >= left_hand, pairs[:, 1] >= right_hand
+    return (
+        pairs[is_left & is_right],
+        pairs[~is_left & is_right],
+        pairs[is_left & ~is_right],
+        pairs[~is_left & ~is_right],
+    )
 
 
 @njit(cache=True, nogil=True)

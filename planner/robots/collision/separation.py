@@ -123,6 +123,19 @@ def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: F
 
 
 @njit(cache=True, nogil=True)
+def _pose_arms(
+    kinematics: ArmKinematics, lift_m: float, parts: Parts, arms: Index, joints: FloatArray, poses: FloatArray
+) -> None:
+    """Set the poses of the parts of some arms, whose joints follow one another."""
+    column = 0
+    for arm in arms:
+        low, high, after = parts.arms[arm, FIRST], parts.arms[arm, END], column + parts.arms[arm, JOINTS]
+        pose_parts(kinematics, lift_m, arm, joints[column:after], poses[low:high])
+        set_middles(parts.bounds[low:high], poses[low:high])
+        column = after
+
+
+@njit(cache=True, nogil=True)
 def first_close(
     kinematics: ArmKinematics,
     lift_m: float,
@@ -156,7 +169,7 @@ def first_close(
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
     """
-    corners, spans, bounds, of_arms = parts
+    corners, spans, bounds, _ = parts
     found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -164,12 +177,7 @@ def first_close(
         if i < len(bases):
             pose_table(bases[i], tables, poses[first:])
             set_middles(bounds[first:], poses[first:])
-        column = 0
-        for arm in arms:
-            low, high, after = of_arms[arm, FIRST], of_arms[arm, END], column + of_arms[arm, JOINTS]
-            pose_parts(kinematics, lift_m, arm, joints[i, column:after], poses[low:high])
-            set_middles(bounds[low:high], poses[low:high])
-            column = after
+        _pose_arms(kinematics, lift_m, parts, arms, joints[i], poses)
         _add_ways(bounds, before, poses, gone)
         found[i] = -1
         for pair in range(start[i], len(pairs)):

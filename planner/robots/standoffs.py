@@ -35,16 +35,16 @@ def _is_out_of_reach(ask: Question, memory: Memory, room: Room, space: Space, pl
     """Return whether no standoff reaches a place."""
     if not is_in_height(ask, place):
         return True
-    slot, back_off = row_slot(ask, memory.keys, memory.counts, place), 0
+    slot, standoff = row_slot(ask, memory.keys, memory.counts, place), 0
     if slot != FORGETFUL and ask.step == ROW_STEP:
         wanted = cells_of(place.x, count)
         if memory.bits[slot, GOOD] & wanted != 0:
             return False
         if memory.bits[slot, KNOWN] & wanted == wanted:
             return True
-    while back_off < count and not is_comfortable_at(ask, memory, room, space, slot, place, back_off):
-        back_off += 1
-    return back_off == count
+    while standoff < count and not is_comfortable_at(ask, memory, room, space, slot, place, standoff):
+        standoff += 1
+    return standoff == count
 
 
 @njit(cache=True, nogil=True)
@@ -54,19 +54,19 @@ def _arrivals(ask: Question, memory: Memory, room: Room, space: Space, place: Pl
     These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
     """
     mask, slot = 0, row_slot(ask, memory.keys, memory.counts, place)
-    for back_off in range(count):
-        is_next = back_off > 0 and (mask >> (back_off - 1)) & 1 == 1
-        if (before >> back_off) & 1 == 1 or is_next:
-            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, back_off) else 0) << back_off
-    for back_off in range(count - 2, -1, -1):
-        is_new = (before >> back_off) & 1 == 0 and (mask >> back_off) & 1 == 0
-        if is_new and (mask >> (back_off + 1)) & 1 == 1:
-            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, back_off) else 0) << back_off
+    for standoff in range(count):
+        is_next = standoff > 0 and (mask >> (standoff - 1)) & 1 == 1
+        if (before >> standoff) & 1 == 1 or is_next:
+            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
+    for standoff in range(count - 2, -1, -1):
+        is_new = (before >> standoff) & 1 == 0 and (mask >> standoff) & 1 == 0
+        if is_new and (mask >> (standoff + 1)) & 1 == 1:
+            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
     return mask
 
 
 @njit(cache=True, nogil=True)
-def back_off_masks(
+def standoff_masks(
     numbers: ArmNumbers,
     shoulder: FloatArray,
     memory: Memory,
@@ -136,7 +136,7 @@ def anywhere(
 ) -> BoolArray:
     """Return for each approach and point, each on its own, whether some standoff is within the comfort radius.
 
-    The arguments are those of `back_off_masks`, but there may be any number of standoffs. After `enough` approaches
+    The arguments are those of `standoff_masks`, but there may be any number of standoffs. After `enough` approaches
     that reach every point the others are left false.
     """
     space = space_for(numbers)

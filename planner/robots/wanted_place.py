@@ -1,0 +1,77 @@
+"""A place wanted for a tool, in some approaches with a comfort radius, and the test whether it is had. Compiled."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.geometry.pose import FloatArray
+from planner.robots.aim import ToolPose, aim_at
+from planner.robots.arm import ArmShape
+from planner.robots.arm_gap import comfort_gap
+from planner.robots.closed_comfort import is_comfortable
+from planner.robots.pan_arcs import MOST_ARCS
+from planner.robots.posture_room import Room, has_room_about
+
+
+class Wanted(NamedTuple):
+    """The requirements on a place.
+
+    Attributes:
+        axes: the approach axes allowed, shape (k, 3).
+        labels: the labels of the axes in the room's memory, shape (k,).
+        comfort: the comfort radius (m).
+        room: the obstacles to the arm's postures.
+    """
+
+    axes: FloatArray
+    labels: NDArray[np.int64]
+    comfort: float
+    room: Room
+
+
+class Scratch(NamedTuple):
+    """Scratch space.
+
+    Attributes:
+        arcs: shape (MOST_ARCS, 2).
+        hint: the pan that served last (rad), and its branch, shape (2,).
+    """
+
+    arcs: FloatArray
+    hint: FloatArray
+
+
+@njit(cache=True, nogil=True)
+def scratch_for(shape: ArmShape) -> Scratch:
+    """Return scratch space for a search that has not begun."""
+    return Scratch(np.empty((MOST_ARCS, 2)), np.array([0.5 * (shape.pan.low + shape.pan.high), 1.0]))
+
+
+@njit(cache=True, nogil=True)
+def aim_of(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
+    """Return the tool pose that brings the tool to a point in an approach."""
+    axis = wanted.axes[approach]
+    return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
+
+
+@njit(cache=True, nogil=True)
+def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
+    """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
+    return comfort_gap(shape, aim_of(shape, wanted, point, approach), wanted.comfort)
+
+
+@njit(cache=True, nogil=True)
+def is_wanted(
+    shape: ArmShape, wanted: Wanted, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
+) -> tuple[bool, int]:
+    """Return whether a tool pose meets the requirements in its approach, with a comfort radius; queries made."""
+    found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
+    return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
+
+
+@njit(cache=True, nogil=True)
+def rooms_tested(wanted: Wanted) -> int:
+    """Return the number of cells tested so far for whether the body leaves the arm room."""
+    return int(wanted.room.memory.entries[0])
