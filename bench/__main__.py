@@ -20,6 +20,7 @@ from bench.paper import SOURCE, TABLE_1
 from bench.paper_tables import table_1, table_2
 from bench.re_plan import re_plan
 from bench.reach import reach
+from bench.rehearsal import rehearsal
 from bench.report import Report
 from bench.robot_plans import robot_plans
 from bench.studies import studies
@@ -44,9 +45,13 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "crowd": crowd,
     "studies": studies,
     "vision": vision,
+    "rehearsal": rehearsal,
 }
 APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "studies", "vision"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
+
+ASKED: Final = frozenset({"rehearsal"})
+"""Tables made only where they are named: they take hours."""
 
 ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS))
 OUT: Final = Path(__file__).parent / "out"
@@ -66,7 +71,7 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
     asked = _parser().parse_args(arguments)
     named = [name for name in ARTICLES if name in asked.only]
     articles = named or list(ARTICLES)
-    usual = [name for name in BENCHMARKS if not (named and name in APART)]
+    usual = [name for name in BENCHMARKS if not (named and name in APART) and name not in ASKED]
     chosen = [name for name in BENCHMARKS if name in asked.only] or usual
     console = Console(highlight=False)
     console.width = max(console.width, WIDTH)

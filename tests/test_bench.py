@@ -15,6 +15,8 @@ import pytest
 from rich.console import Console
 
 from app.drawing.garment_drawing import drawing_of
+from app.rehearsal.judge import StepVerdict
+from app.rehearsal.result import RehearsalResult, Run
 from bench.__main__ import BENCHMARKS, main
 from bench.any_robot import any_robot
 from bench.chart import Panel, Point, Series, draw
@@ -32,6 +34,7 @@ from bench.reach import Effort, reach_of
 from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
 from bench.reach_truth import DenseReach
+from bench.rehearsal import Rehearsed, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.served import served
@@ -302,8 +305,15 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     main(["--quick", "--only", "vest"], tmp_path, tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == set(asked)
     assert {"table-1", "re-plan", "first-plan"} <= set(asked)
-    assert not set(asked) & {"reach", "any-robot", "growth"}
+    assert not set(asked) & {"reach", "any-robot", "growth", "rehearsal"}
     assert all(articles == ["vest"] for articles in asked.values())
+
+
+def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
+    held, lost = StepVerdict(0, 0.98, 3.0, 8.0, 1.0, 0.0), StepVerdict(1, 0.8, 21.0, 60.0, 9.0, 0.1, held=False)
+    result = RehearsalResult((Run(0, (held, lost), simulated_s=10.0, cpu_s=20.0), Run(1, (held,), reason="stopped")))
+    (line,) = row_of(Rehearsed("vest", "real", True, result)).lines
+    assert line == ("vest", "real", "on", "2 of 3", "1", "0.890", "12.0", "0 of 2", "0% to 84%", "0.50", "20.00")
 
 
 def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):

@@ -78,6 +78,8 @@ class PhysicsWorld:
 
     def perform(self, motion: StepMotion) -> Performed:
         """Close the fingers, move them along their paths, open them, and let the cloth come to rest."""
+        if not motion.grips:
+            return Performed()
         found = {grip.arm: self._take(grip) for grip in motion.grips}
         if all(found.values()) or not motion.needs_all:
             self._follow(motion.grips)

@@ -1,0 +1,111 @@
+"""Every article's plan performed in simulated physics: which steps hold, as it is and corrected by what is seen.
+
+One row for each article, noise and feedback. Several articles are rehearsed side by side in processes; CPU time is that
+of the rehearsal alone.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from statistics import mean
+from typing import Any
+
+from app.rehearsal.rehearse import RehearsalOptions, rehearse
+from app.rehearsal.result import RehearsalResult
+from bench.paper import TABLE_1
+from bench.report import ABSENT, Report, Row, seconds
+from planner import Task, load_garment, make_plan
+
+ARTICLES = (*TABLE_1, "letter-towel")
+PROCESSES = 2
+REAL_RUNS = 20
+"""Runs with errors of robot, cloth and camera; without errors all runs are alike but for the mesh."""
+
+COLUMNS = (
+    "",
+    "noise",
+    "feedback",
+    "steps held",
+    "first lost",
+    "last overlap",
+    "last mean [mm]",
+    "runs held",
+    "95 %",
+    "x real time",
+    "CPU [s]",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Rehearsed:
+    """The rehearsals of a plan under one noise, with or without feedback.
+
+    Attributes:
+        article: the garment's name.
+        noise: the noise's name.
+        feedback: whether the robot looked before each step.
+        result: what came out; no runs where there is no plan.
+    """
+
+    article: str
+    noise: str
+    feedback: bool
+    result: RehearsalResult
+
+
+def rehearsal(asked: Sequence[str], repetitions: int) -> Report:
+    """Rehearse the articles asked for; measured once, without noise and without feedback alone."""
+    named = [name for name in ARTICLES if name in asked] or ARTICLES
+    with ProcessPoolExecutor(PROCESSES, get_context("spawn"), max_tasks_per_child=1) as pool:
+        found = list(pool.map(rehearsed, named, [repetitions > 1] * len(named)))
+    rows = [row_of(one) for article in found for one in article if one.result.runs]
+    return Report("rehearsal", "Plans performed in simulated physics", COLUMNS, tuple(rows), 1)
+
+
+def rehearsed(article: str, is_whole: bool) -> list[Rehearsed]:
+    """Plan an article, and rehearse it without noise and, if all is asked for, with feedback and with noise."""
+    plan = make_plan(Task.of(load_garment(article)))
+    kinds = [("none", False), ("none", True), ("real", False), ("real", True)][: 4 if is_whole else 1]
+    found = []
+    for noise, feedback in kinds:
+        runs = 1 if noise == "none" else REAL_RUNS
+        options = RehearsalOptions(runs, noise=noise, feedback=feedback, workers=1)
+        found.append(
+            Rehearsed(article, noise, feedback, rehearse(plan, options) if plan.is_solved else RehearsalResult(()))
+        )
+    return found
+
+
+def row_of(one: Rehearsed) -> Row:
+    """Return the row of some rehearsals."""
+    runs = one.result.runs
+    steps = [step for run in runs for step in run.steps]
+    last = [run.steps[-1] for run in runs if run.steps]
+    lost = next((str(step.step) for step in runs[0].steps if not step.held), runs[0].reason and "stopped")
+    told: dict[str, Any] = {
+        "article": one.article,
+        "noise": one.noise,
+        "feedback": one.feedback,
+        "steps_held": sum(step.held for step in steps),
+        "steps": len(steps),
+        "last_iou": mean(step.iou for step in last) if last else None,
+        "last_mean_mm": mean(step.mean_mm for step in last) if last else None,
+        "cpu_s": sum(run.cpu_s for run in runs),
+        "real_time": sum(run.simulated_s for run in runs) / max(sum(run.cpu_s for run in runs), 1e-9),
+        **one.result.to_dict(),
+    }
+    line = (
+        one.article,
+        one.noise,
+        "on" if one.feedback else "off",
+        f"{told['steps_held']} of {told['steps']}",
+        lost or ABSENT,
+        f"{told['last_iou']:.3f}" if last else ABSENT,
+        f"{told['last_mean_mm']:.1f}" if last else ABSENT,
+        f"{told['held']} of {told['of']}",
+        f"{told['success_low']:.0%} to {told['success_high']:.0%}",
+        f"{told['real_time']:.2f}",
+        seconds(told["cpu_s"]),
+    )
+    return Row((line,), told)

@@ -1,0 +1,72 @@
+"""Plans that are wrong for reasons the planner knows: physics must not let them pass."""
+
+import numpy as np
+import pytest
+
+from app.physics.fabric import Fabric, Resolution
+from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.judge import Gate, StepVerdict, judged
+from app.rehearsal.world import GripMotion, StepMotion
+from planner import Task
+from planner.folds.fold_path import FoldPath
+from planner.folds.fold_sequence import replayed
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2, Pose2
+from planner.geometry.segment import Segment
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+from planner.task.world_state import WorldState
+from tests.builders import fold, garment, rectangle_points
+
+LONG, WIDE = 0.4, 0.3
+HALF = fold((LONG, WIDE / 2.0), (0.0, WIDE / 2.0), name="half")
+QUARTER = fold((LONG / 2.0, WIDE / 2.0), (LONG / 2.0, WIDE), name="quarter")
+DURATION_S = 2.5
+
+
+def verdict_on(world: PhysicsWorld, task: Task, done: tuple[int, ...]) -> StepVerdict:
+    state = WorldState(done, task.start.placement, task.start.base)
+    return judged(world.truth(), 0, replayed(task.garment), state, Isometry(), task.scene.table, Gate(), ())
+
+
+def folding(line: Segment, *grips: Point2) -> StepMotion:
+    """Return the motion of a fold by grips at given places, as a plan would make it."""
+    top = TableTop.of(Table())
+    path = FoldPath(line, float(line.left_distances(np.array(grips)).max()), top, top)
+    points = path.tool_paths(np.array(grips), np.linspace(0.0, 2.0, 11))
+    times = tuple(np.linspace(0.0, DURATION_S, 11).tolist())
+    hands = (GripMotion(f"arm {i}", times, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
+    return StepMotion(0, "fold", DURATION_S, tuple(hands))
+
+
+@pytest.mark.parametrize(("beyond", "friction", "holds"), [(0.2, 0.5, True), (0.5, 0.3, False)])
+def test_cloth_hung_beyond_friction_slides_off_the_table_and_less_of_it_stays(
+    beyond: float, friction: float, *, holds: bool
+):
+    # By the model friction / (1 + friction) of it may hang: a third and .23. The edge itself holds a little more.
+    length = 0.4
+    edge_x = -Table().depth_m / 2.0
+    towel = garment(rectangle_points(length, 0.2), placement=Pose2(edge_x - beyond * length, 0.0, 0.0))
+    task = Task.of(towel)
+    world = PhysicsWorld(task, Fabric(friction=friction), Resolution(0.04))
+    world.simulation.run(1.0)
+    assert verdict_on(world, task, ()).held == holds
+
+
+@pytest.mark.slow
+def test_folds_made_out_of_order_are_lost():
+    lies = Pose2(-LONG / 2.0, -WIDE / 2.0, 0.0)
+    task = Task.of(garment(rectangle_points(LONG, WIDE), HALF, QUARTER, placement=lies))
+    left, right, low = -LONG / 2.0, LONG / 2.0, -WIDE / 2.0
+    half = folding(Segment((right, 0.0), (left, 0.0)), (left, low), (right, low))
+    quarter = folding(Segment((0.0, low), (0.0, -low)), (left, 0.0), (left, -low))
+    in_order, out_of_order = (_folded(task, *motions) for motions in ((half, quarter), (quarter, half)))
+    assert not out_of_order.held
+    assert out_of_order.p95_mm > 2.0 * in_order.p95_mm
+
+
+def _folded(task: Task, *motions: StepMotion) -> StepVerdict:
+    world = PhysicsWorld(task, Fabric(), Resolution(0.03), seed=1)
+    for motion in motions:
+        world.perform(motion)
+    return verdict_on(world, task, (0, 1))
