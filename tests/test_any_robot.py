@@ -43,7 +43,6 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "app/ui/editor/glass.py": (r"left", "a button of the mouse"),
     "app/templates/mirrored.py": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/board/edits.js": (r"left|right", "names of folds on the halves of a garment"),
-    "static/js/board/numbers.js": (r"left", "a direction along the table"),
     "static/js/messages/changes.js": (r"left|right", "ways to turn the cloth"),
 }
 """Words that mean something else: by file, a pattern and the reason."""
