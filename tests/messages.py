@@ -115,6 +115,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "one_more_hand", "hands": 2},
     {"code": "split_fold", "fold": 1, "depth_m": 0.175},
     {"code": "halve_first", "fold": 0},
+    {"code": "flip_fold", "fold": 1},
     {"code": "fold_before", "fold": 1, "before": 0},
     {"code": "fold_in_order", "folds": [1, 0]},
     {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},

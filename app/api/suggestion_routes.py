@@ -42,6 +42,7 @@ Kind = Literal[
     "fold_line",
     "split",
     "halve",
+    "flip",
     "order",
     "station",
     "friction",

@@ -13,6 +13,7 @@ from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_added_fold import halvings, splits
 from planner.explain.suggestion_assumption import comforts, frictions, grip_radii
 from planner.explain.suggestion_budget import TrialBudget
+from planner.explain.suggestion_flip import flips
 from planner.explain.suggestion_fold_line import fold_lines
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_placement import placements
@@ -85,6 +86,7 @@ def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[
             fold_lines(task, folds),
             splits(task, folds),
             halvings(task, folds),
+            flips(task, folds),
             orders(task),
             stations(task),
         )

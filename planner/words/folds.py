@@ -47,6 +47,10 @@ def _shift_folds(values: Values, folds: Folds) -> str:
     return " and ".join(_shift_fold(shift, folds) for shift in values["shifts"])
 
 
+def _flip_fold(values: Values, folds: Folds) -> str:
+    return f"Fold the other side of the cloth at {called(folds, values['fold'])}"
+
+
 def _fold_before(values: Values, folds: Folds) -> str:
     return f"Make {called(folds, values['fold'])} before {called(folds, values['before'])}"
 
@@ -95,6 +99,7 @@ FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "place": _place,
     "shift_fold": _shift_fold,
     "shift_folds": _shift_folds,
+    "flip_fold": _flip_fold,
     "fold_before": _fold_before,
     "fold_in_order": _fold_in_order,
     "split_fold": _split_fold,

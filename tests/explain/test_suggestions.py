@@ -10,6 +10,7 @@ from planner import FoldSequence, Garment, Scene, Task, find_plan, load_garment,
 from planner.errors import FoldError, RequestError
 from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_assumption import comforts, frictions, grip_radii
+from planner.explain.suggestion_flip import flips
 from planner.explain.suggestion_fold_line import chord, fold_lines, redrawn
 from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.explain.suggestion_map import placement_map
@@ -120,6 +121,26 @@ def test_the_grip_radius_that_is_suggested_is_the_least_in_whole_millimetres():
     for reasons in (known.reasons, ()):
         found = least_of(grip_radii(asked(ribbon), (0,), reasons))
         assert found.change["garment"]["folds"][0]["grip_radius_m"] == pytest.approx(0.025)
+
+
+def test_where_the_other_part_could_move_at_the_same_line_that_is_suggested():
+    # Drawn the wrong way round: all of the cloth but a strip would move.
+    line = fold((0.0, 0.1), (0.9, 0.1))
+    cloth = garment(rectangle_points(0.9, 0.7), line, placement=Pose2(-0.75, 0.45, -math.pi / 2))
+    task = asked(cloth)
+    assert not find_plan(task).plan.is_solved
+    found = least_of(flips(task, (0,)))
+    (flipped,) = found.change["garment"]["folds"]
+    assert (flipped["start"], flipped["end"]) == ([0.9, 0.1], [0.0, 0.1])
+    assert found.message.startswith("Fold the other side of the cloth at fold 0")
+    assert planned_with(found.change, cloth, task.scene).is_solved
+
+
+def test_a_fold_whose_other_part_would_leave_the_others_in_the_air_is_not_flipped():
+    folds = (fold((0.2, 0.3), (0.2, 0.0)), fold((0.1, 0.3), (0.1, 0.0)))
+    cloth = garment(rectangle_points(0.3, 0.3), *folds)
+    with pytest.raises(StopIteration):
+        least_of(flips(asked(cloth), (0,)))
 
 
 def test_assumptions_that_are_enough_only_together_are_suggested_together_each_the_least():

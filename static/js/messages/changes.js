@@ -26,6 +26,7 @@ export const CHANGES = {
   split_fold: ({ fold, depth_m: depth }, folds) =>
     say("message.split_fold", { fold: called(folds, fold), length: length(depth) }),
   halve_first: ({ fold }, folds) => say("message.halve_first", { fold: called(folds, fold) }),
+  flip_fold: ({ fold }, folds) => say("message.flip_fold", { fold: called(folds, fold) }),
   fold_before: ({ fold, before }, folds) =>
     say("message.fold_before", { fold: called(folds, fold), before: called(folds, before) }),
   fold_in_order: ({ folds: order }, folds) =>
