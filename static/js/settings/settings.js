@@ -2,7 +2,7 @@
 
 import { unit } from "../board/units.js";
 import { openDialog } from "../dialogs/dialog.js";
-import { element } from "../dom.js";
+import { byId, element } from "../dom.js";
 import { LANGUAGES, language, ownName, speak } from "../language/language.js";
 import { inEnglish, say } from "../language/say.js";
 import { EFFORTS, effort, keepEffort } from "./effort.js";
@@ -40,13 +40,19 @@ function readers(store) {
     unit.name,
     (name) => (unit.name = name === "in" ? "in" : "cm"),
   );
+  const colours = choice(
+    say("settings.colours"),
+    /** @type {const} */ (["light", "dark"]).map((name) => ({ value: name, text: say(`theme.${name}`) })),
+    document.documentElement.dataset.theme ?? "light",
+    () => byId("theme").click(),
+  );
   const efforts = choice(
     say("settings.effort"),
     EFFORTS.map((name) => ({ value: name, text: say(`effort.${name}`) })),
     effort(),
     (name) => keepEffort(store, /** @type {typeof EFFORTS[number]} */ (name)),
   );
-  return [languages, units, efforts, element("p", "dialog-text", say("settings.effort_hint"))];
+  return [languages, units, colours, efforts, element("p", "dialog-text", say("settings.effort_hint"))];
 }
 
 /**
