@@ -132,7 +132,7 @@ class MappedArm:
     ) -> tuple[FloatArray, FloatArray]:
         """Return samples of the joints at each tool pose, shape (n, m, joints), and their costs; see `PathArm`."""
         shoulder = self.shoulder(torso_m)
-        points, axes = np.ascontiguousarray(positions - shoulder), np.ascontiguousarray(rotations)
+        points, axes = np.ascontiguousarray(positions - shoulder), np.array(rotations, order="C")
         floor = floor_m - float(shoulder[2])
         if not self._gives_roll_alone:
             return self._memory.samples(points, axes, floor)

@@ -15,6 +15,9 @@ from planner.robots.hand_roll import gives_roll, roll_between
 from planner.robots.newton import EXACT_M
 from planner.robots.posture_samples import limit_cost
 
+_STEEP = 0.7
+"""Sine of the pitch of an approach from which its level direction is not certain enough to build on."""
+
 _TURNS = (0.0, -math.tau, math.tau)
 """Whole turns by which a last joint of more than one turn may be off (rad)."""
 
@@ -29,13 +32,20 @@ def _is_along(chain: Chain) -> bool:
     return math.hypot(float(chain.tool_rotation[0, 0]), float(chain.tool_rotation[1, 0])) <= EXACT_M
 
 
+@njit(cache=True, nogil=True)
 def unrolled(rotations: FloatArray) -> FloatArray:
     """Return rotations with the same x axes, shape (n, 3, 3), and rolls that depend on these alone."""
-    ahead = rotations[:, :, 0] + 0.0  # no negative zeros: equal axes are to be equal bytes
-    is_steep = np.abs(ahead[:, 2:]) > 0.7
-    across = np.cross(np.where(is_steep, [[1.0, 0.0, 0.0]], [[0.0, 0.0, 1.0]]), ahead)
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    return np.ascontiguousarray(np.stack([ahead, across, np.cross(ahead, across)], axis=2))
+    found = np.empty((len(rotations), 3, 3))
+    for i in range(len(rotations)):
+        # No negative zeros: equal axes are to be equal bytes.
+        x, y, z = rotations[i, 0, 0] + 0.0, rotations[i, 1, 0] + 0.0, rotations[i, 2, 0] + 0.0
+        ax, ay, az = (0.0, -z, y) if abs(z) > _STEEP else (-y, x, 0.0)  # across the axis, with x or with z
+        length = math.sqrt(ax * ax + ay * ay + az * az)
+        ax, ay, az = ax / length, ay / length, az / length
+        found[i, 0, 0], found[i, 1, 0], found[i, 2, 0] = x, y, z
+        found[i, 0, 1], found[i, 1, 1], found[i, 2, 1] = ax, ay, az
+        found[i, 0, 2], found[i, 1, 2], found[i, 2, 2] = y * az - z * ay, z * ax - x * az, x * ay - y * ax
+    return found
 
 
 @njit(cache=True, nogil=True)
