@@ -186,10 +186,12 @@ class Replanner:
         These are plans that were never shown, and plans for previews that are shown no more.
         """
         assert asked.task is not None, "what has no task is not planned"
-        before, plan_id = self._document.state.answer, self._plans.add(plan)
+        now = self._document.state
+        before, is_passing = now.answer, now.draft.gesture is not None
+        plan_id = self._plans.add(plan, is_passing=is_passing)
         self._document.settle(asked.version, asked.task, plan, plan_id, is_final=is_final)
         state = self._document.state
-        if state.draft.gesture is not None:
+        if is_passing:
             self._of_previews.add(plan_id)
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
         gone = {plan_id} if before is None or before.plan_id not in self._of_previews else {plan_id, before.plan_id}

@@ -23,6 +23,7 @@ from app.store.job_repository import JobRepository
 from app.store.older.take_over import take_over
 from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
+from app.store.share_repository import ShareRepository
 from planner.errors import FoldingError
 from planner.robots.own_robots import use_robots_folder
 
@@ -51,6 +52,7 @@ class Workspace:
         garments: the garment repository.
         robots: the repository of robots; the whole process looks for robots of one's own there.
         documents: the document repository.
+        shares: the links to documents.
         plans: the plans made so far.
         lanes: the workers for everything that takes time.
         database: the database.
@@ -65,7 +67,8 @@ class Workspace:
         self.robots = RobotRepository(self.folder.robots)
         use_robots_folder(self.folder.robots)
         self.documents = DocumentRepository(self.database)
-        self.plans = PlanStore()
+        self.shares = ShareRepository(self.database)
+        self.plans = PlanStore(self.database)
         self.lanes = Lanes()
         stores = Stores(self.garments, self.plans, self.folder.studies)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)

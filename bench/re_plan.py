@@ -10,10 +10,12 @@ import random
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from math import cos, sin, tau
+from pathlib import Path
 from statistics import median, quantiles
+from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
 
 from app.document import Document
@@ -25,6 +27,7 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
+from app.store.database import Database
 from app.store.plan_store import PlanStore
 from bench.paper import TABLE_2
 from bench.report import Report, Row
@@ -109,13 +112,14 @@ def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:
 def _planned(drawing: Drawing) -> Iterator[Document]:
     """Yield a document with its planner, at rest."""
     document, pool = Document(draft_of(drawing)), JobPool()
-    replanner = Replanner(document, pool, PlanStore())
-    try:
-        _until(document, _is_settled)
-        yield document
-    finally:
-        replanner.close()
-        pool.close()
+    with TemporaryDirectory() as folder, closing(Database(Path(folder) / "pleat.db")) as database:
+        replanner = Replanner(document, pool, PlanStore(database))
+        try:
+            _until(document, _is_settled)
+            yield document
+        finally:
+            replanner.close()
+            pool.close()
 
 
 def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: float) -> Replanned:

@@ -20,6 +20,7 @@ from app.api import (
     plan_routes,
     robot_routes,
     scene_routes,
+    share_routes,
     stage_routes,
     study_routes,
     suggestion_routes,
@@ -34,6 +35,7 @@ from app.api.methods import HeadAsGet
 from app.api.metrics import Measured, Metrics
 from app.api.prefix import BelowPrefix
 from app.api.problems import Problem, install_problems
+from app.api.shared import Shared
 from app.api.token_only import TokenOnly
 from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
@@ -80,6 +82,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         template_routes,
         document_routes,
         document_changes,
+        share_routes,
         file_routes,
         overlay_routes,
         live,
@@ -95,6 +98,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:
         app.add_middleware(TokenOnly, token=token, port=settings.port)
+    app.add_middleware(Shared, shares=workspace.shares)
     app.add_middleware(ClientLimits, requests_per_s=settings.requests_per_s)
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)

@@ -8,6 +8,7 @@ its plan changes, a ``playback`` message whenever the clock is set, and ten time
 import asyncio
 import contextlib
 import json
+from collections.abc import Awaitable
 
 from fastapi import APIRouter, WebSocket
 from fastapi.concurrency import run_in_threadpool
@@ -16,6 +17,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.api.body import parsed
 from app.api.commands import command_of, obey
 from app.api.live_messages import document_message, plan_message, playback_message, problem_message
+from app.api.shared import require_look, until_revoked
 from app.api.waiting import waking
 from app.document_state import DocumentState
 from app.open_document import OpenDocument
@@ -44,7 +46,8 @@ async def live(websocket: WebSocket, document_id: str) -> None:
         ways = [
             asyncio.create_task(_tell(websocket, opened)),
             asyncio.create_task(_listen(websocket, workspace, opened)),
-            asyncio.create_task(_close(websocket, is_removed)),
+            asyncio.create_task(_close_after(is_removed.wait(), websocket)),
+            asyncio.create_task(_close_after(until_revoked(websocket, workspace.shares), websocket)),
         ]
         try:
             await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
@@ -103,16 +106,14 @@ async def _listen(websocket: WebSocket, workspace: Workspace, opened: OpenDocume
         while True:
             text = await websocket.receive_text()
             try:
-                await run_in_threadpool(_obey, text, workspace, opened)
+                command = command_of(parsed(text))
+                require_look(websocket.scope, command)
+                await run_in_threadpool(obey, command, workspace, opened.document)
             except FoldingError as error:
                 await websocket.send_json(problem_message(error))
 
 
-def _obey(text: str, workspace: Workspace, opened: OpenDocument) -> None:
-    obey(command_of(parsed(text)), workspace, opened.document)
-
-
-async def _close(websocket: WebSocket, is_removed: asyncio.Event) -> None:
-    await is_removed.wait()
+async def _close_after(end: Awaitable[object], websocket: WebSocket) -> None:
+    await end
     with contextlib.suppress(RuntimeError, WebSocketDisconnect):
         await websocket.close(NOT_FOUND)

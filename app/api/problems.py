@@ -45,6 +45,14 @@ MEDIA_TYPE = "application/problem+json"
 CLIENT_GONE = 499
 """Status in the log, as of other servers, for a client that has gone away: nobody reads the answer."""
 
+
+class LookOnlyError(FoldingError):
+    """A visitor by a link to a document has asked for a change."""
+
+    def __str__(self) -> str:
+        return "this link is for looking and playing only"
+
+
 _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
     UnknownRobotError: 404,
@@ -58,6 +66,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     NewerDocumentError: 409,
     NewerDatabaseError: 409,
     ForbiddenStorageError: 403,
+    LookOnlyError: 403,
     FullStorageError: 507,
     StorageError: 500,
     ReadOnlyGarmentError: 409,
@@ -158,6 +167,11 @@ async def _too_large_problem(_: Request, error: TooLargeError) -> Response:
 
 
 async def _folding_problem(_: Request, error: FoldingError) -> Response:
+    return folding_problem(error)
+
+
+def folding_problem(error: FoldingError) -> Response:
+    """Return the answer to a request that raised an error, by its class."""
     status = next((code for kind, code in _STATUS_OF.items() if isinstance(error, kind)), 422)
     return ProblemResponse(status, str(error))
 

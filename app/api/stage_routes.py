@@ -17,6 +17,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
 from app.api.asked import workspace_of
+from app.api.shared import is_shared, until_revoked
 from app.ui.stage import Stage
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER, stage_page
 from app.workspace import Workspace
@@ -70,7 +71,7 @@ async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> 
         async with _dial(stage, websocket.scope["subprotocols"]) as inner:
             await websocket.accept(subprotocol=inner.subprotocol)
             with stage.drawn_by_software() if is_by_software else contextlib.nullcontext():
-                await _pass_on(websocket, inner)
+                await _pass_on(websocket, inner, workspace)
 
 
 def _dial(stage: Stage, subprotocols: list[str]) -> connect:
@@ -85,9 +86,16 @@ def _dial(stage: Stage, subprotocols: list[str]) -> connect:
     )
 
 
-async def _pass_on(outer: WebSocket, inner: ClientConnection) -> None:
-    """Pass messages on in both directions, each sent before the next is taken, so that neither side is flooded."""
-    ways = [asyncio.create_task(_inwards(outer, inner)), asyncio.create_task(_outwards(outer, inner))]
+async def _pass_on(outer: WebSocket, inner: ClientConnection, workspace: Workspace) -> None:
+    """Pass messages on in both directions, each sent before the next is taken, so that neither side is flooded.
+
+    Those of a visitor by a link are dropped: a stage sees no seat and no hand of one who may only look.
+    """
+    ways = [
+        asyncio.create_task(_dropped(outer) if is_shared(outer.scope) else _inwards(outer, inner)),
+        asyncio.create_task(_outwards(outer, inner)),
+        asyncio.create_task(until_revoked(outer, workspace.shares)),
+    ]
     try:
         await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
     finally:
@@ -102,6 +110,12 @@ async def _inwards(outer: WebSocket, inner: ClientConnection) -> None:
     with contextlib.suppress(WebSocketDisconnect, ConnectionClosed):
         async for message in outer.iter_bytes():
             await inner.send(message)
+
+
+async def _dropped(outer: WebSocket) -> None:
+    with contextlib.suppress(WebSocketDisconnect):
+        async for _ in outer.iter_bytes():
+            pass
 
 
 async def _outwards(outer: WebSocket, inner: ClientConnection) -> None:

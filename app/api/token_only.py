@@ -12,6 +12,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api.problems import ProblemResponse
+from app.api.shared import is_shared
 from app.store.access_token import AccessToken
 
 UNAUTHORIZED = 401
@@ -35,8 +36,8 @@ class TokenOnly:
         self._cookie = f"pleat-{port}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass a request on, exchange the token of a page's address for a cookie, or refuse."""
-        if scope["type"] == "lifespan" or self._is_known(Headers(scope=scope)):
+        """Pass a request on, as those by a link, exchange the token of a page's address for a cookie, or refuse."""
+        if scope["type"] == "lifespan" or is_shared(scope) or self._is_known(Headers(scope=scope)):
             await self._app(scope, receive, send)
             return
         await self._answer(scope)(scope, receive, send)

@@ -10,6 +10,7 @@ import json
 import logging
 import os
 import queue
+import re
 import sys
 import threading
 from collections.abc import Iterator
@@ -26,6 +27,9 @@ _TIME_FORMAT = "%Y-%m-%dT%H:%M:%S%z"
 _LEVELS = {"app": logging.INFO, "uvicorn.access": logging.INFO, "uvicorn.error": logging.WARNING}
 _LAST_LINES_S = 0.2
 """Time to write the last lines when the server ends (s)."""
+
+_LINK = re.compile(r"(/s/)[A-Za-z0-9_-]{8,}")
+"""The token of a link to a document, which must not be in the log."""
 
 Lines = queue.Queue[logging.LogRecord | None]
 
@@ -62,6 +66,7 @@ class _DroppingHandler(QueueHandler):
     def prepare(self, record: logging.LogRecord) -> logging.LogRecord:
         """Return the record as it is written, from the context of the request."""
         prepared: logging.LogRecord = super().prepare(record)
+        prepared.msg = prepared.message = _LINK.sub(r"\1...", prepared.getMessage())
         prepared.request = REQUEST_ID.get()
         return prepared
 

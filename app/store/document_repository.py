@@ -75,7 +75,7 @@ class DocumentRepository:
             BrokenDocumentError: it cannot be read.
             StorageError: the database refuses.
         """
-        _require_id(document_id)
+        require_id(document_id)
         with self._database.reading(f"document {document_id!r} could not be read") as session:
             found = read_document(session, document_id)
         keeper = DocumentKeeper(self._database, document_id, found.kept)
@@ -90,7 +90,7 @@ class DocumentRepository:
 
     def versions(self, document_id: str) -> tuple[KeptVersion, ...]:
         """Return the drawings that a document can go back to, the latest first; raise as `kept` does."""
-        _require_id(document_id)
+        require_id(document_id)
         with self._database.reading(f"document {document_id!r} could not be read") as session:
             return read_versions(session, document_id)
 
@@ -101,7 +101,7 @@ class DocumentRepository:
             UnknownDocumentError: there is none.
             StorageError: it could not be removed, and is still there.
         """
-        _require_id(document_id)
+        require_id(document_id)
         with self._database.writing(f"document {document_id!r} could not be removed") as session:
             removed = session.execute(delete(DocumentRow).where(DocumentRow.id == document_id))
             assert isinstance(removed, CursorResult)
@@ -128,7 +128,7 @@ class DocumentRepository:
             session.execute(opened)
 
 
-def _require_id(document_id: str) -> None:
-    """Refuse what cannot be an id: PostgreSQL knows no zero byte."""
+def require_id(document_id: str) -> None:
+    """Raise `UnknownDocumentError` for what cannot be an id: PostgreSQL knows no zero byte."""
     if not ID_PATTERN.fullmatch(document_id):
         raise UnknownDocumentError(document_id)

@@ -1,33 +1,38 @@
-"""Keeps the plans made since the server started, by id; drops the oldest beyond a thousand.
+"""Keeps the newest plans in the database, by id, so that they can be read after a restart too.
 
-The newest stay in memory as objects, the others in a database private to this process. The database is an unnamed
-temporary file with a few megabytes of cache, so memory does not grow with the number of plans.
+The plans made last also stay in memory as objects. The others are read anew from their JSON, compressed, whose version
+a later Pleat knows.
 """
 
 import logging
-import pickle
-import sqlite3
 import threading
 import uuid
-import weakref
 import zlib
 from collections import OrderedDict
 from dataclasses import dataclass
 
+from pydantic_core import from_json, to_json
+from sqlalchemy import delete, insert, select
+
+from app.store.database import Database
+from app.store.schema import PlanRow
 from planner.errors import FoldingError
 from planner.task.plan import Plan
 
-CAPACITY = 1000
-"""Number of plans kept."""
+CAPACITY, CAPACITY_BYTES = 1000, 128 << 20
+"""Number of plans kept, and their size (bytes)."""
 
 LIVE_MAX = 16
 """Number of plans kept as objects."""
 
-_CACHE_KIB = 4096
-"""Size of the database's cache in memory (KiB)."""
+PASSING_MAX = 64
+"""Number of plans in passing kept: each open document has one or two while its drawing is under a hand."""
+
+_DROP_EVERY = 16
+"""Plans added between two looks at whether the oldest are to be dropped."""
 
 _ZIP_LEVEL = 1
-"""Compression level. Level 1 halves a plan in 1-2 ms; higher levels take longer and save only 5 % more (measured)."""
+"""Compression level. Higher ones take longer and save only 5 % more (measured)."""
 
 _log = logging.getLogger(__name__)
 
@@ -39,90 +44,84 @@ class UnknownPlanError(FoldingError):
     plan_id: str
 
     def __str__(self) -> str:
-        return f"there is no plan with the id {self.plan_id!r}"
+        return f"there is no plan with the id {self.plan_id[:80]!r}"
 
 
 class PlanStore:
     """Keeps the newest plans; safe to use from any thread."""
 
-    def __init__(self, capacity: int = CAPACITY) -> None:
-        """Start empty."""
-        self._capacity = capacity
-        self._order: OrderedDict[str, None] = OrderedDict()
+    def __init__(self, database: Database, capacity: int = CAPACITY, capacity_bytes: int = CAPACITY_BYTES) -> None:
+        """Use a database; read nothing yet."""
+        self._database = database
+        self._capacity, self._capacity_bytes = capacity, capacity_bytes
+        self._live_max = min(LIVE_MAX, capacity)
         self._live: OrderedDict[str, Plan] = OrderedDict()
-        self._stored = _StoredPlans()
+        self._passing: OrderedDict[str, Plan] = OrderedDict()
+        self._added = 0
         self._lock = threading.Lock()
 
-    def add(self, plan: Plan) -> str:
-        """Store a plan; return its id."""
+    def add(self, plan: Plan, *, is_passing: bool = False) -> str:
+        """Store a plan and return its id.
+
+        Where the database refuses, the plan can be read while it is among the newest.
+
+        Args:
+            plan: the plan.
+            is_passing: whether it is dropped soon, as that of a drawing under a hand; it is not written then.
+        """
         plan_id = uuid.uuid4().hex
+        if not is_passing:
+            self._write(plan_id, plan)
         with self._lock:
-            self._live[plan_id] = plan
-            self._order[plan_id] = None
-            while len(self._order) > self._capacity:
-                self._forget(next(iter(self._order)))
-            oldest = next(iter(self._live.items())) if len(self._live) > LIVE_MAX else None
-        if oldest is not None:
-            self._put_away(*oldest)
+            plans, most = (self._passing, PASSING_MAX) if is_passing else (self._live, self._live_max)
+            plans[plan_id] = plan
+            oldest = plans.popitem(last=False) if len(plans) > most else None
+        if is_passing and oldest is not None:  # it has stayed after all
+            self._write(*oldest)
         return plan_id
 
     def plan(self, plan_id: str) -> Plan:
         """Return the plan with this id; raise `UnknownPlanError` if there is none."""
         with self._lock:
-            if plan_id not in self._order:
-                raise UnknownPlanError(plan_id)
-            return self._live.get(plan_id) or self._stored.plan(plan_id)
+            plan = self._live.get(plan_id) or self._passing.get(plan_id)
+        if plan is not None:
+            return plan
+        if "\0" in plan_id:  # PostgreSQL knows no zero character
+            raise UnknownPlanError(plan_id)
+        with self._database.reading("the plan could not be read") as session:
+            packed = session.scalar(select(PlanRow.content).where(PlanRow.id == plan_id))
+        if packed is None:
+            raise UnknownPlanError(plan_id)
+        return Plan.from_dict(from_json(zlib.decompress(packed)))
 
     def drop(self, plan_id: str) -> None:
         """Drop a plan, if it is there."""
         with self._lock:
-            if plan_id in self._order:
-                self._forget(plan_id)
+            self._live.pop(plan_id, None)
+            if self._passing.pop(plan_id, None) is not None:
+                return
+        with self._database.writing("the plan could not be dropped", is_synced=False, is_lasting=False) as session:
+            session.execute(delete(PlanRow).where(PlanRow.id == plan_id))
 
-    def _forget(self, plan_id: str) -> None:
-        del self._order[plan_id]
-        if self._live.pop(plan_id, None) is None:
-            self._stored.remove(plan_id)
-
-    def _put_away(self, plan_id: str, plan: Plan) -> None:
-        """Move a plan to the database; keep it as an object if that fails."""
+    def _write(self, plan_id: str, plan: Plan) -> None:
         try:
-            packed = _packed(plan)
+            self._write_row(plan_id, plan)
+        except FoldingError as error:
+            _log.warning("%s", error)
+
+    def _write_row(self, plan_id: str, plan: Plan) -> None:
+        content = zlib.compress(to_json(plan.to_dict()), _ZIP_LEVEL)
+        row = {"id": plan_id, "size": len(content), "content": content}
+        with self._database.writing("the plan could not be kept", is_synced=False, is_lasting=False) as session:
+            session.execute(insert(PlanRow), row)
             with self._lock:
-                if plan_id in self._live:
-                    self._stored.put(plan_id, packed)
-                    del self._live[plan_id]
-        except Exception:
-            _log.exception("a plan could not be put away")
-            with self._lock:
-                if plan_id in self._live:
-                    self._live.move_to_end(plan_id)
-
-
-def _packed(plan: Plan) -> bytes:
-    return zlib.compress(pickle.dumps(plan, pickle.HIGHEST_PROTOCOL), _ZIP_LEVEL)
-
-
-class _StoredPlans:
-    """Plans on the disk, for the lifetime of this process."""
-
-    def __init__(self) -> None:
-        self._database = sqlite3.connect("", check_same_thread=False, isolation_level=None)
-        self._database.execute(f"PRAGMA cache_size = -{_CACHE_KIB}")
-        self._database.execute("CREATE TABLE plans (id TEXT PRIMARY KEY, plan BLOB)")
-        weakref.finalize(self, self._database.close)
-
-    def put(self, plan_id: str, packed: bytes) -> None:
-        """Store a plan; raise `sqlite3.Error` if there is no room."""
-        self._database.execute("INSERT INTO plans VALUES (?, ?)", (plan_id, packed))
-
-    def plan(self, plan_id: str) -> Plan:
-        """Return a stored plan."""
-        found = self._database.execute("SELECT plan FROM plans WHERE id = ?", (plan_id,))
-        (packed,) = found.fetchone()
-        plan: Plan = pickle.loads(zlib.decompress(packed))
-        return plan
-
-    def remove(self, plan_id: str) -> None:
-        """Remove a plan."""
-        self._database.execute("DELETE FROM plans WHERE id = ?", (plan_id,))
+                self._added += 1
+                is_due = self._added % min(_DROP_EVERY, self._capacity) == 0
+            if not is_due:
+                return
+            kept, total = 0, 0
+            for number, size in session.execute(select(PlanRow.number, PlanRow.size).order_by(PlanRow.number.desc())):
+                kept, total = kept + 1, total + size
+                if kept > self._capacity or total > self._capacity_bytes:
+                    session.execute(delete(PlanRow).where(PlanRow.number <= number))
+                    return

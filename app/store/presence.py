@@ -5,8 +5,10 @@ tells that its server has ended, however it ended.
 """
 
 import secrets
+from contextlib import suppress
 
 from sqlalchemy import URL, NullPool, create_engine, text
+from sqlalchemy.exc import DBAPIError
 from sqlalchemy.orm import Session
 
 _NUMBERS = 1 << 62
@@ -28,7 +30,8 @@ class Presence:
 
     def end(self) -> None:
         """Let others know that this server has ended."""
-        self._connection.close()
+        with suppress(DBAPIError), self._connection:  # the lock of a connection that was lost is free already
+            self._connection.execute(text("SELECT pg_advisory_unlock(:number)"), {"number": self.number})
 
 
 def has_ended(session: Session, number: int) -> bool:

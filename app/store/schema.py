@@ -1,6 +1,6 @@
 """The tables of the database; `migrations` has the steps that lead to them from every version before."""
 
-from sqlalchemy import BigInteger, ForeignKey, Index, Text
+from sqlalchemy import BigInteger, ForeignKey, Index, LargeBinary, Text
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
 
@@ -85,3 +85,25 @@ class GarmentRow(Table):
 
     name: Mapped[str] = mapped_column(primary_key=True)
     content: Mapped[str] = mapped_column(Text)
+
+
+class PlanRow(Table):
+    """A plan as compressed JSON, and its size (bytes); `number` grows from plan to plan."""
+
+    __tablename__ = "plans"
+    __table_args__ = ({"sqlite_autoincrement": True},)
+
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
+    id: Mapped[str] = mapped_column(unique=True)
+    size: Mapped[int]
+    content: Mapped[bytes] = mapped_column(LargeBinary)
+
+
+class ShareRow(Table):
+    """A link to look at a document: the hash of its token, and when it was made (s since the epoch)."""
+
+    __tablename__ = "shares"
+
+    hash: Mapped[str] = mapped_column(primary_key=True)
+    document_id: Mapped[str] = mapped_column(ForeignKey("documents.id", ondelete="CASCADE"), index=True)
+    created_s: Mapped[float]

@@ -26,6 +26,7 @@ import { tellEffort } from "./settings/effort.js";
 import { StepPictures } from "./step_pictures.js";
 import { Store } from "./store.js";
 import { Theme } from "./theme.js";
+import { isViewOnly, viewOnly } from "./view_only.js";
 
 fillIn(document);
 const store = new Store(location.pathname.split("/").at(-1) ?? "");
@@ -59,12 +60,14 @@ const verbs = {
 mountHistory(store, verbs);
 mountOffline(store);
 mountStagePlay(store, togglePlay);
-mountStage(store, keyHandler(verbs)); // letters move the camera there
+const looking = { play: togglePlay, help: dialogs.help };
+mountStage(store, keyHandler(isViewOnly ? looking : verbs)); // letters move the camera there
 
-document.addEventListener("keydown", keyHandler({ ...verbs, ...boardKeys(board), h: () => repair.takeFocus() }));
-theme.addEventListener("change", tellTheme);
+const keys = isViewOnly ? looking : { ...verbs, ...boardKeys(board), h: () => repair.takeFocus() };
+document.addEventListener("keydown", keyHandler(keys));
+theme.addEventListener("change", () => isViewOnly || tellTheme());
 store.addEventListener("connection", () => {
-  if (!store.isLive) return;
+  if (!store.isLive || isViewOnly) return;
   tellTheme();
   store.command({ do: "language", language });
   tellEffort(store);
@@ -78,3 +81,4 @@ store.addEventListener("opened", (event) => {
 store.addEventListener("document", () => {
   document.title = `${titleOf(store.state?.drawing ?? { title: "", name: "" })} - Pleat`;
 });
+if (isViewOnly) viewOnly();

@@ -6,6 +6,7 @@
 import { svg } from "./board/sheet.js";
 import { byId, element } from "./dom.js";
 import { say } from "./language/say.js";
+import { isViewOnly } from "./view_only.js";
 
 /** What the frame says when it is ready, see app/api/stage_routes.py. */
 const SEATED = "pleat-seated";
@@ -41,7 +42,10 @@ export function mountStage(store, onKey) {
     cover.hidden = false;
     frame.src = `../viser/${store.id}/${pace}`;
   };
-  frame.addEventListener("load", () => frame.contentDocument?.addEventListener("keydown", onKey));
+  frame.addEventListener("load", () => {
+    frame.contentDocument?.addEventListener("keydown", onKey);
+    if (isViewOnly) cover.hidden = true; // one who may only look has no seat
+  });
   let wasLost = false;
   store.addEventListener("connection", () => {
     if (store.isLive && wasLost) load();

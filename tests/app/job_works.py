@@ -77,7 +77,7 @@ KINDS: Mapping[str, AnyKind] = {
 def desk(folder: Path, *, workers: int = 2, waiting_max: int | None = None) -> Iterator[JobDesk]:
     """Open a desk on the database of a folder, as a server does; at the end it stops as a server does."""
     pool, database = JobPool(workers, waiting_max), Database(folder / "pleat.db")
-    stores = Stores(GarmentRepository(database), PlanStore(), folder / "studies")
+    stores = Stores(GarmentRepository(database), PlanStore(database), folder / "studies")
     try:
         yield JobDesk(KINDS, stores, JobRepository(database), pool)
     finally:

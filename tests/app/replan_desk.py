@@ -3,7 +3,9 @@
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from app.document import Document
 from app.drawing.draft import draft_of
@@ -12,6 +14,7 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
+from app.store.database import Database
 from app.store.plan_store import PlanStore
 from planner import find_plan
 from planner.cloth.garment import Garment
@@ -25,9 +28,9 @@ PATIENCE_S = 60.0
 class Desk:
     """A document with its planner."""
 
-    def __init__(self) -> None:
+    def __init__(self, database: Database) -> None:
         self.pool = JobPool()
-        self.plans = PlanStore()
+        self.plans = PlanStore(database)
         self.document = Document(draft_of(TOWEL))
         self.replanner = Replanner(self.document, self.pool, self.plans)
 
@@ -53,10 +56,11 @@ class Desk:
 
 @contextmanager
 def replanning() -> Iterator[Desk]:
-    made = Desk()
-    yield made
-    made.replanner.close()
-    made.pool.close()
+    with TemporaryDirectory() as folder, closing(Database(Path(folder) / "pleat.db")) as database:
+        made = Desk(database)
+        yield made
+        made.replanner.close()
+        made.pool.close()
 
 
 class Endless:

@@ -3,7 +3,6 @@ import threading
 import pytest
 
 from app.jobs.job_pool import JobPool
-from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import load_garment, make_plan
 
 
@@ -90,12 +89,3 @@ def test_a_jobs_error_comes_with_its_answer() -> None:
 def test_a_stopped_search_ends_as_out_of_budget() -> None:
     plan = make_plan(load_garment("shirt"), should_stop=lambda: True)
     assert plan.status == "budget_exceeded"
-
-
-def test_the_oldest_plans_are_dropped() -> None:
-    plan = make_plan(load_garment("shirt"), should_stop=lambda: True)
-    store = PlanStore(capacity=2)
-    first, second, third = (store.add(plan) for _ in range(3))
-    assert store.plan(second) is store.plan(third) is plan
-    with pytest.raises(UnknownPlanError):
-        store.plan(first)

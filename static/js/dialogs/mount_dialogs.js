@@ -11,6 +11,7 @@ import { acceptDrops, showImport } from "./import.js";
 import { offerJobs, showJobs } from "./jobs.js";
 import { showNew } from "./new.js";
 import { showRename } from "./rename.js";
+import { showShare } from "./share.js";
 import { showWhoFolds } from "./who_folds.js";
 
 /** @param {import("../store.js").Store} store */
@@ -42,6 +43,7 @@ export function mountDialogs(store) {
   addEventListener("focus", () => offerJobs(byId("jobs")));
   put("settings", "settings", "", verbs.settings);
   put("help", "help", "", verbs.help);
+  put("share", "share", "", () => showShare(store));
   put("rename", "rename", "", () => showRename(store));
   byId("compare").addEventListener("click", () => showWhoFolds(store));
   acceptDrops(store);

@@ -1,16 +1,21 @@
-"""Plans stored by id: the newest thousand can be read and played, and only a few of them use memory."""
+"""Plans stored by id: the newest can be read and played, after a restart too, and only a few of them use memory."""
 
 import gc
 import threading
 import weakref
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from sqlalchemy import func, select
 
-from app.store.plan_store import LIVE_MAX, PlanStore, UnknownPlanError
+from app.store.database import Database
+from app.store.plan_store import LIVE_MAX, PASSING_MAX, PlanStore, UnknownPlanError
+from app.store.schema import PlanRow
 from planner import Plan, load_garment, make_plan
 from planner.motion.timeline import Timeline
+from tests.app.refused import refused
 
 
 @pytest.fixture(scope="module")
@@ -29,31 +34,48 @@ def number_of(store: PlanStore, plan_id: str) -> int:
     return number
 
 
-def test_a_plan_put_away_is_told_and_played_as_it_was(plan: Plan, copies: Iterator[Plan]) -> None:
-    store = PlanStore()
+def row_count(database: Database) -> int:
+    with database.reading("count") as session:
+        return session.scalar(select(func.count()).select_from(PlanRow)) or 0
+
+
+def test_after_a_restart_a_plan_is_told_and_played_as_it_was(plan: Plan, database: Database) -> None:
+    store = PlanStore(database)
     first, no_plan = store.add(plan), store.add(make_plan(load_garment("scarf-halved")))
-    for _ in range(2 * LIVE_MAX):
-        store.add(next(copies))
-    kept = store.plan(first)
-    assert kept is not plan, "else it was not put away"
+    again = PlanStore(database)
+    kept = again.plan(first)
+    assert kept is not plan
     assert kept == plan and kept.to_dict() == plan.to_dict()
     frames, expected = Timeline.of(kept).samples(10.0), Timeline.of(plan).samples(10.0)
     assert [frame.to_dict() for frame in frames] == [frame.to_dict() for frame in expected]
-    assert store.plan(no_plan).status == "infeasible"
+    assert again.plan(no_plan).status == "infeasible"
+    for unknown in ("unknown", "", "\0", "x" * 1000):
+        with pytest.raises(UnknownPlanError):
+            again.plan(unknown)
 
 
-def test_the_newest_can_be_read_and_older_ones_are_gone(copies: Iterator[Plan]) -> None:
-    store = PlanStore(capacity=50)
-    made = [store.add(next(copies)) for _ in range(70)]
-    assert [number_of(store, plan_id) for plan_id in made[20:]] == list(range(20, 70))
-    for gone in made[:20]:
+def test_the_newest_can_be_read_and_older_ones_are_gone(copies: Iterator[Plan], database: Database) -> None:
+    store = PlanStore(database, capacity=5)
+    made = [store.add(next(copies)) for _ in range(15)]
+    assert [number_of(store, plan_id) for plan_id in made[10:]] == list(range(10, 15))
+    for gone in made[:10]:
         with pytest.raises(UnknownPlanError):
             store.plan(gone)
 
 
-def test_of_many_plans_only_a_few_stay_in_memory(copies: Iterator[Plan]) -> None:
-    store, alive = PlanStore(), []
-    for _ in range(60):
+def test_no_more_bytes_are_kept_than_are_allowed(copies: Iterator[Plan], database: Database) -> None:
+    PlanStore(database, capacity=100).add(next(copies))
+    with database.reading("look") as session:
+        one = session.scalar(select(PlanRow.size)) or 0
+    store = PlanStore(database, capacity=100, capacity_bytes=4 * one + one // 2)
+    for _ in range(2 * LIVE_MAX):
+        store.add(next(copies))
+    assert row_count(database) == 4
+
+
+def test_of_many_plans_only_a_few_stay_in_memory(copies: Iterator[Plan], tmp_path: Path) -> None:
+    store, alive = PlanStore(Database(tmp_path / "pleat.db")), []
+    for _ in range(30):
         plan = next(copies)
         alive.append(weakref.ref(plan))
         store.add(plan)
@@ -62,44 +84,44 @@ def test_of_many_plans_only_a_few_stay_in_memory(copies: Iterator[Plan]) -> None
     assert sum(one() is not None for one in alive) == LIVE_MAX
 
 
-def test_a_plan_that_was_dropped_is_gone_wherever_it_was(copies: Iterator[Plan]) -> None:
-    store = PlanStore()
-    made = [store.add(next(copies)) for _ in range(2 * LIVE_MAX)]
-    for plan_id in (made[0], made[-1], made[-1], "unknown"):
+def test_a_plan_that_was_dropped_is_gone_wherever_it_was(copies: Iterator[Plan], database: Database) -> None:
+    store = PlanStore(database)
+    made = [store.add(next(copies)) for _ in range(LIVE_MAX + 4)]
+    passing = store.add(next(copies), is_passing=True)
+    for plan_id in (made[0], made[-1], made[-1], passing, "unknown"):
         store.drop(plan_id)
-    for plan_id in (made[0], made[-1]):
+    for plan_id in (made[0], made[-1], passing):
         with pytest.raises(UnknownPlanError):
             store.plan(plan_id)
     assert number_of(store, made[1]) == 1
 
 
-def test_a_full_disk_loses_no_plan(copies: Iterator[Plan]) -> None:
-    store = PlanStore()
-    store._stored._database.execute("PRAGMA max_page_count = 40")
-    made = [store.add(next(copies)) for _ in range(3 * LIVE_MAX)]
-    assert [number_of(store, plan_id) for plan_id in made] == list(range(3 * LIVE_MAX))
+def test_a_plan_in_passing_is_written_only_if_it_stays(copies: Iterator[Plan], tmp_path: Path) -> None:
+    database = Database(tmp_path / "pleat.db")
+    store = PlanStore(database)
+    made = [store.add(next(copies), is_passing=True) for _ in range(PASSING_MAX)]
+    assert row_count(database) == 0
+    made += [store.add(next(copies), is_passing=True) for _ in range(2)]
+    assert row_count(database) == 2
+    assert [number_of(store, plan_id) for plan_id in made] == list(range(PASSING_MAX + 2))
+    database.close()
 
 
-def test_a_plan_that_cannot_be_put_away_is_kept_and_others_are_put_away(
-    plan: Plan, copies: Iterator[Plan], monkeypatch: pytest.MonkeyPatch
+def test_a_full_disk_loses_none_of_the_newest_plans(
+    copies: Iterator[Plan], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fail(self: Plan) -> None:
-        raise RuntimeError("it cannot be pickled")
-
-    store = PlanStore()
-    monkeypatch.setattr(Plan, "__getstate__", fail)
-    bad = store.add(plan)
-    for _ in range(LIVE_MAX):
-        store.add(next(copies))
-    monkeypatch.undo()
-    made = [store.add(next(copies)) for _ in range(LIVE_MAX)]
-    assert store.plan(bad).status == "solved"
-    assert number_of(store, made[0]) == LIVE_MAX
+    database = Database(tmp_path / "pleat.db")
+    store = PlanStore(database)
+    store.add(next(copies))
+    with refused(monkeypatch, tmp_path, "ENOSPC"):
+        made = [store.add(next(copies)) for _ in range(LIVE_MAX)]
+    assert [number_of(store, plan_id) for plan_id in made] == list(range(1, LIVE_MAX + 1))
+    database.close()
 
 
-def test_many_threads_may_add_read_and_drop(copies: Iterator[Plan]) -> None:
-    store, faults = PlanStore(capacity=40), []
-    plans = [next(copies) for _ in range(120)]
+def test_many_threads_may_add_read_and_drop(copies: Iterator[Plan], database: Database) -> None:
+    store, faults = PlanStore(database), []
+    plans = [next(copies) for _ in range(40)]
 
     def work(mine: list[Plan]) -> None:
         try:

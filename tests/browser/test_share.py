@@ -1,0 +1,31 @@
+"""A link to look at a document: made and copied in the page, and what the page has by it."""
+
+import re
+from collections.abc import Callable
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Garment, Sheet
+
+NewSheet = Callable[[Garment], Sheet]
+
+
+def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page: Page, new_sheet: NewSheet) -> None:
+    sheet = new_sheet("scarf")
+    page.goto(sheet.page_url)
+    page.get_by_role("button", name="Share").click()
+    link = page.get_by_role("textbox", name="Link")
+    expect(link).to_have_value(re.compile(r"^http://.*/s/[\w-]+/d/\w+$"))
+    address = link.input_value()
+    page.goto(address)
+    expect(page.locator(".fold-row")).to_have_count(2)
+    expect(page.get_by_text("View only")).to_be_visible()
+    for name in ("Undo", "Redo", "Rename", "Share", "New", "Import"):
+        expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
+    expect(page.locator("#rail")).to_have_count(0)
+    expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
+    before = sheet.state
+    page.mouse.click(300, 300)
+    page.keyboard.press("Delete")
+    page.keyboard.press("Control+z")
+    assert sheet.state == before
