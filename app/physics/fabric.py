@@ -56,8 +56,8 @@ class Resolution:
     Attributes:
         edge_m: the edge length of the mesh (m).
         step_s: the time step (s).
-        iterations: iterations of the solvers of stiffness and of contacts at most; with 50, folded strips slid by 2 mm
-            more, and stiff ones by 8 mm.
+        iterations: iterations of the solvers of stiffness and of contacts at most; with 50, a folded strip slid by 2 mm
+            more, with 20 by 4 mm.
         settle_s: the time given to cloth to come to rest after it was released (s).
     """
 
