@@ -268,12 +268,6 @@ class Document:
                     self._keep_start(start)
             self._change(lambda state: state.started_at(start, self._clock()))
 
-    def follow(self) -> None:
-        """Take the document over as another server has saved it; pages see that as a new version."""
-        with self._edits:
-            if not self._has_ended:
-                self._take_over()
-
     @contextmanager
     def _unless_overtaken(self) -> Iterator[None]:
         """Where another server was quicker, take its document over, and say that the change came too late."""

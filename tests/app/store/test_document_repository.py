@@ -196,7 +196,8 @@ def test_of_two_servers_that_change_a_document_the_slower_one_follows(repository
     assert quick.state.drawing == moved(1)
     assert quick.state.version > 3, "its pages have seen version 3"
     quick.edit(Edit("three", moved(3)))
-    slow.follow()
+    with pytest.raises(StaleVersionError):
+        slow.undo()
     assert slow.state.draft.history == quick.state.draft.history == restored(repository, document_id)[1].history
 
 
