@@ -84,15 +84,17 @@ def browser(chromium_path: str | None) -> Browser:
 
 
 @pytest.fixture(scope="module")
-def stage_window(browser: Browser, served: Served) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page with its stage, planned, and record errors and requests to other hosts."""
+def stage_window(
+    browser: Browser, designer: Served, new_sheet: Callable[[Garment], "Sheet"]
+) -> Iterator[tuple[Page, list[str]]]:
+    """Open the page on a T-shirt with its stage, planned, and record errors and requests to other hosts."""
     faults: list[str] = []
     page = browser.new_page(viewport={"width": 900, "height": 500})
     page.set_default_timeout(STAGE_PATIENCE_MS)
     expect.set_options(timeout=STAGE_PATIENCE_MS)
     page.on("pageerror", lambda error: faults.append(str(error)))
-    page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, served) else None)
-    page.goto(served.url)
+    page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, designer) else None)
+    page.goto(new_sheet("t-shirt").page_url)
     expect_planned(page)
     page.wait_for_function(IS_THERE, arg="/cloth/front")
     yield page, faults
@@ -107,8 +109,8 @@ def stage_page(stage_window: tuple[Page, list[str]]) -> Iterator[Page]:
     assert faults == []
 
 
-def is_foreign(url: str, served: Served) -> bool:
-    return not url.startswith((served.url, served.url.replace("http", "ws"), "data:", "blob:"))
+def is_foreign(url: str, server: Served) -> bool:
+    return not url.startswith((server.url, server.url.replace("http", "ws"), "data:", "blob:"))
 
 
 @pytest.fixture(scope="session")

@@ -1,15 +1,20 @@
+from collections.abc import Callable
+
 import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import IS_THERE, STAGE_PATIENCE_MS
+from tests.browser.conftest import IS_THERE, REST, STAGE_PATIENCE_MS, Garment, Sheet
 from tests.browser.prefix_proxy import PREFIX, below_prefix
 from tests.browser.status_pill import expect_planned
 
 
 @pytest.mark.slow
-def test_page_stage_and_edits_work_below_a_proxys_prefix(browser: Browser, served: Served) -> None:
-    with below_prefix(served.port) as url:
+def test_page_stage_and_edits_work_below_a_proxys_prefix(
+    browser: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    REST.get(new_sheet("t-shirt").page_url).raise_for_status()  # the address without a document leads to the last one
+    with below_prefix(designer.port) as url:
         faults: list[str] = []
         page = browser.new_page(viewport={"width": 900, "height": 500})
         page.set_default_timeout(STAGE_PATIENCE_MS)

@@ -40,10 +40,10 @@ RENDERED = """() => {
 
 
 @pytest.fixture
-def page(stage_page: Page, served: Served) -> Page:
+def page(stage_page: Page, designer: Served) -> Page:
     """Return the page with the T-shirt at rest, spread out."""
     stage_page.set_viewport_size({"width": 900, "height": 500})
-    document = f"{served.url}/api/documents/{served.document}"
+    document = f"{designer.url}/api/documents/{stage_page.url.rpartition('/')[2]}"
     REST.put(f"{document}/garment", json={"garment": "t-shirt"}).raise_for_status()
     for command in ({"do": "pause"}, {"do": "seek", "t_s": 0.0}):
         REST.post(f"{document}/playback", json=command).raise_for_status()
@@ -204,8 +204,8 @@ def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
         expect(page.get_by_role("button", name="Play")).to_be_disabled()
 
 
-def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) -> None:
-    path = f"{served.url}/api/documents/{page.url.rpartition('/')[2]}"
+def test_the_page_follows_what_is_changed_elsewhere(page: Page, designer: Served) -> None:
+    path = f"{designer.url}/api/documents/{page.url.rpartition('/')[2]}"
     drawing = REST.get(path).json()["drawing"]
     changed = {**drawing, "folds": drawing["folds"][:2]}
     body = {"base_version": REST.get(path).json()["version"], "label": "Fewer", "drawing": changed}
@@ -217,20 +217,20 @@ def test_the_page_follows_what_is_changed_elsewhere(page: Page, served: Served) 
     expect_planned(page)
 
 
-def test_a_document_that_is_not_there_is_told_of(browser: Browser, served: Served) -> None:
+def test_a_document_that_is_not_there_is_told_of(browser: Browser, designer: Served) -> None:
     page = browser.new_page()
     try:
-        page.goto(f"{served.url}/d/nothing")
+        page.goto(f"{designer.url}/d/nothing")
         expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=STAGE_PATIENCE_MS)
     finally:
         page.close()
 
 
-def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page, served: Served) -> None:
+def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page, designer: Served) -> None:
     page.evaluate("document.getElementById('stage').contentWindow.isOfBefore = true")
-    served.stop()
+    designer.stop()
     expect(page.get_by_role("status")).to_contain_text("Connection lost")
-    served.start_again()
+    designer.start_again()
     expect_planned(page)
     page.wait_for_function("!document.getElementById('stage').contentWindow.isOfBefore")
     until_there(page, "/cloth/front")

@@ -58,8 +58,8 @@ def choose(stage: FrameLocator, mode: str) -> None:
     stage.get_by_role("option", name=mode).click()
 
 
-def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Page, served: Served) -> None:
-    sheet, stage = Sheet(served.url, page.url.rpartition("/")[2]), page.frame_locator("#stage")
+def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Page, designer: Served) -> None:
+    sheet, stage = Sheet(designer.url, page.url.rpartition("/")[2]), page.frame_locator("#stage")
     before = sheet.drawing
     opening = still_camera(page)
     stage.get_by_text("Table").locator("visible=true").click()
