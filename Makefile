@@ -5,8 +5,12 @@ BIN := $(VENV)/bin
 NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 PYTEST := $(BIN)/python -m pytest
-# How many tests run at once: one more than cores, for tests of servers and browsers wait half of their time.
-JOBS ?= 3
+# How many tests run at once: two more than cores, for tests of servers and browsers wait for a third of their time.
+# Each wants some 2 GB with its server and its browser; where that is too much: make test JOBS=2
+JOBS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 2)))
+
+# Tests start a hundred processes: where the environment keeps Python from writing bytecode, each compiles all sources.
+export PYTHONDONTWRITEBYTECODE :=
 
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from tests.laws.law import LONG, TRIED
 
 BROWSER_TESTS = Path(__file__).parent / "browser"
 CASES = "cases"
-LONGEST_FIRST = ("browser", "tests", "app", "explain", "planning", "replay", "laws")
+LONGEST_FIRST = ("browser", "tests", "app", "explain", "robots", "planning", "replay", "laws", "motion")
 """Folders whose files take longest, in the order in which workers take them: only short ones are left at the end."""
 
 SYSTEM_CHROMIUM = Path("/usr/bin/chromium")
@@ -38,12 +39,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if BROWSER_TESTS in item.path.parents:
             item.add_marker("browser")
-    items.sort(key=_turn)
+    items.sort(key=lambda item: _turn(item.path))
 
 
-def _turn(item: pytest.Item) -> int:
+@cache
+def _turn(path: Path) -> int:
     """When the tests of a file have their turn: the folder's place in the order above, or after all of them."""
-    folder = item.path.relative_to(BROWSER_TESTS.parent.parent).parts[:-1][:2][-1]
+    folder = path.relative_to(BROWSER_TESTS.parent.parent).parts[:-1][:2][-1]
     return LONGEST_FIRST.index(folder) if folder in LONGEST_FIRST else len(LONGEST_FIRST)
 
 
