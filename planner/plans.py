@@ -88,6 +88,13 @@ def find_plan(
     problem, limits = Problem.of(task), task.limits
     budget = Budget.of(limits.work_limit_s, limits.time_limit_s, should_stop)
     explainer = Explanation() if with_reasons else None
+    if problem.context.is_fixed and known is None and not problem.may_let_go:
+        # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
+        still = PlanSearch(
+            problem.without_arm_drags(), limits.heuristic, budget, limits.max_expanded, None, like, on_found
+        ).plan()
+        if still.plan.is_solved:
+            return still
     if not problem.may_let_go:
         return PlanSearch(
             problem, limits.heuristic, budget, limits.max_expanded, known, like, on_found, explainer

@@ -113,6 +113,11 @@ class Problem:
         fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
+    def without_arm_drags(self) -> "Problem":
+        """Return this problem for arms that do not drag, with nothing computed yet."""
+        fresh = replace(self.anew().context, is_fixed=False)
+        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+
     def with_long_arms(self, more_hands: int = 0) -> "Problem":
         """Return this problem for a robot with unlimited reach and more hands; it has no joint paths."""
         return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
