@@ -145,9 +145,11 @@ def read_card(path: Path) -> CardFile:
         if path.stat().st_size > CARD_BYTES_MAX:
             raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")
         data = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
-        if isinstance(error, RobotError):
-            raise
+    except RobotError:
+        raise
+    except OSError as error:
+        raise RobotError("", f"{path.name} cannot be read: {error.strerror}") from None
+    except (ValueError, RecursionError) as error:
         raise RobotError("", f"{path.name} cannot be read as JSON: {error}") from None
     return CardFile.from_dict(data)
 

@@ -7,6 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
+from planner.robots.described_robot import shipped_card
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
@@ -111,13 +112,14 @@ async def test_an_upload_that_is_broken_off_is_no_failure_of_the_server(
 async def test_no_problem_names_a_folder_of_the_machine(
     client: httpx.AsyncClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    await client.put("/api/garments/my-towel", json=towel())
+    card = shipped_card("so101-pair").to_dict() | {"name": "bench"}
+    assert (await client.put("/api/robots/bench", json=card)).status_code == 201
 
     def refuse(path: Path, *_: object, **__: object) -> str:
         raise PermissionError(13, "Permission denied", str(path))
 
     monkeypatch.setattr(Path, "read_text", refuse)
-    answer = await client.get("/api/garments/my-towel")
+    answer = await client.get("/api/robots/bench")
     assert answer.status_code == 422
-    assert answer.json()["detail"] == "my-towel.json: Permission denied"
+    assert answer.json()["detail"] == "robot.json cannot be read: Permission denied"
     assert str(tmp_path) not in answer.text

@@ -15,9 +15,10 @@ SPREAD_OUT = f"""() => {{
 }}"""
 NUMBERS = "[board, pill].map((part) => Number(part.dataset.version))"
 PARTS = 'const board = document.getElementById("drafting-board"), pill = document.getElementById("status");'
-HAS_DRAWN = f"(version) => {{ {PARTS} return Number(board.dataset.version) >= version; }}"
+HAS_DRAWN = f"(version) => {{ {PARTS} return Number(board?.dataset.version) >= version; }}"
 HAS_ANSWER = f"""(version) => {{
   {PARTS}
+  if (!board || !pill) return false;
   const isOver = pill.ariaBusy === "false" && pill.dataset.isFinal === "true";
   return isOver && {NUMBERS}.every((shown) => shown === version);
 }}"""
