@@ -136,6 +136,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "merge_two"},
     {"code": "merge_near", "nearer_m": 0.001},
     {"code": "exchange_two"},
+    {"code": "straighten"},
     {"code": "uncross"},
     {"code": "delete_corner"},
     {"code": "start_at", "station": "front_left"},

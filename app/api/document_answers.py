@@ -1,8 +1,8 @@
 """Response models of documents, which describe the interface at /docs."""
 
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from app.api.answers import GarmentAnswer, LayerAnswer, Point, Says
 from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
@@ -20,11 +20,27 @@ class EndAnswer(BaseModel):
     on: CornerTieModel | EdgeTieModel | CreaseTieModel | ChordTieModel | None
 
 
+class CurveAnswer(BaseModel):
+    """The curve of an edge: its middle as seen from the middle of the chord, in chord lengths, `across` to the left."""
+
+    along: float
+    across: float
+
+
+def _curve_may_be_missing(schema: dict[str, Any]) -> None:
+    """Describe the curve without its default: with one it would be taken for a field that is always sent."""
+    schema["required"] = ["id", "point"]
+    del schema["properties"]["curve"]["default"]
+
+
 class CornerAnswer(BaseModel):
-    """A corner of the outline (m)."""
+    """A corner of the outline (m), and the curve of the edge to the next one; a straight edge has none."""
+
+    model_config = ConfigDict(json_schema_extra=_curve_may_be_missing)
 
     id: str
     point: Point
+    curve: CurveAnswer | None = None
 
 
 class FoldAnswer(BaseModel):

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from app.drawing.curve import Curve
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
@@ -21,10 +22,12 @@ class Corner:
     Attributes:
         id: the corner's id in this drawing.
         point: its position, article frame (m).
+        curve: the curve of the edge to the next corner; None where that is straight.
     """
 
     id: str
     point: Point2
+    curve: Curve | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +39,7 @@ class CornerTie:
 
 @dataclass(frozen=True, slots=True)
 class EdgeTie:
-    """A tie to the outline between two corners, at a fraction of the way from the first to the second.
+    """A tie to the outline between two corners, at a fraction of the way along it from the first to the second.
 
     The corners are neighbours until a corner is inserted between them.
     """

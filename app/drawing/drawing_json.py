@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from app.drawing.curve import CURVE_MAX, Curve
 from app.drawing.drawing import (
     ChordTie,
     Corner,
@@ -31,6 +32,7 @@ from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,16}$")]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+ChordPart = Annotated[float, Field(ge=-CURVE_MAX, le=CURVE_MAX)]
 Title = Annotated[str, Field(max_length=TITLE_MAX)]
 Name = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}$")]
 
@@ -95,11 +97,27 @@ class EndModel(StrictModel):
         return End(self.point, None if self.on is None else self.on.value())
 
 
+class CurveModel(StrictModel):
+    """The curve of an edge: its middle as seen from the middle of the chord (chord lengths), `across` to the left."""
+
+    along: ChordPart = 0.0
+    across: ChordPart
+
+    def value(self) -> Curve | None:
+        """Return the curve; None where it is straight."""
+        return Curve(self.along, self.across) if self.along or self.across else None
+
+
 class CornerModel(StrictModel):
-    """A corner of the outline (m); reading assigns a missing id."""
+    """A corner of the outline (m), and the curve of the edge to the next one; reading assigns a missing id."""
 
     id: Id | None = None
     point: PlanePoint
+    curve: CurveModel | None = None
+
+    def value(self, name: str) -> Corner:
+        """Return the corner with an id."""
+        return Corner(name, self.point, None if self.curve is None else self.curve.value())
 
 
 class CreaseModel(StrictModel):
@@ -136,7 +154,7 @@ class DrawingModel(StrictModel):
         return Drawing(
             self.name,
             self.title,
-            tuple(Corner(name, corner.point) for name, corner in zip(corners, self.outline, strict=True)),
+            tuple(corner.value(name) for name, corner in zip(corners, self.outline, strict=True)),
             self.areal_density_kg_m2,
             self.grip_radius_m,
             tuple(_crease(name, fold, names) for name, fold in zip(names, self.folds, strict=True)),
@@ -157,11 +175,11 @@ def drawing_from_dict(data: Mapping[str, Any]) -> Drawing:
 
 
 def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
-    """Return the drawing as JSON, with every field filled in."""
+    """Return the drawing as JSON, with every field filled in; a straight edge has no curve."""
     return {
         "name": drawing.name,
         "title": drawing.title,
-        "outline": [{"id": corner.id, "point": list(corner.point)} for corner in drawing.outline],
+        "outline": [_corner_to_dict(corner) for corner in drawing.outline],
         "areal_density_kg_m2": drawing.areal_density_kg_m2,
         "grip_radius_m": drawing.grip_radius_m,
         "folds": [_crease_to_dict(fold) for fold in drawing.folds],
@@ -188,6 +206,13 @@ def _tie_to_dict(tie: Tie) -> dict[str, Any]:
             return {"kind": "crease", "fold": fold, "fraction": fraction, "carried": list(carried)}
         case ChordTie():
             return {"kind": "chord"}
+
+
+def _corner_to_dict(corner: Corner) -> dict[str, Any]:
+    plain = {"id": corner.id, "point": list(corner.point)}
+    if corner.curve is None:
+        return plain
+    return {**plain, "curve": {"along": corner.curve.along, "across": corner.curve.across}}
 
 
 def _crease_to_dict(fold: Crease) -> dict[str, Any]:

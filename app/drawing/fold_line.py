@@ -157,6 +157,8 @@ def _settled_tie(place: _Place, point: Point2, replay: Replay, names: Names, *, 
     if isinstance(place.end.tie, ChordTie):
         return place.end.tie
     if place.is_held and place.end.tie is not None:
+        if names.is_current(place.end.tie):
+            return place.end.tie  # along a curve, a tie made anew would differ in its last digit
         attachment = names.attachment(place.end.tie)
     else:
         attachment = attached(point, replay, is_red=is_red)

@@ -3,15 +3,16 @@
 from typing import Any
 
 from app.drawing.drawing import Drawing
+from app.drawing.ring import ring_of
 from app.drawing.solve import radius_m
 
 
 def garment_to_dict(drawing: Drawing) -> dict[str, Any]:
-    """Return the contents of a garment file, with the folds' ends at their current positions."""
+    """Return the contents of a garment file, with curves as points and the folds' ends at their positions."""
     return {
         "name": drawing.name,
         "title": drawing.title,
-        "outline": [list(point) for point in drawing.points],
+        "outline": [list(point) for point in ring_of(drawing.outline).points],
         "areal_density_kg_m2": drawing.areal_density_kg_m2,
         "folds": [
             {

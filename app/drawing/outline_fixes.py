@@ -11,6 +11,7 @@ from dataclasses import replace
 from app.drawing.drawing import Corner, CornerTie, Drawing, EdgeTie, End, Tie
 from app.drawing.problem import Problem
 from app.drawing.quick_fix import QuickFix
+from app.drawing.ring import reordered, ring_of
 from planner.cloth.outline import EDGE_MIN_M, crossings
 from planner.message import Message
 
@@ -23,6 +24,7 @@ def outline_fixes(drawing: Drawing, problem: Problem) -> Iterator[QuickFix]:
     if problem.code == "edge_too_short":
         yield _merged(drawing)
     elif problem.code == "outline_crosses":
+        yield from _straightened(drawing)
         yield from _uncrossed(drawing)
         yield from _without_one(drawing)
 
@@ -33,6 +35,7 @@ def _merged(drawing: Drawing) -> QuickFix:
     for corner in drawing.outline[1:]:
         if _is_near(corner, kept[-1]):
             merged = _tied_over(merged, corner.id, kept[-1].id)
+            kept[-1] = replace(kept[-1], curve=corner.curve)
         else:
             kept.append(corner)
     while len(kept) > 1 and _is_near(kept[-1], kept[0]):
@@ -83,6 +86,8 @@ def _uncrossed(drawing: Drawing) -> Iterator[QuickFix]:
         if is_order_kept:
             places = zip(drawing.outline, outline, strict=True)
             outline = tuple(replace(corner, point=there.point) for corner, there in places)
+        else:
+            outline = reordered(outline, drawing.outline)
         two, many = Message("exchange_two", "Exchange the two corners"), Message("uncross", "Uncross the edges")
         says = two if turned == [2] else many
         yield QuickFix(says, replace(drawing, outline=outline))
@@ -109,11 +114,26 @@ def _exchanged(outline: tuple[Corner, ...], i: int, j: int, *, are_many: bool) -
     return tuple(walk[(step - first) % count] for step in range(count)), turned
 
 
+def _straightened(drawing: Drawing) -> Iterator[QuickFix]:
+    """Yield the outline with its crossing edges straight, if any of them is curved."""
+    edges = _crossing_edges(drawing)
+    outline = tuple(replace(corner, curve=None) if i in edges else corner for i, corner in enumerate(drawing.outline))
+    if outline != drawing.outline:
+        yield QuickFix(Message("straighten", "Straighten the curve"), replace(drawing, outline=outline))
+
+
+def _crossing_edges(drawing: Drawing) -> set[int]:
+    """Return the edges of the outline that cross, by the corner at which they begin."""
+    ring = ring_of(drawing.outline)
+    return {ring.corner(piece) for i, j, _ in crossings(ring.points) for piece in (i, j)}
+
+
 def _without_one(drawing: Drawing) -> Iterator[QuickFix]:
     """Yield outlines without one of the corners at a crossing, the shortest outline first."""
     outline = drawing.outline
-    at = {(edge + step) % len(outline) for i, j, _ in crossings(drawing.points) for edge in (i, j) for step in (0, 1)}
-    left = [tuple(corner for corner in outline if corner is not outline[index]) for index in sorted(at)]
+    at = {(edge + step) % len(outline) for edge in _crossing_edges(drawing) for step in (0, 1)}
+    parts = (tuple(corner for corner in outline if corner is not outline[index]) for index in sorted(at))
+    left = [reordered(part, outline) for part in parts]
     for fewer in sorted(left, key=_length):
         yield QuickFix(Message("delete_corner", "Delete one corner"), replace(drawing, outline=fewer))
 

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from app.drawing import rules
+from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M
 from planner.cloth.garment import FIRST_IS_RED
 from planner.cloth.outline import POINTS_MAX
 
@@ -20,6 +21,8 @@ def page_rules() -> str:
         "MOST_CORNERS": POINTS_MAX,
         "SAME_CORNER_M": rules.SAME_CORNER_M,
         "STROKE_MIN_M": rules.STROKE_MIN_M,
+        "CURVE_TOLERANCE_M": CURVE_TOLERANCE_M,
+        "CURVE_MAX": CURVE_MAX,
         "SIDES": rules.SIDES,
         "DRAW_FOLD": rules.DRAW_FOLD,
         "DRAW_OUTLINE": rules.DRAW_OUTLINE,

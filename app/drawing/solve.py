@@ -9,6 +9,7 @@ from app.drawing.drawing import Crease, Drawing
 from app.drawing.fold_line import find_line
 from app.drawing.outline_problems import outline_problems
 from app.drawing.problem import Problem
+from app.drawing.ring import ring_of
 from app.drawing.solution import Solution, steps_of
 from app.drawing.ties import Names
 from planner.cloth.cloth_state import ClothState
@@ -22,11 +23,12 @@ from planner.message import Message
 def solve(drawing: Drawing) -> Solution:
     """Return the drawing with its folds found on the cloth, and its problems."""
     problems = [*_scene_problems(drawing)]
-    faults = outline_problems(drawing.points)
+    ring = ring_of(drawing.outline)
+    faults = outline_problems(ring)
     if faults:
         return Solution(drawing, (*faults, *problems), None, (), None, None, [])
     names = Names.of(drawing)
-    replay = Replay(drawing.points, (ClothState.spread_out(Region.polygon(drawing.points)),))
+    replay = Replay(ring.points, (ClothState.spread_out(Region.polygon(ring.points)),))
     folded: list[Folded] = []
     folds: list[Crease] = []
     for index, crease in enumerate(drawing.folds):
@@ -49,7 +51,7 @@ def garment_of(drawing: Drawing) -> Garment:
     return Garment(
         drawing.name,
         drawing.title,
-        drawing.points,
+        ring_of(drawing.outline).points,
         drawing.areal_density_kg_m2,
         tuple(
             DrawnFold(fold.name, fold.kind, fold.start.point, fold.end.point, radius_m(drawing, fold))

@@ -33,7 +33,7 @@ def _garment_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 
 def _garment_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
-    return svg_drawing(as_drawn(state)).encode("utf-8", "replace")
+    return svg_drawing(as_drawn(state), state.drawing.outline).encode("utf-8", "replace")
 
 
 def _garment_fold(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:

@@ -5,9 +5,12 @@ centimetres, with y down.
 """
 
 import json
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
+from app.drawing.curve import Ellipse
+from app.drawing.drawing import Corner
 from app.files.sketch_garment import KEPT_FIELDS
 from app.files.svg_sketch import GRIP_RADIUS, KEPT
 from planner.cloth.garment import DrawnFold, Garment
@@ -21,10 +24,17 @@ _MARGIN_CM = 2.0
 _STROKE_CM = 0.25
 
 
-def svg_drawing(garment: Garment) -> str:
-    """Return the garment, folds included, as an SVG document."""
+def svg_drawing(garment: Garment, corners: Sequence[Corner] = ()) -> str:
+    """Return the garment, folds included, as an SVG document.
+
+    Args:
+        garment: the garment.
+        corners: the corners it was drawn with, by which curves are written as arcs; none where it has only points.
+    """
     points = [_cm(point) for point in garment.outline]
     ends = [_cm(end) for fold in garment.folds for end in (fold.start, fold.end)]
+    is_curved = any(corner.curve is not None for corner in corners)
+    outline = _arcs(corners) if is_curved else f"M {_joined(points)} Z"
     xs, ys = zip(*points, *ends, strict=True)
     x, y = min(xs) - _MARGIN_CM, min(ys) - _MARGIN_CM
     width, height = max(xs) + _MARGIN_CM - x, max(ys) + _MARGIN_CM - y
@@ -38,7 +48,7 @@ def svg_drawing(garment: Garment) -> str:
         *(_arrow(kind) for kind in COLOURS),
         "</defs>",
         f'<g fill="none" stroke-width="{_STROKE_CM}" stroke-linejoin="round">',
-        f'<path id="outline" fill="{CLOTH}" stroke="{EDGE}" d="M {_joined(points)} Z"/>',
+        f'<path id="outline" fill="{CLOTH}" stroke="{EDGE}" d="{outline}"/>',
         *_folds(garment.folds),
         "</g>",
         "</svg>",
@@ -61,6 +71,25 @@ def _folds(folds: tuple[DrawnFold, ...]) -> Iterator[str]:
             f'marker-end="url(#{fold.kind}-arrow)" {GRIP_RADIUS}="{fold.grip_radius_m!r}" d="M {line}">'
             f"<title>{_text(fold.name)}</title></path>"
         )
+
+
+def _arcs(corners: Sequence[Corner]) -> str:
+    """Return the path of an outline, each edge a line or an elliptical arc."""
+    return " ".join(("M {:.6f} {:.6f}".format(*_cm(corners[0].point)), *_edges(corners), "Z"))
+
+
+def _edges(corners: Sequence[Corner]) -> Iterator[str]:
+    for corner, following in zip(corners, (*corners[1:], corners[0]), strict=True):
+        x, y = _cm(following.point)
+        if corner.curve is None:
+            yield f"L {x:.6f} {y:.6f}"
+            continue
+        ellipse = Ellipse.of(corner.curve, corner.point, following.point)
+        major, minor = (_CM_PER_M * radius for radius in ellipse.radii_m)
+        is_large, is_left = 2 * ellipse.half_angle_rad > math.pi, corner.curve.across > 0.0
+        # A point that is left of the chord is passed clockwise; the drawing's y is down, as SVG's flags see it.
+        turn_deg = -math.degrees(ellipse.turn_rad)
+        yield f"A {major:.6f} {minor:.6f} {turn_deg:.6f} {is_large:d} {is_left:d} {x:.6f} {y:.6f}"
 
 
 def _cm(point: Point2) -> Point2:

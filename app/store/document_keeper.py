@@ -22,8 +22,11 @@ from app.store.schema import Table
 from app.store.tape import Tape, TapeChange, tape_of, whole
 from planner.task.world_state import WorldState
 
-FORMAT = 3
-"""The format number of documents in the database; 1 and 2 were files (see `app.store.older`)."""
+FORMAT = 4
+"""The newest format number of documents in the database; 1 and 2 were files (see `app.store.older`)."""
+
+_STRAIGHT = 3
+"""The format number of documents without curves, which versions that know no curves read."""
 
 _DOCUMENTS, _STEPS = (Table.metadata.tables[name] for name in ("documents", "document_steps"))
 
@@ -101,6 +104,7 @@ class DocumentKeeper:
         drawing = tape.sheets[tape.now].drawing
         row: dict[str, Any] = {
             "revision": after.revision,
+            "format": _format_of(tape),
             "version": version,
             "changed_at": changed_at,
             "title": _text(drawing.title),
@@ -111,7 +115,7 @@ class DocumentKeeper:
             **_NO_PREVIEW,
         }
         if self.kept is None:
-            session.execute(_ADD, {"id": self.id, "format": FORMAT, **row})
+            session.execute(_ADD, {"id": self.id, **row})
         else:
             self._update(session, kept, row)
         self._write_steps(session, kept, change, changed_at)
@@ -143,6 +147,12 @@ class DocumentKeeper:
         if result.rowcount == 0:
             is_there = session.execute(_FIND, {"of": self.id}).first() is not None
             raise OvertakenError if is_there else UnknownDocumentError(self.id)
+
+
+def _format_of(tape: Tape[Drawing]) -> int:
+    """Return the number of the first format that has all that a tape holds."""
+    corners = (corner for sheet in tape.sheets for corner in sheet.drawing.outline)
+    return FORMAT if any(corner.curve is not None for corner in corners) else _STRAIGHT
 
 
 def _json(drawing: Drawing) -> str:

@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from app.drawing.curve import Curve
+from app.drawing.drawing import Corner
+from app.drawing.ring import ring_of
 from planner.geometry.pose import Point2
 
 
@@ -21,7 +24,7 @@ class Picture:
     """The thumbnail of a drawing.
 
     Attributes:
-        outline: the corners, article frame (m).
+        outline: the polygon that stands for the outline, article frame (m).
         folds: the fold lines in the user's order.
     """
 
@@ -32,14 +35,19 @@ class Picture:
     def of(drawing: Mapping[str, Any]) -> "Picture":
         """Return the picture of a drawing as it is written in a file; an empty one if it is damaged."""
         try:
-            outline = tuple(_point(corner["point"]) for corner in drawing["outline"])
+            outline = ring_of(tuple(_corner(corner) for corner in drawing["outline"])).points
             folds = tuple(
                 PictureFold(fold["kind"], _point(fold["start"]["point"]), _point(fold["end"]["point"]))
                 for fold in drawing["folds"]
             )
-        except (KeyError, TypeError, ValueError):
+        except (AttributeError, KeyError, TypeError, ValueError):
             return Picture()
         return Picture(outline, folds)
+
+
+def _corner(corner: Mapping[str, Any]) -> Corner:
+    curve = corner.get("curve")
+    return Corner("", _point(corner["point"]), Curve(curve["along"], curve["across"]) if curve else None)
 
 
 def _point(pair: Any) -> Point2:  # noqa: ANN401

@@ -1,13 +1,15 @@
 /**
  * What a drawing takes for granted of the world beyond what is usual: that grips hold more, that cloth slips less, that
- * reach needs less slack. Each is marked beside the status and at the folds it is about, and taken off by a click.
+ * reach needs less slack, that the robot can also stand elsewhere. Each is marked beside the status and at the folds it is about, and taken off by a click.
  */
 
 import { button, element } from "./dom.js";
 import { inEnglish, say } from "./language/say.js";
 import { short } from "./messages/changes.js";
 import { length } from "./messages/lengths.js";
+import { place } from "./messages/names.js";
 import { present } from "./present.js";
+import { ownStations } from "./robots.js";
 
 /** @import { Drawing, Fold } from "pleat" */
 
@@ -19,8 +21,12 @@ const SAME = 1e-9;
 /** @typedef {[import("./language/say.js").Key, Record<string, string>]} Words */
 /** @typedef {{kind: string, words: Words, off: (drawing: Drawing) => void}} Assumption */
 
-/** @param {Drawing} drawing @returns {Assumption[]} */
-export function assumptions(drawing) {
+/**
+ * @param {Drawing} drawing
+ * @param {string[]|null} own the stations of the robot's own scene; null while they are not known
+ * @returns {Assumption[]}
+ */
+export function assumptions(drawing, own = null) {
   const { scene, comfort_radius_m: comfort, folds } = drawing;
   const wide = folds.filter((fold) => isWide(drawing, fold));
   const widest = Math.max(...wide.map((fold) => fold.grip_radius_m ?? 0));
@@ -41,9 +47,20 @@ export function assumptions(drawing) {
       words: ["assumption.comfort", { radius: length(comfort) }],
       off: (changed) => void (changed.comfort_radius_m = USUAL.comfort_m),
     },
+    ...(own ? Object.keys(scene.stations).filter((name) => !own.includes(name)) : []).map(station),
   ];
   return present(all);
 }
+
+/** That the robot can also stand there. @param {string} name @returns {Assumption} */
+const station = (name) => ({
+  kind: "station",
+  words: ["assumption.station", { station: place(name) }],
+  off: (drawing) => {
+    delete drawing.scene.stations[name];
+    if (drawing.start_station === name) drawing.start_station = Object.keys(drawing.scene.stations)[0];
+  },
+});
 
 /**
  * Whether a grip at a fold is taken to hold more than the garment's own. Where drags need that too, the garment's is as
@@ -77,7 +94,9 @@ export function assumptionChip(text, onClick) {
 export function mountAssumptions(store, root) {
   let shown = "";
   const show = () => {
-    const found = store.state ? assumptions(store.state.drawing) : [];
+    const { drawing } = store.state ?? {};
+    const own = drawing ? ownStations(drawing.robot, show) : null;
+    const found = drawing ? assumptions(drawing, own) : [];
     const wanted = found.map(({ words }) => say(...words)).join();
     if (wanted === shown) return;
     shown = wanted;

@@ -39,5 +39,32 @@ export function mountRobots(store) {
   store.addEventListener("connection", () => (store.isLive && !robots.length ? load() : show()));
 }
 
+/** The stations of each robot's own scene, once they have been asked for. @type {Map<string, string[]|null>} */
+const known = new Map();
+
+/**
+ * The stations of a robot's own scene; null until they are known.
+ * @param {string} robot
+ * @param {() => void} then called when they are
+ */
+export function ownStations(robot, then) {
+  if (!known.has(robot)) {
+    known.set(robot, null);
+    askStations(robot).then((stations) => {
+      if (stations) known.set(robot, stations);
+      if (stations) then();
+    });
+  }
+  return known.get(robot) ?? null;
+}
+
+/** @param {string} robot @returns {Promise<string[]|null>} */
+async function askStations(robot) {
+  const answer = await fetch(`../api/robots/${encodeURIComponent(robot)}`).catch(() => null);
+  if (!answer?.ok) return null;
+  const { scene } = await answer.json();
+  return Object.keys(scene.stations);
+}
+
 /** A robot's title and its arms, as in `Two UR5e: left, right`. @param {RobotEntry} robot */
 const called = ({ title, arms }) => `${title}: ${arms.map((arm) => word("arm_name", arm)).join(", ")}`;

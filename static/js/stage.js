@@ -6,6 +6,7 @@
 import { svg } from "./board/sheet.js";
 import { byId, element } from "./dom.js";
 import { say } from "./language/say.js";
+import { StageViews } from "./stage_views.js";
 import { isViewOnly } from "./view_only.js";
 
 /** What the frame says when it is ready, see app/api/stage_routes.py. */
@@ -34,12 +35,16 @@ export function mountStage(store, onKey) {
   const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
   const pace = isDrawnBySoftware() ? "by-software/" : "";
   const cover = picture();
+  const views = new StageViews(frame);
   frame.after(cover);
   addEventListener("message", ({ source, data }) => {
-    if (source === frame.contentWindow && data === SEATED) cover.hidden = true;
+    if (source !== frame.contentWindow || data !== SEATED) return;
+    cover.hidden = true;
+    views.show(true);
   });
   const load = () => {
     cover.hidden = false;
+    views.show(false);
     frame.src = `../viser/${store.id}/${pace}`;
   };
   frame.addEventListener("load", () => {

@@ -74,3 +74,17 @@ def test_what_is_stricter_than_usual_is_no_assumption(page: Page, new_sheet: Cal
     page.goto(sheet.page_url)
     expect_planned(page)
     expect(page.get_by_role("group", name="Assumptions")).to_be_hidden()
+
+
+def test_a_station_that_was_added_is_marked_and_taken_off(page: Page, assumed: Sheet) -> None:
+    def add(drawing: dict[str, Any]) -> None:
+        drawing["scene"]["stations"]["far"] = {"x_m": 0.95, "y_m": 0.0, "yaw_rad": 3.1}
+        drawing["start_station"] = "far"
+
+    assumed.edit(add)
+    mark = page.get_by_role("button", name="Assumed: station far. Take it off")
+    mark.click()
+    expect_step(page, "Assume no station far")
+    scene = assumed.at_rest()["drawing"]["scene"]
+    assert "far" not in scene["stations"]
+    assert assumed.state["drawing"]["start_station"] in scene["stations"]

@@ -87,7 +87,7 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page)
     corners = [{"id": f"v{index}", "point": point} for index, point in enumerate(points)]
     outline = page.evaluate(
         """async (outline) => {
-          const edits = await import("/static/js/board/edits.js");
+          const edits = await import("/static/js/board/mirror.js");
           const drawing = { outline };
           edits.mirrorOutline(drawing);
           return drawing.outline;

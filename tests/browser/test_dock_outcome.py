@@ -65,6 +65,8 @@ def test_what_is_suggested_follows_the_unit(page: Page, stuck: Sheet) -> None:
     expect(suggestions(page).filter(has_text=" cm")).to_have_count(0)
     expect(page.get_by_role("list", name="Reasons")).to_contain_text(re.compile(r"grip at \([-\d., ]+\) in"))
     page.get_by_role("button", name="Unit: in").click()
+    expect(suggestions(page).filter(has_text=re.compile(r"Move the garment \d+ mm")).first).to_be_visible()
+    page.get_by_role("button", name="Unit: mm").click()
 
 
 def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(

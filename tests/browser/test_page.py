@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import REST, STAGE_PATIENCE_MS
+from tests.browser.conftest import IN_STAGE, REST, STAGE_PATIENCE_MS
 from tests.browser.status_pill import expect_planned
 
 NODE = """(name) => {
@@ -110,6 +110,16 @@ def test_the_picture_over_the_stage_goes_once_the_stage_has_its_panel(page: Page
     expect(page.locator(".stage-cover")).to_be_hidden()
     stage = page.frame_locator("#stage")
     expect(stage.get_by_text("Table", exact=True).first).to_be_visible()
+
+
+def test_viewpoints_on_the_stage_move_its_camera(page: Page) -> None:
+    """Viser's y is up."""
+    height = f"{IN_STAGE}.camera.position.y"
+    before = page.evaluate(height)
+    page.get_by_role("button", name="Top", exact=True).click()
+    page.wait_for_function(f"Math.hypot({IN_STAGE}.camera.position.x, {IN_STAGE}.camera.position.z) < 0.05")
+    page.get_by_role("button", name="Free", exact=True).click()
+    page.wait_for_function(f"Math.abs({height} - {before}) < 0.01")
 
 
 def test_labels_on_the_stage_are_light_on_dark(page: Page) -> None:

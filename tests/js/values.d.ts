@@ -11,6 +11,7 @@ export type Pose = Schemas["Pose2"];
 
 export type Drawing = Schemas["DrawingAnswer"];
 export type Corner = Schemas["CornerAnswer"];
+export type Curve = Schemas["CurveAnswer"];
 export type Fold = Schemas["FoldAnswer"];
 export type FoldEnd = Schemas["EndAnswer"];
 export type FoldKind = Fold["kind"];

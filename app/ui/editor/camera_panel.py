@@ -1,4 +1,7 @@
-"""The panel with viewpoints; it moves only the camera of the visitor who pressed a button.
+"""The choice of a viewpoint; it moves only the camera of the visitor who chose it.
+
+Its buttons stand on the page, over the stage (`static/js/stage_views.js`). A page knows its own stage's visitor by no
+name but the one that viser gives the choice, which a node of the visitor's own scene tells it.
 
 The robot's-eye camera follows the robot until the visitor moves it. A browser reports its camera with a delay: it
 counts as moved when it is at none of the viewpoints it was recently sent to.
@@ -13,6 +16,9 @@ from app.language import Language, say
 from app.ui.editor.presets import Lens, Preset
 from app.ui.viewpoint import Viewpoint
 
+CHANNEL = "/seat/"
+"""The beginning of the name of a visitor's scene node; the rest is viser's name for the choice of a viewpoint."""
+
 _REMEMBERED = 8
 """Number of opening viewpoints remembered, because a browser reports its camera with a delay."""
 
@@ -23,10 +29,10 @@ OnPreset = Callable[[Preset], None]
 
 
 class CameraPanel:
-    """A row of buttons, and the viewpoint before the first of them was pressed."""
+    """A choice that no panel shows, and the viewpoint before it was first made."""
 
     def __init__(self, client: viser.ClientHandle, language: Language, opening: Viewpoint, on_preset: OnPreset) -> None:
-        """Build the folder.
+        """Build the choice.
 
         Args:
             client: whose camera it is.
@@ -43,10 +49,11 @@ class CameraPanel:
         self._preset: Viewpoint | None = None
         self._ridden: deque[Viewpoint] = deque(maxlen=_RIDDEN)
         self._language = language
-        self._folder = client.gui.add_folder(say(language, "panel.camera"))
+        self._folder = client.gui.add_folder(say(language, "panel.camera"), visible=False)
         with self._folder:
             self._buttons = client.gui.add_button_group(say(language, "panel.look_from"), self._labels)
         self._buttons.on_click(self._pressed)
+        client.scene.add_frame(f"{CHANNEL}{self._buttons._impl.uuid}", show_axes=False)  # it has no other name
 
     @property
     def lens(self) -> Lens:
@@ -103,7 +110,8 @@ class CameraPanel:
         self._move(self._free)
 
     async def _pressed(self, event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
-        self._on_preset(next(preset for preset in Preset if say(self._language, preset) == event.target.value))
+        chosen = event.target.value
+        self._on_preset(next(one for one in Preset if chosen in (one, say(self._language, one))))
 
     def speak(self, language: Language) -> None:
         """Take over another language."""

@@ -127,9 +127,13 @@ class DrawFold(Tool):
             raise RefusedError(translated(state.language, as_sentence(NO_CLOTH)))
         legal = len(solution.cloths) - 1
         if legal < len(state.drawing.folds):
-            told = (spoken(problem.says, problem.message) for problem in solution.problems if problem.fold == legal)
-            why = next(told, "it is not legal")
-            raise RefusedError(as_sentence(f"fix fold {legal + 1} '{state.drawing.folds[legal].name}' first: {why}"))
+            problems = (problem for problem in solution.problems if problem.fold == legal)
+            told = (spoken(state.language, problem.says, problem.message) for problem in problems)
+            why = next(told, say(state.language, "stage.not_legal"))
+            name = translated(state.language, state.drawing.folds[legal].name)
+            raise RefusedError(
+                as_sentence(say(state.language, "stage.fix_first", number=legal + 1, name=name, why=why))
+            )
         refuse_too_many(solution)
         if self._is_red and legal == 0:
             raise RefusedError(translated(state.language, as_sentence(FIRST_IS_RED)))

@@ -6,6 +6,7 @@ from typing import Final
 from app.document_state import DocumentState
 from app.drawing.drawing import Corner, Drawing
 from app.drawing.outline_problems import outline_problems
+from app.drawing.ring import straight_ring
 from app.drawing.rules import (
     CORNER_TAKEN,
     DRAW_OUTLINE,
@@ -93,8 +94,8 @@ class DrawOutline(Tool):
     def _close(self) -> None:
         def change(state: DocumentState) -> Drawing:
             points = [in_article(state.drawing, point) for point in self._points]
-            for problem in outline_problems(points):
-                raise RefusedError(as_sentence(spoken(problem.says, problem.message)))
+            for problem in outline_problems(straight_ring(points)):
+                raise RefusedError(as_sentence(spoken(state.language, problem.says, problem.message)))
             corners = tuple(Corner(f"v{i}", point) for i, point in enumerate(points))
             return replace(state.drawing, outline=corners, folds=())
 

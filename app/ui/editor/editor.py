@@ -72,7 +72,9 @@ class Editor:
             return say(self.language, "stage.looking")
         problems = self._document.state.solution.problems
         shows_problem = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
-        return as_sentence(spoken(problems[0].says, problems[0].message)) if problems and shows_problem else tool.hint()
+        if not problems or not shows_problem:
+            return tool.hint()
+        return as_sentence(spoken(self.language, problems[0].says, problems[0].message))
 
     @property
     def undo_label(self) -> str:
@@ -158,9 +160,9 @@ class Editor:
         def acted() -> None:
             if not self._is_spread:
                 self._document.rewind()
-                raise RefusedError("The cloth lies spread again: now draw.")
+                raise RefusedError(say(self.language, "rule.spread_again"))
             if aim is None:
-                raise RefusedError("That is off the table.")
+                raise RefusedError(say(self.language, "rule.off_table"))
             act(tool, aim)
 
         return self._try(acted)
@@ -181,7 +183,7 @@ class Editor:
         try:
             act()
         except FoldingError as error:
-            self._refusal = sentence(error)
+            self._refusal = sentence(error, self.language)
         else:
             self._refusal = ""
         return not self._refusal

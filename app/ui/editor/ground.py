@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.drawing.drawing import Drawing
+from app.drawing.ring import ring_of
 from planner.geometry.pose import Point2
 from planner.geometry.table_top import TableTop
 
@@ -26,7 +27,7 @@ class Ground:
     def of(drawing: Drawing) -> "Ground":
         """Return the ground of a drawing."""
         top = TableTop.of(drawing.scene.table)
-        corners = np.array([top.low, top.high, *on_table(drawing, drawing.points)])
+        corners = np.array([top.low, top.high, *on_table(drawing, ring_of(drawing.outline).points)])
         low, high = corners.min(axis=0), corners.max(axis=0)
         return Ground((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
 

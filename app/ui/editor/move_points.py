@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from app.document_state import DocumentState
 from app.drawing.drawing import Drawing
+from app.drawing.ring import ring_of
 from app.drawing.rules import FINGER_PX, MOVE_CORNER
 from app.language import say
 from app.ui.editor.aids import Aids, closed
@@ -92,7 +93,8 @@ class MovePoints(Tool):
         handles = on_table(drawing, drawing.points)
         ids = [corner.id for corner in drawing.outline]
         held = self._grip.corner if self._grip is not None else None
-        return Aids(handles, ids.index(held) if held in ids else None, (closed(handles),))
+        rim = on_table(drawing, ring_of(drawing.outline).points)
+        return Aids(handles, ids.index(held) if held in ids else None, (closed(rim),))
 
 
 def _moved(corner: str, place: Point2) -> Change:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from app.drawing.rules import as_sentence
+from app.language import ENGLISH, Language, translated
 from app.ui.editor.spoken import spoken
 from planner.errors import FieldError, FoldingError
 
@@ -23,11 +24,11 @@ class RefusedError(FoldingError):
         return self.sentence
 
 
-def sentence(error: FoldingError) -> str:
-    """Return an error as a sentence that begins with a capital letter and ends with a full stop."""
+def sentence(error: FoldingError, language: Language = ENGLISH) -> str:
+    """Return an error as a sentence of the language that begins with a capital letter and ends with a full stop."""
     text = str(error)
     if isinstance(error, FieldError):
         subject = _SUBJECTS.get(error.field.rpartition(".")[2])
         text = f"{subject} {error.message}" if subject and error.message.startswith("does not") else error.message
-        text = spoken(error.says, text)
-    return as_sentence(text)
+        text = spoken(language, error.says, text)
+    return translated(language, as_sentence(text))

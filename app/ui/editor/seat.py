@@ -8,6 +8,7 @@ import viser
 
 from app.document import Document
 from app.document_state import DocumentState
+from app.drawing.ring import ring_of
 from app.language import say
 from app.shown_robot import shown_robot
 from app.ui.colours import DARK, LIGHT
@@ -136,7 +137,7 @@ class Seat:
         """Return where the camera that follows the work, or that rides on the robot's head, is now."""
         if self._following is None:
             return self._robots_eye(state)
-        points = on_table(state.drawing, state.drawing.points) or state.drawing.scene.table.corners
+        points = on_table(state.drawing, ring_of(state.drawing.outline).points) or state.drawing.scene.table.corners
         x, y = np.array(points).mean(axis=0)
         work = (float(x), float(y)) if state.shown is None else work_of(state.shown, self._document.t_s)
         return self._following.view(self._base(state), work, self._camera_panel.lens)
@@ -144,7 +145,7 @@ class Seat:
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
         """Return the view from the robot's head where it stands now."""
         scene, aspect, card = state.drawing.scene, self._camera_panel.lens.aspect, shown_robot(state.drawing.robot)
-        points = on_table(state.drawing, state.drawing.points) or scene.table.corners
+        points = on_table(state.drawing, ring_of(state.drawing.outline).points) or scene.table.corners
         return robots_eye(card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
 
     def _base(self, state: DocumentState) -> Pose2:

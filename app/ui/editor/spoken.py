@@ -1,64 +1,68 @@
-"""Messages about a drawing in the stage's words: in centimetres, corners and edges counted from 1.
+"""Messages about a drawing in the stage's words: in its reader's language and in centimetres, counted from 1.
 
-The page has words of its own, in the unit that its reader has chosen (`static/js/messages`).
+The words are those of the page (`static/words`); the page fills them in the unit that its reader has chosen.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
+from app.language import Language, catalogue, numeral, say
 from planner.geometry.pose import Point2
 from planner.message import Message
 
-_Values = Mapping[str, Any]
+_SPOKEN = frozenset(
+    {
+        "dropped_too_near",
+        "edge_too_short",
+        "edges_cross",
+        "end_off_boundary",
+        "fewer_folds",
+        "folds_full",
+        "line_too_short",
+        "no_cloth_there",
+        "not_on_flap",
+        "outline_area",
+        "outline_points",
+        "would_tear",
+    }
+)
+"""The codes of messages whose words are filled by `_places`."""
+
+_COUNTED = frozenset({"edge", "from", "to"})
 
 
-def spoken(says: Message | None, sentence: str) -> str:
+def spoken(language: Language, says: Message | None, sentence: str) -> str:
     """Return a message in the stage's words; its sentence where the stage has no words for it."""
-    words = None if says is None else _WORDS.get(says.code)
-    return sentence if words is None or says is None else words(says.values)
+    if says is None or says.code not in _SPOKEN or f"message.{says.code}" not in catalogue(language):
+        return sentence
+    return say(language, f"message.{says.code}", **_places(language, says.values))
 
 
-def _cm(length_m: float) -> str:
-    return f"{100.0 * length_m:.1f}".removesuffix(".0") + " cm" if length_m >= 0.001 else f"{100.0 * length_m:.2g} cm"
+def _places(language: Language, values: Mapping[str, Any]) -> dict[str, str]:
+    """Return the texts for the places of a message, named like its values without their units."""
+    found: dict[str, str] = {}
+    for name, value in values.items():
+        if name == "edges":
+            found["first"], found["second"] = (str(edge + 1) for edge in value)
+        elif name == "at":
+            found[name] = _at(language, value)
+        elif name.endswith("_m2"):
+            found[name.removesuffix("_m2")] = f"{_figure(language, 1e4 * value)} cm²"
+        elif name.endswith("_m"):
+            found[name.removesuffix("_m")] = f"{_figure(language, 100.0 * value)} cm"
+        else:
+            found[name] = str(value + 1 if name in _COUNTED else value)
+    return found
 
 
-def _at(point: Point2) -> str:
-    x, y = (f"{100.0 * coordinate + 0.0:.1f}".removesuffix(".0") for coordinate in point)
-    return f"({x}, {y}) cm of the garment"
+def _at(language: Language, point: Point2) -> str:
+    x, y = (_figure(language, 100.0 * coordinate) for coordinate in point)
+    return say(language, "point.of_garment", point=say(language, "point", x=x, y=y, unit="cm"))
 
 
-def _edge_too_short(values: _Values) -> str:
-    edge, least = values["edge"] + 1, _cm(values["least_m"])
-    return f"edge {edge} is {_cm(values['length_m'])} long, less than {least}"
-
-
-def _edges_cross(values: _Values) -> str:
-    first, second = values["edges"]
-    return f"edges {first + 1} and {second + 1} cross at {_at(values['at'])}"
-
-
-def _outline_area(values: _Values) -> str:
-    return f"it covers {1e4 * values['area_m2']:.2g} cm², less than {1e4 * values['least_m2']:g} cm²"
-
-
-def _end_off_boundary(values: _Values) -> str:
-    off, most = _cm(values["off_m"]), _cm(values["most_m"])
-    return f"its end at {_at(values['at'])} is {off} from the cloth's edge; ends within {most} snap to it"
-
-
-def _line_too_short(values: _Values) -> str:
-    return f"the line is {_cm(values['length_m'])} long, less than {_cm(values['least_m'])}"
-
-
-def _would_tear(values: _Values) -> str:
-    return f"the part that moves reaches {_cm(values['along_m'])} along the crease of the fold before: it would tear"
-
-
-_WORDS: Mapping[str, Callable[[_Values], str]] = {
-    "edge_too_short": _edge_too_short,
-    "edges_cross": _edges_cross,
-    "outline_area": _outline_area,
-    "end_off_boundary": _end_off_boundary,
-    "line_too_short": _line_too_short,
-    "would_tear": _would_tear,
-}
+def _figure(language: Language, value: float) -> str:
+    """Return a number with at most one digit behind the mark; what is tiny keeps two that say something."""
+    tenths = round(value, 1)
+    if tenths == 0.0 and abs(value) >= 1e-4:
+        return numeral(language, float(f"{value:.2g}"), 4).rstrip("0")
+    return numeral(language, tenths + 0.0, 0 if tenths == round(tenths) else 1)

@@ -1,24 +1,25 @@
 /** The drafting board: an SVG that shows the document's drawing, and the tools that change it. */
 
 import { element } from "../dom.js";
-import { inEnglish, say } from "../language/say.js";
 import { Callout } from "./callout.js";
-import { drawAll, LAYERS } from "./draw_all.js";
-import { mirrorCorners, mirrorOutline } from "./edits.js";
+import { drawAll } from "./draw_all.js";
 import { FoldPaint } from "./fold_paint.js";
 import { Framing } from "./framing.js";
 import { Keyboard } from "./keyboard.js";
 import { Layers } from "./layers.js";
 import { Legend } from "./legend.js";
 import { Loupe } from "./loupe.js";
+import { Mirroring } from "./mirroring.js";
 import { Numbers } from "./numbers.js";
 import { Overlays } from "./overlays.js";
 import { Photo } from "./photo.js";
 import { PointerInput } from "./pointer.js";
+import { drawingArea, sheetsOf } from "./drawing_area.js";
 import { hatches } from "./hatches.js";
-import { Sheet, svg } from "./sheet.js";
+import { svg } from "./sheet.js";
 import { Shown } from "./shown.js";
 import { Snapper } from "./snap.js";
+import { Soft } from "./soft.js";
 import { Strip } from "./strip.js";
 import { FoldTool } from "./tools/fold.js";
 import { MeasureTool } from "./tools/measure.js";
@@ -31,15 +32,11 @@ import { length } from "./units.js";
 import { View } from "./view.js";
 
 /** @import { Point } from "pleat" */
-/** @import { LayerName } from "./draw_all.js" */
 /** @import { Hit } from "./hit.js" */
 /** @import { Pointed, Snapped, Targets } from "./snap.js" */
 /** @import { Tool, ToolName } from "./tools/tool.js" */
 /** @import { Blank } from "./blank.js" */
 /** @import { Rail } from "./rail.js" */
-
-/** So long the axis is seen after something was mirrored over it by a key (ms). */
-const AXIS_MS = 1500;
 
 export class Board extends Shown {
   /** @param {import("../store.js").Store} store @param {HTMLElement} root @param {() => void} togglePlay */
@@ -56,9 +53,7 @@ export class Board extends Shown {
     /** @type {{moving: Point[][], landed: Point[][]}|null} */
     this.ghost = null;
     this.said = "";
-    this.isAxisShown = false;
-    /** @type {number|undefined} */
-    this.axisTimer = undefined;
+    this.mirroring = new Mirroring(this);
     this.paint = new FoldPaint(this);
     /** @type {Rail|null} */
     this.rail = null;
@@ -188,7 +183,7 @@ export class Board extends Shown {
 
   /** @param {Pointed} pointer @param {Targets} targets @returns {Snapped} */
   snapTo(pointer, targets) {
-    this.snapped = this.snapper.snap(this.view, pointer, targets);
+    this.snapped = this.snapper.snap(this.view, pointer, { ...targets, soft: new Soft(this.drawing) });
     return this.snapped;
   }
 
@@ -271,23 +266,9 @@ export class Board extends Shown {
     return true;
   }
 
-  /** Show the axis over which things are mirrored, or not any more. @param {boolean} isShown */
-  showAxis(isShown) {
-    clearTimeout(this.axisTimer);
-    this.isAxisShown = isShown;
-    this.render();
-  }
-
-  /** The folds that are meant, or the selected corners, or the outline's left half. */
-  mirror() {
-    if (!this.isAxisShown) {
-      this.showAxis(true);
-      this.axisTimer = setTimeout(() => this.showAxis(false), AXIS_MS);
-    }
-    const { kind, ids = [] } = this.store.selection ?? {};
-    if (!this.drawing.outline.length || this.paint.mirror()) return;
-    if (kind === "vertex") this.store.edit(inEnglish("step.mirror_vertices"), (drawing) => mirrorCorners(drawing, ids));
-    else this.store.edit(inEnglish("step.mirror_outline"), mirrorOutline);
+  /** Whether the axis over which things are mirrored is shown. */
+  get isAxisShown() {
+    return this.mirroring.isAxisShown;
   }
 
   toggleSnap() {
@@ -304,23 +285,4 @@ export class Board extends Shown {
       drawAll(this);
     });
   }
-}
-
-/** The element that is drawn on. */
-function drawingArea() {
-  return svg("svg", {
-    class: "board",
-    id: "drafting-board",
-    role: "application",
-    "aria-label": say("board.label"),
-    tabindex: 0,
-    "data-px-per-m": 1,
-    "data-origin-px": "0,0",
-  });
-}
-
-/** A sheet for each layer, the lowest first. @param {SVGElement} scene */
-function sheetsOf(scene) {
-  const sheets = LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]);
-  return /** @type {Record<LayerName, Sheet>} */ (Object.fromEntries(sheets));
 }

@@ -1,5 +1,6 @@
 /** The cloth at the moment that is shown: spread out, or the layers of the stack with their backs hatched. */
 
+import { ringOf } from "./curves.js";
 import { path } from "./sheet.js";
 
 /** @import { Layer, Point } from "pleat" */
@@ -28,7 +29,7 @@ function layers(view, stack) {
 
 /** @param {Board} board @returns {Items} */
 function spread({ view, drawing }) {
-  const points = drawing.outline.map(({ point }) => view.toPx(point));
+  const points = ringOf(drawing).map((point) => view.toPx(point));
   const isRing = points.length >= 3;
   return [
     isRing && { key: "front", tag: "path", class: "cloth is-front", d: path(points) },
@@ -40,7 +41,7 @@ function spread({ view, drawing }) {
 function stacked({ view, drawing, layers, shown }) {
   /** @param {Point[]} points */
   const ring = (points) => path(points.map((point) => view.toPx(point)));
-  const before = { key: "before", tag: "path", class: "cloth-before", d: ring(drawing.outline.map((c) => c.point)) };
+  const before = { key: "before", tag: "path", class: "cloth-before", d: ring(ringOf(drawing)) };
   if (!layers)
     return [before, { key: "whole", tag: "path", class: "cloth is-front", d: shown.silhouette.map(ring).join("") }];
   const stack = layers.flatMap(({ polygon, face, moved }, index) => [

@@ -3,9 +3,10 @@
 import { unit } from "./units.js";
 
 /** @import { Items } from "./sheet.js" */
+/** @import { UnitName } from "./units.js" */
 /** @import { View } from "./view.js" */
 
-/** Spacings in units, each with how many of them make a strong line. @type {Record<"cm"|"in", [number, number][]>} */
+/** Spacings in units, each with how many of them make a strong line. @type {Record<UnitName, [number, number][]>} */
 const SPACINGS = {
   cm: [
     [0.1, 10],
@@ -15,6 +16,15 @@ const SPACINGS = {
     [10, 10],
     [50, 2],
     [100, 5],
+  ],
+  mm: [
+    [1, 10],
+    [5, 10],
+    [10, 10],
+    [50, 2],
+    [100, 10],
+    [500, 2],
+    [1000, 5],
   ],
   in: [
     [0.125, 8],

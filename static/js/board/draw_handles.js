@@ -1,7 +1,8 @@
 /** What can be taken hold of: corners, middles of edges, ends of folds. Each can have the focus and has a name. */
 
 import { say, translated } from "../language/say.js";
-import { between, distance, left, minus, plus, times, unit as direction } from "./geometry.js";
+import { edgePoints, handleOf, outlineEdges } from "./curves.js";
+import { between, distance, left, lengthOf, minus, plus, times, unit as direction } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length, number } from "./units.js";
 
@@ -75,32 +76,35 @@ function foldHandles(board) {
 }
 
 /**
- * The edges that are selected or end at a selected corner, with their lengths; middles that can be pulled out.
+ * The edges that are selected or end at a selected corner, with their lengths; middles by which they are bent.
  * @param {Board} board
  * @returns {Items}
  */
 function edges(board) {
   if (!board.isSpread) return [];
   const { drawing, view } = board;
-  const corners = drawing.outline;
-  if (corners.length < 2) return [];
-  return corners.flatMap((corner, index) => {
-    const next = corners[(index + 1) % corners.length];
+  return outlineEdges(drawing.outline).flatMap(([corner, next]) => {
     const isSelected = board.isSelected("edge", corner.id);
     const isNear = isSelected || board.hover?.edge === corner.id;
     const isMeasured = isSelected || [corner, next].some(({ id }) => board.isSelected("vertex", id));
     const [a, b] = [view.toPx(corner.point), view.toPx(next.point)];
+    const points = edgePoints(corner, next);
+    const line = points.map((point) => view.toPx(point));
+    const isBendable = corner.curve || (isNear && distance(a, b) > ROOM_FOR_MIDDLE_PX);
+    const handle = view.toPx(handleOf(corner, next));
+    const off = minus(handle, between(a, b)); // the length is written beside the middle of a curve
     return [
-      isSelected && { key: `e:${corner.id}`, tag: "path", class: "edge-selected", d: path([a, b], false) },
-      isNear && distance(a, b) > ROOM_FOR_MIDDLE_PX && middle(corner.id, between(a, b)),
-      isMeasured && lengthLabel(`l:${corner.id}`, a, b, distance(corner.point, next.point), board.turnsLeft),
+      isSelected && { key: `e:${corner.id}`, tag: "path", class: "edge-selected", d: path(line, false) },
+      isBendable && middle(corner.id, handle, Boolean(corner.curve)),
+      isMeasured &&
+        lengthLabel(`l:${corner.id}`, plus(a, off), plus(b, off), lengthOf(points), board.turnsLeft),
     ];
   });
 }
 
-/** @param {string} id @param {Point} at @returns {Item} */
-function middle(id, [cx, cy]) {
-  return { key: `m:${id}`, tag: "circle", class: "handle middle", cx, cy, r: MIDDLE_PX };
+/** @param {string} id @param {Point} at @param {boolean} isCurved @returns {Item} */
+function middle(id, [cx, cy], isCurved) {
+  return { key: `m:${id}`, tag: "circle", class: `handle middle${isCurved ? " is-curved" : ""}`, cx, cy, r: MIDDLE_PX };
 }
 
 /**

@@ -1,10 +1,12 @@
 /** Marks that come and go: the snap in force by its name, the garment's axis, and what a suggestion would change. */
 
+import { ringOf } from "./curves.js";
 import { dimension } from "./draw_dimension.js";
 import { foldItems } from "./draw_folds.js";
 import { path } from "./sheet.js";
 import { distance, dot, minus, plus, times, toInner, toOuter, unit } from "./geometry.js";
-import { axisOfGarment, middleOf } from "./edits.js";
+import { middleOf } from "./edits.js";
+import { axisOfGarment } from "./mirror.js";
 import { length } from "./units.js";
 
 /** @import { Items } from "./sheet.js" */
@@ -57,7 +59,7 @@ export function drawAxis({ isAxisShown, drawing, view }) {
   if (!isAxisShown || drawing.outline.length < 3) return [];
   const [start, end] = axisOfGarment(drawing);
   const way = unit(minus(end, start));
-  const along = drawing.outline.map(({ point }) => dot(minus(point, start), way));
+  const along = ringOf(drawing).map((point) => dot(minus(point, start), way));
   const beyond = BEYOND_PX / view.scale;
   const ends = [Math.min(...along) - beyond, Math.max(...along) + beyond];
   const line = ends.map((far) => view.toPx(plus(start, times(way, far))));
@@ -73,7 +75,7 @@ export function drawPreview({ store, view, drawing }) {
   /** @type {Items} */
   const items = [];
   if (placement) {
-    const ring = drawing.outline.map(({ point }) => view.toPx(toInner(drawing.placement, toOuter(placement, point))));
+    const ring = ringOf(drawing).map((point) => view.toPx(toInner(drawing.placement, toOuter(placement, point))));
     const middle = middleOf(drawing);
     const wanted = toInner(drawing.placement, toOuter(placement, middle));
     items.push({ key: "placed", tag: "path", class: "preview", d: path(ring) });

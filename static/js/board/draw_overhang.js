@@ -3,6 +3,7 @@
  * under it is a double line, and an arrow says how far it has to come.
  */
 
+import { ringOf } from "./curves.js";
 import { say } from "../language/say.js";
 import { dimension } from "./draw_dimension.js";
 import { crossAt, double } from "./draw_findings.js";
@@ -36,7 +37,7 @@ export function drawOverhang(board) {
   const plan = store.plan?.plan;
   const reason = draft || !isSpread || plan?.is_stale ? null : restlessAtStart(plan);
   if (!reason || drawing.outline.length < 3) return [];
-  const ring = drawing.outline.map(({ point }) => point);
+  const ring = ringOf(drawing);
   const sides = edgesOf(tableIn(drawing));
   /** @param {Point[]} points */
   const px = (points) => points.map((point) => view.toPx(point));

@@ -1,5 +1,6 @@
 /** What the robot can do and does: where its arms reach, the base's way, the hands' paths, the slip limit. */
 
+import { ringOf } from "./curves.js";
 import { say } from "../language/say.js";
 import { word } from "../messages/names.js";
 import { between, boxOf, plus, turned } from "./geometry.js";
@@ -152,7 +153,7 @@ export const fullness = (share) => 0.1 + 0.5 * share;
  * @returns {Items}
  */
 function costs({ view, drawing }, places) {
-  const box = boxOf(drawing.outline.map(({ point }) => point));
+  const box = boxOf(ringOf(drawing));
   if (!places || !box) return [];
   const middle = between(box.low, box.high);
   const half = places.step_m / 2;

@@ -1,5 +1,6 @@
 /** A quick fix that is pointed at: the outline and the folds that would be others, and a cross on what would be gone. */
 
+import { ringOf } from "./curves.js";
 import { crossAt } from "./draw_findings.js";
 import { foldItems } from "./draw_folds.js";
 import { between, distance } from "./geometry.js";
@@ -30,7 +31,7 @@ export function drawQuickFix({ store, view, drawing }) {
 
 /** @param {View} view @param {Drawing} drawing @param {Drawing} wanted @returns {Items} */
 function outline(view, drawing, wanted) {
-  const [before, after] = [drawing, wanted].map((one) => one.outline.map(({ point }) => point));
+  const [before, after] = [drawing, wanted].map(ringOf);
   if (before.length === after.length && before.every((point, index) => isSame(point, after[index]))) return [];
   return [{ key: "quick-fix:outline", tag: "path", class: "preview", d: path(after.map((point) => view.toPx(point))) }];
 }

@@ -1,5 +1,6 @@
 /** What part of the plane is seen: the whole garment at first, then what the reader chooses; no edit ever moves it. */
 
+import { ringOf } from "./curves.js";
 import { boxOf } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
@@ -111,7 +112,7 @@ export class Framing {
 
   clothBox() {
     const { drawing, shown } = this.board;
-    return boxOf([...drawing.outline.map(({ point }) => point), ...shown.silhouette.flat()]);
+    return boxOf([...ringOf(drawing), ...shown.silhouette.flat()]);
   }
 
   tableBox() {

@@ -59,6 +59,10 @@ export function mirrored(p, a, b) {
 /** The ring's edges. @param {Point[]} ring @returns {[Point, Point][]} */
 export const edgesOf = (ring) => ring.map((point, index) => [point, ring[(index + 1) % ring.length]]);
 
+/** How long a line from point to point is. @param {Point[]} points */
+export const lengthOf = (points) =>
+  points.slice(1).reduce((sum, point, index) => sum + distance(points[index], point), 0);
+
 /** What of a ring is left of a -> b. @param {Point[]} ring @param {Point} a @param {Point} b @returns {Point[]} */
 export function leftPart(ring, a, b) {
   /** @param {Point} p */
@@ -81,10 +85,16 @@ export function isInside(p, rings) {
 }
 
 /** The place on the rings' edges that is nearest. @param {Point} p @param {Point[][]} rings @returns {Point|null} */
-export function nearestOnRings(p, rings) {
+export const nearestOnRings = (p, rings) => nearestOnEdges(p, rings.flatMap(edgesOf));
+
+/** The place on a line from point to point that is nearest. @param {Point} p @param {Point[]} points @returns {Point|null} */
+export const nearestOnLine = (p, points) => nearestOnEdges(p, edgesOf(points).slice(0, -1));
+
+/** @param {Point} p @param {[Point, Point][]} edges */
+function nearestOnEdges(p, edges) {
   /** @type {Point|null} */
   let best = null;
-  for (const [a, b] of rings.flatMap(edgesOf)) {
+  for (const [a, b] of edges) {
     const here = nearestOn(p, a, b);
     if (!best || distance(p, here) < distance(p, best)) best = here;
   }

@@ -1,9 +1,10 @@
 /** What a pointer is on: a corner, an end of a fold, the middle of an edge, a fold, an edge, the cloth. */
 
-import { between, distance, isInside, nearestOn } from "./geometry.js";
+import { edgePoints, handleOf, outlineEdges } from "./curves.js";
+import { distance, isInside, nearestOnLine } from "./geometry.js";
 import { FINGER_PX, HANDLE_PX } from "./rules.js";
 
-/** @import { Corner, Drawing, Point } from "pleat" */
+/** @import { Point } from "pleat" */
 /** @import { Board } from "./board.js" */
 
 const LINE_PX = 7;
@@ -60,9 +61,9 @@ function* handles(board) {
   if (!isSpread) return;
   for (const { id, point } of drawing.outline)
     yield [{ kind: "vertex", id }, view.toPx(point), board.isSelected("vertex", id) ? -5 : 0];
-  for (const [a, b] of edges(drawing)) {
-    if (board.isSelected("edge", a.id) || board.hover?.edge === a.id)
-      yield [{ kind: "middle", id: a.id, edge: a.id }, between(view.toPx(a.point), view.toPx(b.point)), 3];
+  for (const [a, b] of outlineEdges(drawing.outline)) {
+    if (a.curve || board.isSelected("edge", a.id) || board.hover?.edge === a.id)
+      yield [{ kind: "middle", id: a.id, edge: a.id }, view.toPx(handleOf(a, b)), 3];
   }
 }
 
@@ -71,15 +72,17 @@ function lineAt(board, px, reach) {
   const { drawing, view, step, isSpread } = board;
   /** @type {{found: Hit, away: number}[]} */
   const near = [];
-  /** @param {Hit} found @param {Point} a @param {Point} b */
-  const consider = (found, a, b) => {
-    const away = distance(px, nearestOn(px, view.toPx(a), view.toPx(b)));
+  /** @param {Hit} found @param {Point[]} points */
+  const consider = (found, points) => {
+    const on = nearestOnLine(px, points.map((point) => view.toPx(point)));
+    const away = on ? distance(px, on) : Infinity;
     if (away <= reach) near.push({ found, away });
   };
   for (const [index, fold] of drawing.folds.entries()) {
-    if (index >= step) consider({ kind: "fold", id: fold.id }, fold.start.point, fold.end.point);
+    if (index >= step) consider({ kind: "fold", id: fold.id }, [fold.start.point, fold.end.point]);
   }
-  if (isSpread) for (const [a, b] of edges(drawing)) consider({ kind: "edge", id: a.id, edge: a.id }, a.point, b.point);
+  if (isSpread)
+    for (const [a, b] of outlineEdges(drawing.outline)) consider({ kind: "edge", id: a.id, edge: a.id }, edgePoints(a, b));
   const least = Math.min(...near.map(({ away }) => away));
   return near.find(({ away }) => away === least)?.found ?? null;
 }
@@ -87,9 +90,4 @@ function lineAt(board, px, reach) {
 /** @param {Board} board @param {Point} at @returns {Hit|null} */
 function clothAt(board, at) {
   return isInside(at, board.rings) ? { kind: "cloth", id: "" } : null;
-}
-
-/** @param {Drawing} drawing @returns {[Corner, Corner][]} */
-function edges({ outline }) {
-  return outline.length < 2 ? [] : outline.map((corner, index) => [corner, outline[(index + 1) % outline.length]]);
 }

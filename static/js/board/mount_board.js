@@ -42,7 +42,7 @@ export function boardKeys(board) {
     m: () => board.choose("place"),
     t: () => board.choose("measure"),
     i: () => board.choose("photo"),
-    s: () => board.store.isLost || board.mirror(),
+    s: () => board.store.isLost || board.mirroring.mirror(),
     n: () => board.toggleSnap(),
     b: () => board.paint.put("blue"),
     r: () => board.paint.put("red"),

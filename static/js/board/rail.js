@@ -28,7 +28,7 @@ export class Rail {
       this.tools.set(name, made);
     }
     const what = say("rail.mirror_hint");
-    this.mirror = railButton("mirror", say("rail.mirror"), what, () => board.mirror());
+    this.mirror = railButton("mirror", say("rail.mirror"), what, () => board.mirroring.mirror());
     this.showAxisAtHand();
     this.snap = railButton("snap", say("rail.snap"), say("rail.snap_hint"), () => board.toggleSnap());
     const [select, outline, fold, place, measure, photo] = this.tools.values();
@@ -38,9 +38,9 @@ export class Rail {
   /** The axis is seen before anything is mirrored. */
   showAxisAtHand() {
     const { board, mirror } = this;
-    mirror.addEventListener("pointerenter", () => board.showAxis(true));
-    mirror.addEventListener("focus", () => mirror.matches(":focus-visible") && board.showAxis(true));
-    for (const name of ["pointerleave", "blur"]) mirror.addEventListener(name, () => board.showAxis(false));
+    mirror.addEventListener("pointerenter", () => board.mirroring.showAxis(true));
+    mirror.addEventListener("focus", () => mirror.matches(":focus-visible") && board.mirroring.showAxis(true));
+    for (const name of ["pointerleave", "blur"]) mirror.addEventListener(name, () => board.mirroring.showAxis(false));
   }
 
   draw() {

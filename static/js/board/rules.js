@@ -16,6 +16,10 @@ export const SAME_CORNER_M = 0.001;
 
 export const STROKE_MIN_M = 0.002;
 
+export const CURVE_TOLERANCE_M = 0.001;
+
+export const CURVE_MAX = 2.0;
+
 export const SIDES = {"along_y": "left over", "against_y": "right over", "along_x": "top down", "against_x": "bottom up"};
 
 export const DRAW_FOLD = "Draw fold";

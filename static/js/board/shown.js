@@ -1,5 +1,6 @@
 /** What the board shows: the drawing, as it is or as it is being dragged, at one moment of its folds. */
 
+import { ringOf } from "./curves.js";
 import { cross } from "./geometry.js";
 
 /** @import { Drawing, FoldKind, Layer, Point, Step } from "pleat" */
@@ -101,7 +102,7 @@ export class Shown {
 
   /** @returns {Point[][]} */
   get spreadRings() {
-    const ring = this.drawing.outline.map(({ point }) => point);
+    const ring = ringOf(this.drawing);
     return ring.length >= 3 ? [ring] : [];
   }
 
@@ -116,7 +117,7 @@ export class Shown {
 
   /** Whether the outline is drawn counter-clockwise. */
   get turnsLeft() {
-    const ring = this.drawing.outline.map(({ point }) => point);
+    const ring = ringOf(this.drawing);
     return ring.reduce((sum, point, index) => sum + cross(point, ring[(index + 1) % ring.length]), 0) > 0;
   }
 

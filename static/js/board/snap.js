@@ -9,6 +9,7 @@ import {
   distance,
   dot,
   edgesOf,
+  left,
   minus,
   nearestOn,
   plus,
@@ -21,6 +22,7 @@ import { spacing } from "./draw_grid.js";
 import { FRACTIONS, REACH_PX } from "./rules.js";
 
 /** @import { Point } from "pleat" */
+/** @import { Soft } from "./soft.js" */
 /** @import { View } from "./view.js" */
 
 /** @typedef {keyof typeof REACH_PX} Kind */
@@ -48,6 +50,8 @@ const TURN_RAD = Math.PI / 12;
  * @property {Point[]} [guides] corners to be in line with
  * @property {import("./edge_onto_edge.js").Laid[]} [laid] where an edge would be laid on another
  * @property {boolean} [onlyCloth] whether grid and guides are left out
+ * @property {[Point, Point]} [bent] the ends of the edge that is being bent
+ * @property {Soft} [soft] the curves of the cloth: their points are no corners
  */
 
 /** @typedef {{at: Point, isTouch: boolean, isKeyboard: boolean, ctrl: boolean, shift: boolean}} Pointed */
@@ -99,22 +103,33 @@ export class Snapper {
 /** @type {Record<Kind, (at: Point, targets: Targets, view: View) => Snapped[]>} */
 const CANDIDATES = {
   close: (_, { close }) => (close ? [{ at: close, name: "close", key: "close", isOnCloth: false }] : []),
-  vertex: (_, { rings, points }) => [
-    ...rings.flat().map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: true })),
+  vertex: (_, { rings, points, soft }) => [
+    ...rings.flat().filter((at) => !soft?.has(at)).map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: true })),
     ...points.map((at) => ({ at, name: "vertex", key: `v${at}`, isOnCloth: false })),
   ],
-  dropped: (p, { laid = [] }) =>
-    laid.flatMap(({ at, on }) => (on ? [onto(at, at), onto(at, nearestOn(p, on[0], on[1]))] : [])),
-  fraction: (_, { rings }) =>
-    rings.flatMap(edgesOf).flatMap(([a, b]) =>
-      FRACTIONS.map(([part, whole]) => ({
-        at: between(a, b, part / whole),
-        name: whole === 2 ? "midpoint" : say("snap.fraction", { part, whole }),
-        key: `${part}/${whole}${a}${b}`,
-        isOnCloth: true,
-      })),
-    ),
-  bisector: (_, { laid = [] }) => laid.flatMap(({ at, on }) => (on ? [] : [onto(at, at)])),
+  dropped: (p, { laid = [], bent }) => [
+    ...laid.flatMap(({ at, on }) => (on ? [onto(at, at), onto(at, nearestOn(p, on[0], on[1]))] : [])),
+    ...(bent ? [{ at: nearestOn(p, ...bent), name: say("snap.straight"), key: "straight", isOnCloth: false }] : []),
+  ],
+  fraction: (_, { rings, bent, soft }) => [
+    ...rings
+      .flatMap(edgesOf)
+      .filter(([a, b]) => !soft?.has(a) && !soft?.has(b))
+      .flatMap(([a, b]) =>
+        FRACTIONS.map(([part, whole]) => ({
+          at: between(a, b, part / whole),
+          name: whole === 2 ? "midpoint" : say("snap.fraction", { part, whole }),
+          key: `${part}/${whole}${a}${b}`,
+          isOnCloth: true,
+        })),
+      ),
+    ...(rings.length && soft ? soft.handles : []).map((at) => ({ at, name: "midpoint", key: `m${at}`, isOnCloth: true })),
+    ...(bent ? halfCircles(bent) : []),
+  ],
+  bisector: (p, { laid = [], bent }) => [
+    ...laid.flatMap(({ at, on }) => (on ? [] : [onto(at, at)])),
+    ...(bent ? [arc(p, bent)] : []),
+  ],
   edge: (p, { rings }, view) =>
     rings.flatMap(edgesOf).map(([a, b]) => ({
       at: roundOnEdge(nearestOn(p, a, b), a, b, view),
@@ -127,6 +142,23 @@ const CANDIDATES = {
   grid: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view).slice(0, 1)),
   line: (p, { onlyCloth }, view) => (onlyCloth ? [] : onGrid(p, view).slice(1)),
 };
+
+/** The handle that makes an edge an arc of a circle. @param {Point} p @param {[Point, Point]} edge @returns {Snapped} */
+function arc(p, [a, b]) {
+  const [middle, way] = [between(a, b), left(direction(minus(b, a)))];
+  return { at: plus(middle, times(way, dot(minus(p, middle), way))), name: say("snap.arc"), key: "arc", isOnCloth: false };
+}
+
+/** The handles that make an edge half a circle. @param {[Point, Point]} edge @returns {Snapped[]} */
+function halfCircles([a, b]) {
+  const [middle, rise] = [between(a, b), times(left(minus(b, a)), 0.5)];
+  return [1, -1].map((side) => ({
+    at: plus(middle, times(rise, side)),
+    name: say("snap.half_circle"),
+    key: `half${side}`,
+    isOnCloth: false,
+  }));
+}
 
 /** @param {Point} at @param {Point} where @returns {Snapped} */
 const onto = (at, where) => ({ at, where, name: say("snap.edge_onto_edge"), key: `o${at}`, isOnCloth: false });

@@ -3,7 +3,7 @@
 import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 import { say, translated } from "../language/say.js";
-import { unit } from "./units.js";
+import { unit, UNITS } from "./units.js";
 
 /** @import { FoldKind } from "pleat" */
 
@@ -74,7 +74,7 @@ export class Strip {
   }
 
   swapUnit() {
-    unit.name = unit.name === "cm" ? "in" : "cm";
+    unit.name = UNITS[(UNITS.indexOf(unit.name) + 1) % UNITS.length];
     this.board.render();
   }
 }

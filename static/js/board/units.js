@@ -1,4 +1,4 @@
-/** Lengths as people write them: centimetres unless they say otherwise. */
+/** Lengths as people write them: in the unit that was chosen unless they say otherwise. */
 
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
@@ -11,11 +11,17 @@ const KEY = "pleat-unit";
 const SUM = /^[-+*/().\d\s]+$/;
 const WITH_UNIT = /(\d+\.?\d*|\.\d+)\s*(mm|cm|in|m|")/g;
 
+/** The units that numbers can be shown in, with the digits behind the mark that a board can tell. */
+const DIGITS = /** @type {const} */ ({ cm: 1, in: 2, mm: 0 });
+
+/** @typedef {keyof typeof DIGITS} UnitName */
+export const UNITS = /** @type {UnitName[]} */ (Object.keys(DIGITS));
+
 /** The unit that numbers are shown in, and mean when no unit is written. */
 export const unit = {
-  /** @returns {"cm"|"in"} */
+  /** @returns {UnitName} */
   get name() {
-    return localStorage.getItem(KEY) === "in" ? "in" : "cm";
+    return UNITS.find((name) => name === localStorage.getItem(KEY)) ?? "cm";
   },
   set name(name) {
     localStorage.setItem(KEY, name);
@@ -107,5 +113,5 @@ function single(read) {
 /** A length as text with its unit. @param {number} metres */
 export const length = (metres) => `${number(metres)} ${unit.name}`;
 
-/** A length as a number of the unit, to a tenth of a centimetre or a hundredth of an inch. @param {number} metres */
-export const number = (metres) => numeral(metres / unit.metres, unit.name === "in" ? 2 : 1);
+/** A length as a number of the unit, to a millimetre or a hundredth of an inch. @param {number} metres */
+export const number = (metres) => numeral(metres / unit.metres, DIGITS[unit.name]);

@@ -1,6 +1,7 @@
 /** What a suggestion changes, made to a drawing. */
 
-import { freshId, insertFold } from "../board/edits.js";
+import { insertFold } from "../board/edits.js";
+import { freshId } from "../board/ids.js";
 
 /** @import { Drawing, Fold, FoldEnd, GarmentFold, Point } from "pleat" */
 /** @import { Preview } from "../store.js" */

@@ -1,5 +1,6 @@
 /** The versions of a document by the step that led to each and its time; one of them is gone back to as one step. */
 
+import { ringOf } from "../board/curves.js";
 import { goTo } from "../dialogs/documents.js";
 import { openDialog, OFFLINE, sentenceOf } from "../dialogs/dialog.js";
 import { element } from "../dom.js";
@@ -33,7 +34,7 @@ export async function showVersions(store, entry) {
   };
   list.append(
     ...versions.map((version) => {
-      const outline = version.drawing.outline.map(({ point }) => point);
+      const outline = ringOf(version.drawing);
       const folds = version.drawing.folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point }));
       const title = translated(version.label) || say("versions.first");
       return tile(title, when(version.changed_at), outline, folds, () => goBack(version));

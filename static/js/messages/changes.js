@@ -56,6 +56,7 @@ export const CHANGES = {
   merge_two: () => say("message.merge_two"),
   merge_near: ({ nearer_m: nearer }) => say("message.merge_near", { nearer: length(nearer) }),
   exchange_two: () => say("message.exchange_two"),
+  straighten: () => say("message.straighten"),
   uncross: () => say("message.uncross"),
   delete_corner: () => say("message.delete_corner"),
   start_at: ({ station }) => say("message.start_at", { station: place(station) }),

@@ -5,7 +5,7 @@ import { language } from "../language/language.js";
 import { numeral, shortest } from "../language/numeral.js";
 import { say } from "../language/say.js";
 
-const DECIMALS = { cm: 1, in: 2 };
+const DECIMALS = { cm: 1, in: 2, mm: 0 };
 
 /** A number of the unit without digits that say nothing; what is tiny keeps two that do. @param {number} metres */
 function figure(metres) {

@@ -1,5 +1,6 @@
 /** A card: a change that gives a plan, with a picture of the folded cloth, and what the plan then takes. */
 
+import { ringOf } from "../board/curves.js";
 import { button, element } from "../dom.js";
 import { offer, suggestionWords } from "../dock/suggestion_button.js";
 import { seconds } from "../dock/words.js";
@@ -45,6 +46,6 @@ export function card(store, suggestion) {
 /** @param {import("pleat").Drawing} drawing */
 const pictureOf = ({ outline, folds }) =>
   picture(
-    outline.map(({ point }) => point),
+    ringOf({ outline }),
     folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point })),
   );

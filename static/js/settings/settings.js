@@ -1,6 +1,6 @@
 /** The settings: those of the reader, kept in this browser, and those of the document, changed as one step. */
 
-import { unit } from "../board/units.js";
+import { unit, UNITS } from "../board/units.js";
 import { openDialog } from "../dialogs/dialog.js";
 import { byId, element } from "../dom.js";
 import { LANGUAGES, language, ownName, speak } from "../language/language.js";
@@ -36,9 +36,10 @@ function readers(store) {
     [
       { value: "cm", text: say("settings.centimetres") },
       { value: "in", text: say("settings.inches") },
+      { value: "mm", text: say("settings.millimetres") },
     ],
     unit.name,
-    (name) => (unit.name = name === "in" ? "in" : "cm"),
+    (name) => (unit.name = UNITS.find((other) => other === name) ?? unit.name),
   );
   const colours = choice(
     say("settings.colours"),

@@ -11,6 +11,7 @@ from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.player import Player
+from app.ui.editor.camera_panel import CHANNEL
 from app.ui.editor.desk import Desk
 from app.ui.editor.glass import NODE
 from app.ui.opening import opening
@@ -170,7 +171,10 @@ def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_els
         visitor.choose("Look from", "Top")
         visitor.until(lambda: len(visitor.camera) == 2)
         assert visitor.camera[1][:2] == pytest.approx((0.0, 0.0), abs=0.01)
-        visitor.choose("Look from", "Free")
+        told = f"{CHANNEL}{visitor.controls['Look from']['uuid']}"  # the page asks with that and the preset's own name
+        visitor.until(lambda: told in visitor.nodes)
+        assert told not in other.nodes
+        visitor.choose("Look from", "preset.free")
         visitor.until(lambda: len(visitor.camera) == 3)
         assert visitor.camera[2] == pytest.approx(EYE)
         other.choose("Mode", "Draw fold")

@@ -140,7 +140,7 @@ def test_a_fold_that_is_not_legal_has_to_be_fixed_first() -> None:
     document, editor = seat(broken, Mode.DRAW_FOLD)
     drag(editor, (-0.55, 0.2), (-0.55, -0.2))
     assert len(document.state.drawing.folds) == 1
-    assert editor.says.startswith("Fix fold 1 'f0' first: ")
+    assert editor.says.startswith("Fix fold 1 \N{LEFT DOUBLE QUOTATION MARK}f0\N{RIGHT DOUBLE QUOTATION MARK} first: ")
 
 
 def test_a_fold_is_made_on_the_cloth_as_it_is_by_then() -> None:

@@ -7,6 +7,7 @@ import pytest
 from sqlalchemy import delete, func, select, update
 
 from app.drawing import history
+from app.drawing.curve import Curve
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.store.database import Database
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
@@ -105,6 +106,27 @@ def test_a_document_of_a_newer_format_is_refused_by_its_number(
             ask(document_id)
     assert f"format {FORMAT + 1}" in str(entries(repository)[0].problem)
     assert list(repository.recent()) == []
+
+
+def test_only_a_document_with_curves_has_the_format_that_knows_them(
+    database: Database, repository: DocumentRepository
+) -> None:
+    """A version that knows no curves goes on reading all others."""
+    document_id, document = kept_document(repository)
+
+    def number() -> int:
+        with database.reading("look") as session:
+            return session.execute(select(DocumentRow.format).where(DocumentRow.id == document_id)).scalar_one()
+
+    document.edit(Edit("one", moved(1)))
+    assert number() == FORMAT - 1
+    outline = tuple(replace(corner, curve=Curve(0.0, 0.1)) for corner in moved(1).outline)
+    document.edit(Edit("Bend edge", replace(moved(1), outline=outline)))
+    assert number() == FORMAT
+    _, draft = restored(repository, document_id)
+    assert draft.drawing.outline == outline
+    document.undo()
+    assert number() == FORMAT  # to redo the step is a curve again
 
 
 @pytest.mark.parametrize("size", [1, 3, 7])

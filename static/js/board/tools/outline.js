@@ -4,7 +4,7 @@
  */
 
 import { say, translated } from "../../language/say.js";
-import { replaceOutline } from "../edits.js";
+import { replaceOutline } from "../outline_edits.js";
 import { distance } from "../geometry.js";
 import { lengthLabel } from "../draw_handles.js";
 import { CORNER_TAKEN, DRAW_OUTLINE, LEAST_CORNERS, TOO_FEW_CORNERS, TOO_MANY_CORNERS } from "../rules.js";

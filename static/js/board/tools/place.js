@@ -1,5 +1,6 @@
 /** The tool `Place`: the garment on the table, seen from above; it is dragged, and turned by its handle. */
 
+import { ringOf } from "../curves.js";
 import { inEnglish, say } from "../../language/say.js";
 import { BASE_M } from "../draw_table.js";
 import { middleOf } from "../edits.js";
@@ -60,7 +61,7 @@ export class PlaceTool extends Tool {
 
   /** The handle's place and where it is tied to (px). */
   get handle() {
-    const box = boxOf(this.board.drawing.outline.map(({ point }) => point));
+    const box = boxOf(ringOf(this.board.drawing));
     if (!box) return null;
     const { view } = this.board;
     const foot = view.toPx([this.middle[0], box.high[1]]);
@@ -72,7 +73,7 @@ export class PlaceTool extends Tool {
   grasp(pointer) {
     const handle = this.handle;
     if (handle && distance(pointer.px, handle.knob) <= (pointer.isTouch ? TOUCH_PX : HIT_PX)) return "turn";
-    return isInside(pointer.at, [this.board.drawing.outline.map(({ point }) => point)]) ? "move" : null;
+    return isInside(pointer.at, [ringOf(this.board.drawing)]) ? "move" : null;
   }
 
   /** The station whose robot is drawn there. @param {Pointer} pointer */

@@ -1,27 +1,30 @@
 /** The tool `Select`: takes corners, edges, folds and their ends; drags them, nudges them, removes them. */
 
 import { inEnglish, say } from "../../language/say.js";
-import { endsOnto } from "../edge_onto_edge.js";
-import { freshId, insertCorner, moveCorners, moveFold, removeCorners, removeFolds } from "../edits.js";
+import { edgeFrom, edgePoints } from "../curves.js";
+import { removeFolds } from "../edits.js";
 import { Gesture } from "../gesture.js";
-import { chordAlong, distance, minus, nearestOnRings, plus } from "../geometry.js";
+import { minus, nearestOnLine, plus } from "../geometry.js";
 import { hit } from "../hit.js";
+import { freshId } from "../ids.js";
 import { cornersWithin, marquee } from "../marquee.js";
+import { insertCorner, moveCorners, removeCorners, straightenEdges } from "../outline_edits.js";
 import { MOVE_CORNER } from "../rules.js";
+import { Drags, endsOfEdge, movedFold } from "./drags.js";
 import { Tool } from "./tool.js";
 
-/** @import { Drawing, Point } from "pleat" */
+/** @import { Point } from "pleat" */
 /** @import { Change } from "../../edit_queue.js" */
 /** @import { Hit } from "../hit.js" */
 /** @import { Pointer } from "../pointer.js" */
-/** @import { Targets } from "../snap.js" */
+/** @import { Dragged, Press } from "./drags.js" */
 /** @import { Frame } from "../marquee.js" */
 
-const CURSORS = { vertex: "grab", end: "grab", middle: "copy", fold: "move", edge: "move", cloth: "default" };
+const CURSORS = { vertex: "grab", end: "grab", middle: "grab", fold: "move", edge: "move", cloth: "default" };
 const LABELS = {
   vertex: MOVE_CORNER,
   edge: inEnglish("step.move_edge"),
-  middle: inEnglish("step.add_vertex"),
+  middle: inEnglish("step.bend_edge"),
   end: inEnglish("step.move_fold"),
   fold: inEnglish("step.move_fold"),
 };
@@ -29,8 +32,6 @@ const LABELS = {
 const SELECTED = /** @type {const} */ ({ vertex: "vertex", end: "fold", fold: "fold", edge: "edge", middle: "edge" });
 const LEAST_CORNERS = 3;
 
-/** @typedef {(pointer: Pointer) => Change} Dragged the change that brings what is dragged to a pointer */
-/** @typedef {{hit: Hit|null, at: Point, px: Point}} Press what was pressed, and where (article frame in m, px) */
 /**
  * What the hand is doing:
  * - idle: nothing is pressed;
@@ -55,6 +56,7 @@ export class SelectTool extends Tool {
     super(board, "select", "default");
     /** @type {State} */
     this.state = IDLE;
+    this.drags = new Drags(board);
   }
 
   get hint() {
@@ -77,7 +79,7 @@ export class SelectTool extends Tool {
   /** @param {Pointer} pointer */
   press(pointer) {
     const found = hit(this.board, pointer);
-    this.state = { name: "pressed", press: { hit: found, at: pointer.at, px: pointer.px } };
+    this.state = { name: "pressed", press: { hit: found, at: pointer.at, px: pointer.px, alt: pointer.alt } };
     this.take(found, pointer.shift);
   }
 
@@ -114,96 +116,13 @@ export class SelectTool extends Tool {
    * @returns {State}
    */
   begun(pressed, pointer) {
-    const { hit: found, px } = pressed.press;
+    const { hit: found, px, alt } = pressed.press;
     if (!found || found.kind === "cloth")
       return pointer.isTouch ? { name: "panning", px } : { name: "framing", frame: [px, px] };
-    const dragged = this.dragged(found, pressed.press);
+    const dragged = this.drags.of(found, pressed.press);
     if (!dragged) return pressed;
-    return { name: "dragging", gesture: new Gesture(this.board, LABELS[found.kind]), dragged };
-  }
-
-  /** @param {Exclude<Hit, {kind: "cloth"}>} found @param {Press} press @returns {Dragged|null} */
-  dragged(found, press) {
-    switch (found.kind) {
-      case "vertex":
-        return this.draggedCorners(this.chosenWith(found.id), found.id, press.at);
-      case "edge":
-        return this.draggedCorners(endsOfEdge(this.board.drawing, found.id), null, press.at);
-      case "middle":
-        return this.draggedMiddle(found.id);
-      case "end":
-        return this.draggedEnd(found.id, found.end);
-      case "fold":
-        return this.draggedFold(found.id, press.at);
-    }
-  }
-
-  /** The corners that move along with one. @param {string} id */
-  chosenWith(id) {
-    const { selection } = this.board.store;
-    return selection?.kind === "vertex" ? selection.ids : [id];
-  }
-
-  /**
-   * Corners that move as one; the one that is held snaps.
-   * @param {string[]} ids
-   * @param {string|null} heldId
-   * @param {Point} pressedAt
-   * @returns {Dragged}
-   */
-  draggedCorners(ids, heldId, pressedAt) {
-    const starts = new Map(
-      this.board.drawing.outline.filter(({ id }) => ids.includes(id)).map(({ id, point }) => [id, point]),
-    );
-    const from = (heldId !== null && starts.get(heldId)) || pressedAt;
-    const grip = minus(from, pressedAt);
-    return (pointer) => {
-      const at = plus(pointer.at, grip);
-      const snapped = this.board.snapTo({ ...pointer, at }, this.targets(ids, from));
-      const by = minus(snapped.at, from);
-      const places = new Map([...starts].map(([id, point]) => [id, plus(point, by)]));
-      return (drawing) => moveCorners(drawing, places);
-    };
-  }
-
-  /** @param {string[]} ids @param {Point|null} from @returns {Targets} */
-  targets(ids, from) {
-    const others = this.board.drawing.outline.filter(({ id }) => !ids.includes(id)).map(({ point }) => point);
-    return { rings: [], points: others, guides: others, from };
-  }
-
-  /** A new corner, pulled out of an edge. @param {string} id @returns {Dragged} */
-  draggedMiddle(id) {
-    const made = freshId("v", this.board.drawing.outline);
-    return (pointer) => {
-      const { at } = this.board.snapTo(pointer, this.targets([made], null));
-      return (drawing) => insertCorner(drawing, id, made, at);
-    };
-  }
-
-  /** @param {string} id @param {"start"|"end"} end @returns {Dragged|null} */
-  draggedEnd(id, end) {
-    const rings = this.board.ringsOf(id);
-    const other = this.board.fold(id)?.[end === "start" ? "end" : "start"].point;
-    if (!other) return null;
-    const targets = { rings, points: [], onlyCloth: true, from: other, laid: endsOnto(other, rings) };
-    return (pointer) => {
-      const { at } = this.board.snapTo(pointer, targets);
-      const point = nearestOnRings(at, rings) ?? at;
-      return (drawing) => moveFold(drawing, id, { [end]: { point, on: null } });
-    };
-  }
-
-  /** @param {string} id @param {Point} pressedAt @returns {Dragged|null} */
-  draggedFold(id, pressedAt) {
-    const rings = this.board.ringsOf(id);
-    const fold = this.board.fold(id);
-    if (!fold) return null;
-    const { start, end } = fold;
-    return (pointer) => {
-      const by = minus(pointer.at, pressedAt);
-      return movedFold(id, plus(start.point, by), plus(end.point, by), rings);
-    };
+    const label = alt && found.kind === "middle" ? inEnglish("step.add_vertex") : LABELS[found.kind];
+    return { name: "dragging", gesture: new Gesture(this.board, label), dragged };
   }
 
   /** @param {Pointer} pointer */
@@ -221,9 +140,10 @@ export class SelectTool extends Tool {
     const found = hit(this.board, pointer);
     if (found?.kind !== "edge" && found?.kind !== "middle") return;
     const id = freshId("v", this.board.drawing.outline);
-    this.board.store.edit(inEnglish("step.add_vertex"), (drawing) =>
-      insertCorner(drawing, found.id, id, onEdge(drawing, found.id, pointer.at)),
-    );
+    this.board.store.edit(inEnglish("step.add_vertex"), (drawing) => {
+      const edge = edgeFrom(drawing, found.id);
+      if (edge) insertCorner(drawing, found.id, id, nearestOnLine(pointer.at, edgePoints(...edge)) ?? pointer.at);
+    });
     this.board.store.select({ kind: "vertex", ids: [id] });
   }
 
@@ -239,6 +159,7 @@ export class SelectTool extends Tool {
   key(event) {
     const by = this.board.nudgeOf(event);
     if (by) return this.nudge(by);
+    if (event.key.toLowerCase() === "c" && !event.altKey) return this.openBend();
     if (event.key !== "Delete" && event.key !== "Backspace") return false;
     return this.remove();
   }
@@ -272,6 +193,14 @@ export class SelectTool extends Tool {
     return true;
   }
 
+  /** The number that bends the selected edge, or the one that starts at the selected corner. */
+  openBend() {
+    const { selection } = this.board.store;
+    if (!this.board.isSpread || (selection?.kind !== "vertex" && selection?.kind !== "edge")) return false;
+    this.board.store.select({ kind: "edge", ids: selection.ids.slice(0, 1) });
+    return this.board.numbers.focus("bulge");
+  }
+
   remove() {
     const { store, drawing } = this.board;
     const { kind, ids } = store.selection ?? { kind: "garment", ids: [] };
@@ -279,6 +208,7 @@ export class SelectTool extends Tool {
       store.edit(inEnglish(ids.length > 1 ? "step.delete_folds" : "step.delete_fold"), (changed) =>
         removeFolds(changed, ids),
       );
+    else if (kind === "edge") return this.straighten(ids);
     else if (kind !== "vertex") return false;
     else if (drawing.outline.length - ids.length < LEAST_CORNERS) store.refuse(say("rule.too_few_corners"));
     else {
@@ -288,36 +218,15 @@ export class SelectTool extends Tool {
     return true;
   }
 
+  /** @param {string[]} ids @returns {boolean} whether any of the edges was curved */
+  straighten(ids) {
+    const { store, drawing } = this.board;
+    const isAny = drawing.outline.some(({ id, curve }) => curve && ids.includes(id));
+    if (isAny) store.edit(inEnglish("step.straighten_edge"), (changed) => straightenEdges(changed, ids));
+    return isAny;
+  }
+
   items() {
     return this.state.name === "framing" ? [marquee(this.state.frame)] : [];
   }
-}
-
-/**
- * The fold along a line, its ends on the cloth's boundary where the line meets it.
- * @param {string} id
- * @param {Point} start
- * @param {Point} end
- * @param {Point[][]} rings
- * @returns {Change}
- */
-function movedFold(id, start, end, rings) {
-  const chord = chordAlong(start, end, rings);
-  return (drawing) => {
-    if (chord && distance(chord[0], chord[1]) > 0.001)
-      moveFold(drawing, id, { start: { point: chord[0], on: null }, end: { point: chord[1], on: null } });
-  };
-}
-
-/** @param {Drawing} drawing @param {string} id the edge's @returns {[string, string]} */
-function endsOfEdge({ outline }, id) {
-  const index = outline.findIndex((corner) => corner.id === id);
-  return [id, outline[(index + 1) % outline.length].id];
-}
-
-/** @param {Drawing} drawing @param {string} id the edge's @param {Point} at */
-function onEdge({ outline }, id, at) {
-  const index = outline.findIndex((corner) => corner.id === id);
-  const [a, b] = [outline[index], outline[(index + 1) % outline.length]];
-  return (a && nearestOnRings(at, [[a.point, b.point]])) ?? at;
 }

@@ -1,0 +1,26 @@
+/** The element that the board draws on, and its layers. */
+
+import { say } from "../language/say.js";
+import { LAYERS } from "./draw_all.js";
+import { Sheet, svg } from "./sheet.js";
+
+/** @import { LayerName } from "./draw_all.js" */
+
+/** The element that is drawn on. */
+export function drawingArea() {
+  return svg("svg", {
+    class: "board",
+    id: "drafting-board",
+    role: "application",
+    "aria-label": say("board.label"),
+    tabindex: 0,
+    "data-px-per-m": 1,
+    "data-origin-px": "0,0",
+  });
+}
+
+/** A sheet for each layer, the lowest first. @param {SVGElement} scene */
+export function sheetsOf(scene) {
+  const sheets = LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]);
+  return /** @type {Record<LayerName, Sheet>} */ (Object.fromEntries(sheets));
+}

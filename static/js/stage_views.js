@@ -1,0 +1,40 @@
+/**
+ * The viewpoints, on the stage itself. The server moves the camera, as it rides along with the robot; which of its
+ * visitors this page's frame is, a node of the frame's scene says (`app/ui/editor/camera_panel.py`).
+ */
+
+import { button, byId } from "./dom.js";
+import { say } from "./language/say.js";
+
+const VIEWS = /** @type {const} */ (["preset.follow", "preset.robot", "preset.top", "preset.side", "preset.free"]);
+const CHANNEL = "/seat/";
+
+/** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
+
+export class StageViews {
+  /** @param {HTMLIFrameElement} frame */
+  constructor(frame) {
+    this.frame = frame;
+    this.root = byId("stage-views");
+    this.root.replaceChildren(
+      ...VIEWS.map((view) => {
+        const made = button("stage-view", () => this.look(view), say(view));
+        made.title = say(`${view}_hint`);
+        return made;
+      }),
+    );
+  }
+
+  /** @param {boolean} isThere whether the visitor has a seat */
+  show(isThere) {
+    this.root.hidden = !isThere;
+  }
+
+  /** @param {typeof VIEWS[number]} view */
+  look(view) {
+    const viser = /** @type {{__viserMutable?: Viser}} */ (this.frame.contentWindow ?? {}).__viserMutable;
+    const node = Object.keys(viser?.nodeRefFromName ?? {}).find((name) => name.startsWith(CHANNEL));
+    if (!viser || !node) return;
+    viser.sendMessage({ type: "GuiUpdateMessage", uuid: node.slice(CHANNEL.length), updates: { value: view } });
+  }
+}
