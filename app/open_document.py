@@ -9,6 +9,7 @@ from app.document import Document
 from app.jobs.job_pool import JobPool
 from app.player import Player
 from app.replanner import Replanner
+from app.shared_texts import SharedTexts
 from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
@@ -21,12 +22,14 @@ class OpenDocument:
     Attributes:
         id: the document's id.
         document: the document.
+        texts: what its pages are sent.
     """
 
     def __init__(self, document_id: str, document: Document, pool: JobPool, plans: PlanStore) -> None:
         """Open a document and start planning it."""
         self.id = document_id
         self.document = document
+        self.texts = SharedTexts()
         self._replanner = Replanner(document, pool, plans)
         self._lock = threading.Lock()
         self._shown: tuple[Stage, Player] | None = None

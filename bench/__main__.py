@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -15,6 +16,7 @@ from bench.frames import frames
 from bench.growth import growth
 from bench.hand import hand
 from bench.heuristics import heuristics
+from bench.load import MINUTES, load
 from bench.measurement import warm_up
 from bench.paper import SOURCE, TABLE_1
 from bench.paper_tables import table_1, table_2
@@ -43,11 +45,12 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "frames": frames,
     "hand": hand,
     "crowd": crowd,
+    "load": load,
     "studies": studies,
     "vision": vision,
     "rehearsal": rehearsal,
 }
-APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "studies", "vision"})
+APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "load", "studies", "vision"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ASKED: Final = frozenset({"rehearsal"})
@@ -77,7 +80,8 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
     console.width = max(console.width, WIDTH)
     warm_up()
     for name in chosen:
-        report = BENCHMARKS[name](articles, 1 if asked.quick else REPETITIONS)
+        benchmark = partial(load, minutes=asked.minutes) if name == "load" else BENCHMARKS[name]
+        report = benchmark(articles, 1 if asked.quick else REPETITIONS)
         if report.rows:
             report.write(out)
             if report.figure and not asked.quick:
@@ -92,6 +96,7 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help=f"measure once, not {REPETITIONS} times")
+    parser.add_argument("--minutes", type=float, help=f"how long `load` lasts, {MINUTES:g} by default")
     parser.add_argument(
         "--only",
         nargs="+",

@@ -131,7 +131,7 @@ def _drag(url: str, document: dict[str, Any], until_s: float, heard: Heard) -> N
                 "base_version": version,
                 "label": "Drag",
                 "phase": "commit" if step == STROKE - 1 else "preview",
-                "drawing": _moved(drawing, stroke, tau * step / STROKE),
+                "drawing": circled(drawing, stroke, tau * step / STROKE),
                 "gesture": str(stroke),
             }
             status, told = _sent(wire, "PUT", f"/api/documents/{document['id']}/drawing", edit)
@@ -140,7 +140,8 @@ def _drag(url: str, document: dict[str, Any], until_s: float, heard: Heard) -> N
             next_s = due_s + 1.0 / EDITS_PER_S
 
 
-def _moved(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, Any]:
+def circled(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, Any]:
+    """Return a drawing with the corner of a stroke moved along its circle by an angle (rad)."""
     moved: dict[str, Any] = json.loads(json.dumps(drawing))
     corner = moved["outline"][stroke % len(moved["outline"])]
     x, y = corner["point"]

@@ -23,13 +23,12 @@ from app.studies.run_study import run_study
 from app.studies.study import Study
 from app.studies.study_file import study_of
 from app.studies.workers import Workers, planner
+from bench.processes import cpu_s, family, memory_mb
 from bench.report import Report, Row
-from bench.served import CLOCK_TICKS_PER_S
 from planner.task.task import Task
 
 PROCESSES = 2
 CELLS, CELLS_QUICK = 1000, 40
-_PAGE_KB = os.sysconf("SC_PAGE_SIZE") / 1024
 _context = multiprocessing.get_context("forkserver")
 
 
@@ -56,8 +55,8 @@ class Watched:
         """Yield the answers."""
         for count, answer in enumerate(self._workers.answers(cells, keep_plans=keep_plans), 1):
             if count % self._every == 0:
-                self.memory_mb.append(sum(_memory_mb(pid) for pid in _family()))
-                self.cpu_s = sum(_cpu_s(pid) for pid in _family())
+                self.memory_mb.append(sum(memory_mb(pid) for pid in family(os.getpid())))
+                self.cpu_s = sum(cpu_s(pid) for pid in family(os.getpid()))
             yield answer
 
 
@@ -105,7 +104,7 @@ def plain_loop(asked: Study) -> Run:
 def whole_study(asked: Study, workers: Workers) -> Run:
     """Run a study in a new folder."""
     watched = Watched(workers, max(asked.count // 10, 1))
-    began_s, before_s = perf_counter(), sum(_cpu_s(pid) for pid in _family())
+    began_s, before_s = perf_counter(), sum(cpu_s(pid) for pid in family(os.getpid()))
     with tempfile.TemporaryDirectory() as folder, Results(Path(folder)) as results:
         results.begin(asked, resume=True)
         run_study(asked, results, watched, lambda _: None)
@@ -116,7 +115,7 @@ def _plan_all(tell: Callable[[float], None], tasks: Sequence[Task]) -> None:
     make_plan = planner()
     for task in tasks:
         make_plan(task)
-    tell(_cpu_s(os.getpid()))
+    tell(cpu_s(os.getpid()))
 
 
 def _row(name: str, cells: int, runs: Sequence[Run]) -> Row:
@@ -126,34 +125,3 @@ def _row(name: str, cells: int, runs: Sequence[Run]) -> Row:
     line = (name, str(cells), f"{cells / wall_s:.1f}", f"{1000 * cpu_s / cells:.1f}", *shown)
     data = {"name": name, "cells": cells, "wall_s": wall_s, "cpu_s": cpu_s, "memory_mb": list(memory)}
     return Row((line,), data)
-
-
-def _family() -> list[int]:
-    """Return this process and all below it, the fork server's too."""
-    below: dict[int, list[int]] = {}
-    for stat in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            below.setdefault(int(stat.read_text().rpartition(")")[2].split()[1]), []).append(int(stat.parent.name))
-        except OSError:
-            continue
-    found = [os.getpid()]
-    for pid in found:
-        found.extend(below.get(pid, ()))
-    return found
-
-
-def _cpu_s(pid: int) -> float:
-    """Return the CPU time of a process (s); 0 where it has ended."""
-    try:
-        user, system = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[11:13]
-    except OSError:
-        return 0.0
-    return (int(user) + int(system)) / CLOCK_TICKS_PER_S
-
-
-def _memory_mb(pid: int) -> float:
-    """Return the resident memory of a process (MB); 0 where it has ended."""
-    try:
-        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * _PAGE_KB / 1024
-    except OSError:
-        return 0.0

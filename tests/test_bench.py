@@ -25,6 +25,7 @@ from bench.frames import frames_of
 from bench.growth import cases, growth
 from bench.growth_cases import crowded, ribbon, tabs, tabs_on_two_sides
 from bench.heuristics import heuristics
+from bench.load import load
 from bench.measurement import Case, Ratio, measure
 from bench.paper import TABLE_1, TABLE_2
 from bench.paper_tables import table_1, table_2
@@ -359,3 +360,21 @@ def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_p
         assert 0 < row["edits"] <= row["edits_wanted"] + 1
         assert 0.0 < row["edit_ms"]["median"] <= row["edit_ms"]["p99"] <= row["edit_ms"]["most"]
     assert crowd(["scarf-halved"], 1).rows == ()
+
+
+def test_a_load_tells_what_was_refused_what_grew_and_what_stayed_open(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    for name, less in (("OPEN", 3), ("VIEWERS", 4), ("DRAGGED", 1), ("CLOSED_WITHIN_S", 0.0)):
+        monkeypatch.setattr(f"bench.load.{name}", less)
+    report = load(["hand-towel"], 1, 0.02)
+    assert "left open" in printed(report)
+    (row,) = written(report, tmp_path)["rows"]
+    assert 0 < row["edits"] <= row["edits_wanted"] + 1
+    assert row["edits_by_status"] == {"200": row["edits"]}
+    assert 0.0 < row["edit_ms"]["median"] <= row["edit_ms"]["p99"] <= row["edit_ms"]["most"]
+    assert 0 < row["plans"] == sum(row["plans_by_status"].values())
+    assert row["messages"] >= 4 and row["memory_first_mb"] > 0.0
+    # All have left, and nobody has waited until the server closes what is not used any more.
+    assert row["left_open"]["sockets"] == 0 < row["left_open"]["documents"] <= 3
+    assert load(["scarf-halved"], 1).rows == ()

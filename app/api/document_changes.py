@@ -1,12 +1,10 @@
 """Routes that change a document: its drawing, garment or robot, and its history."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.concurrency import run_in_threadpool
-from starlette.responses import JSONResponse
 
 from app.api.asked import asked_garment, workspace_of
 from app.api.body import JsonBody
@@ -16,6 +14,8 @@ from app.api.document_answers import DocumentAnswer
 from app.api.document_messages import EditRequest, GarmentRequest, RobotRequest, TravelRequest
 from app.api.live_messages import document_message
 from app.api.problems import ProblemResponse
+from app.api.told import document_text
+from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_from_dict
@@ -37,42 +37,44 @@ _CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **p
 @router.put("/{document_id}/drawing", responses=_CHANGED)
 async def put_drawing(request: Request, document_id: str, wanted: EditRequestBody) -> Response:
     """Change the drawing; answers 409, with the current `state`, if somebody else has changed it meanwhile."""
-    opened = await opened_document(request, document_id)
-    edit = _edit(wanted, opened.document.state.drawing)
-    return await _changed(opened, partial(opened.document.edit, edit))
+
+    def change(document: Document) -> DocumentState:
+        return document.edit(_edit(wanted, document.state.drawing))
+
+    return await _changed(request, document_id, change)
 
 
 @router.put("/{document_id}/garment", responses=_CHANGED)
 async def put_other_garment(request: Request, document_id: str, wanted: GarmentRequestBody) -> Response:
     """Put another garment in place of the one that is drawn, as one step."""
-    opened = await opened_document(request, document_id)
 
-    def put() -> DocumentState:
+    def change(document: Document) -> DocumentState:
         garment = asked_garment(workspace_of(request), wanted.garment)
-        return put_garment(opened.document, garment, wanted.label, wanted.base_version)
+        return put_garment(document, garment, wanted.label, wanted.base_version)
 
-    return await _changed(opened, put)
+    return await _changed(request, document_id, change)
 
 
 @router.put("/{document_id}/robot", responses=_CHANGED)
 async def put_other_robot(request: Request, document_id: str, wanted: RobotRequestBody) -> Response:
     """Have another robot fold the garment, with the scene, start and placement that suit it, as one step."""
-    opened = await opened_document(request, document_id)
-    return await _changed(opened, partial(put_robot, opened.document, wanted.robot, wanted.label, wanted.base_version))
+
+    def change(document: Document) -> DocumentState:
+        return put_robot(document, wanted.robot, wanted.label, wanted.base_version)
+
+    return await _changed(request, document_id, change)
 
 
 @router.post("/{document_id}/undo", responses=_CHANGED)
 async def undo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
     """Undo the last step; without one nothing happens."""
-    opened = await opened_document(request, document_id)
-    return await _changed(opened, partial(opened.document.undo, wanted.base_version))
+    return await _changed(request, document_id, lambda document: document.undo(wanted.base_version))
 
 
 @router.post("/{document_id}/redo", responses=_CHANGED)
 async def redo(request: Request, document_id: str, wanted: TravelRequestBody) -> Response:
     """Redo the step undone last; without one nothing happens."""
-    opened = await opened_document(request, document_id)
-    return await _changed(opened, partial(opened.document.redo, wanted.base_version))
+    return await _changed(request, document_id, lambda document: document.redo(wanted.base_version))
 
 
 async def opened_document(request: Request, document_id: str) -> OpenDocument:
@@ -80,14 +82,24 @@ async def opened_document(request: Request, document_id: str) -> OpenDocument:
     return await run_in_threadpool(workspace_of(request).opened, document_id)
 
 
-async def _changed(opened: OpenDocument, change: Callable[[], DocumentState]) -> Response:
-    """Return the state that a change leads to, or the current state if the change came too late."""
-    try:
-        state = await run_in_threadpool(change)
-    except StaleVersionError as error:
-        current = await run_in_threadpool(document_message, opened.id, opened.document.state)
-        return ProblemResponse(409, str(error), members={"state": current})
-    return JSONResponse(await run_in_threadpool(document_message, opened.id, state))
+async def _changed(request: Request, document_id: str, change: Callable[[Document], DocumentState]) -> Response:
+    """Return the state that a change leads to, or the current state if the change came too late.
+
+    All of it is one piece of work in one thread: between two, it would wait for the interpreter.
+    """
+    workspace = workspace_of(request)
+
+    def work() -> Response:
+        opened = workspace.opened(document_id)
+        with workspace.lanes.courtesy.short_work():
+            try:
+                state = change(opened.document)
+            except StaleVersionError as error:
+                current = document_message(opened.id, opened.document.state)
+                return ProblemResponse(409, str(error), members={"state": current})
+            return Response(document_text(opened, state), media_type="application/json")
+
+    return await run_in_threadpool(work)
 
 
 def _edit(wanted: EditRequest, now: Drawing) -> Edit:

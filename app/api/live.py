@@ -7,7 +7,6 @@ its plan changes, a ``playback`` message whenever the clock is set, and ten time
 
 import asyncio
 import contextlib
-import json
 from collections.abc import Awaitable
 
 from fastapi import APIRouter, WebSocket
@@ -16,10 +15,10 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.api.body import parsed
 from app.api.commands import command_of, obey
-from app.api.live_messages import document_message, plan_message, playback_message, problem_message
+from app.api.live_messages import problem_message
 from app.api.shared import require_look, until_revoked
+from app.api.told import Telling
 from app.api.waiting import waking
-from app.document_state import DocumentState
 from app.open_document import OpenDocument
 from app.workspace import Workspace
 from planner.errors import FoldingError
@@ -60,7 +59,7 @@ async def live(websocket: WebSocket, document_id: str) -> None:
 async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
     changed = asyncio.Event()
     unsubscribe = opened.document.subscribe(waking(changed))
-    telling = _Telling(opened)
+    telling = Telling(opened)
     try:
         while True:
             changed.clear()
@@ -74,31 +73,6 @@ async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
         return
     finally:
         unsubscribe()
-
-
-class _Telling:
-    """The state that one page has been sent."""
-
-    def __init__(self, opened: OpenDocument) -> None:
-        self._opened = opened
-        self._document: object = None
-        self._plan: object = None
-        self._playback: object = None
-
-    def news(self, state: DocumentState) -> list[str]:
-        """Return the messages that bring the page up to date, as JSON."""
-        told = []
-        document = (state.version, state.draft)
-        if document != self._document:
-            told.append(document_message(self._opened.id, state))
-        plan = (state.version, state.answer, state.checks, state.failure, state.start)
-        if plan != self._plan:
-            told.append(plan_message(state))
-        playback = (state.playback, state.shown)
-        if playback != self._playback or state.playback.is_playing:
-            told.append(playback_message(state, self._opened.document.t_s))
-        self._document, self._plan, self._playback = document, plan, playback
-        return [json.dumps(message) for message in told]
 
 
 async def _listen(websocket: WebSocket, workspace: Workspace, opened: OpenDocument) -> None:

@@ -2,26 +2,35 @@
 
 All threads of a process share one interpreter. A search that runs beside an edit takes it over each time the edit calls
 into a library, so an edit of 10 ms takes 100 ms. Searches ask often whether to stop; there they wait while any short
-work is in progress.
+work is in progress. While short work keeps coming, as when a hand moves, they also take turns, one at a time: each of
+them would keep the next edit from the interpreter until it asks again.
 """
 
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 GIVE_WAY_S = 0.1
 """Longest wait at one such point (s); it lets long work progress even if short work never pauses."""
 
+RECENT_S = 0.5
+"""Time after short work for which more of it is expected (s)."""
+
 
 class Courtesy:
     """Tracks whether short work is in progress; safe to use from any thread."""
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         """Start with no short work in progress."""
+        self._clock = clock
         self._lock = threading.Lock()
         self._count = 0
         self._is_free = threading.Event()
         self._is_free.set()
+        self._recent_until_s = -1.0
+        self._next = threading.Lock()
+        self._turn = threading.Lock()
 
     @contextmanager
     def short_work(self) -> Iterator[None]:
@@ -34,9 +43,45 @@ class Courtesy:
         finally:
             with self._lock:
                 self._count -= 1
+                self._recent_until_s = self._clock() + RECENT_S
                 if not self._count:
                     self._is_free.set()
 
     def give_way(self) -> None:
         """Wait while short work is in progress, up to `GIVE_WAY_S`."""
         self._is_free.wait(GIVE_WAY_S)
+
+    def take_turn(self) -> bool:
+        """Wait for a turn while short work keeps coming, up to `GIVE_WAY_S`; return whether there is one to end.
+
+        Who waits already is next: a turn that was ended and asked for again does not overtake it.
+        """
+        if self._clock() >= self._recent_until_s:
+            return False
+        with self._next:
+            return self._turn.acquire(timeout=GIVE_WAY_S)
+
+    def end_turn(self) -> None:
+        """Let the next work take its turn."""
+        self._turn.release()
+
+
+class LongWork:
+    """A piece of long work, in one thread, that gives way and takes turns."""
+
+    def __init__(self, courtesy: Courtesy) -> None:
+        """Begin without a turn."""
+        self._courtesy = courtesy
+        self._has_turn = False
+
+    def give_way(self) -> None:
+        """Wait for short work and for a turn."""
+        self.end()
+        self._courtesy.give_way()
+        self._has_turn = self._courtesy.take_turn()
+
+    def end(self) -> None:
+        """End the turn, if there is one."""
+        if self._has_turn:
+            self._has_turn = False
+            self._courtesy.end_turn()

@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from app.jobs.courtesy import Courtesy
+from app.jobs.courtesy import Courtesy, LongWork
 from planner.errors import FoldingError
 
 Answer = TypeVar("Answer")
@@ -54,7 +54,7 @@ class Job(Generic[Answer]):
         """Take the work, a function that calls its argument from time to time to ask whether to stop."""
         self.future: Future[Answer] = Future()
         self._work = work
-        self._courtesy = courtesy
+        self._long_work = LongWork(courtesy)
         self._stop = threading.Event()
 
     def stop(self) -> None:
@@ -70,9 +70,11 @@ class Job(Generic[Answer]):
             self.future.set_result(self._work(self._should_stop))
         except Exception as error:
             self.future.set_exception(error)
+        finally:
+            self._long_work.end()
 
     def _should_stop(self) -> bool:
-        self._courtesy.give_way()
+        self._long_work.give_way()
         return self._stop.is_set()
 
 

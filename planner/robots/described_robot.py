@@ -84,8 +84,13 @@ class DescribedRobot:
         return DescribedRobot(card, urdf, tuple(arms), lift_limits(model, card))
 
 
+@cache
 def shipped_robots() -> tuple[str, ...]:
-    """Return the names of the robots that are shipped, in alphabetical order."""
+    """Return the names of the robots that are shipped, in alphabetical order.
+
+    Remembered: each message about a document looks up its robot, and to list a folder lets go of the interpreter a
+    dozen times, each of which waits for a search in another thread.
+    """
     return tuple(sorted(path.stem for path in _CARDS.glob("*.json")))
 
 

@@ -7,6 +7,9 @@ from typing import Any
 import httpx
 import pytest
 
+from app.api.live_messages import document_message
+from app.document_state import DocumentState
+from app.workspace import Workspace
 from tests.app.document_requests import created, moved, put
 from tests.app.websocket import Listener
 
@@ -50,6 +53,40 @@ async def test_two_pages_are_told_the_same(client: httpx.AsyncClient) -> None:
     assert pages[0].last == pages[1].last
     for page in pages:
         await page.hang_up()
+
+
+async def test_a_message_is_made_once_for_all_pages_and_the_answer(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = await created(client)
+    pages = [listening(client, state["id"]) for _ in range(3)]
+    for page in pages:
+        await page.until_planned(1)
+    made: list[int] = []
+
+    def noted(document_id: str, now: DocumentState) -> dict[str, Any]:
+        made.append(now.version)
+        return document_message(document_id, now)
+
+    monkeypatch.setattr("app.api.told.document_message", noted)
+    moved = await move(client, state, -0.02)
+    for page in pages:
+        assert await page.until("document", version=moved["version"]) == moved
+        await page.hang_up()
+    assert made == [moved["version"]]
+
+
+async def test_a_page_is_told_how_far_a_robots_arms_are_mapped(client: httpx.AsyncClient) -> None:
+    state = await created(client)
+    page = listening(client, state["id"])
+    await page.until_planned(1)
+    workspace: Workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    document = workspace.opened(state["id"]).document
+    document.prepare(0.25)
+    await page.until("plan", prepared=0.25)
+    document.prepare(None)
+    await page.until("plan", prepared=None)
+    await page.hang_up()
 
 
 async def test_another_page_follows_a_drag_within_a_moment(client: httpx.AsyncClient) -> None:
