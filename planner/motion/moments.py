@@ -85,7 +85,7 @@ def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = Fa
     ends = np.array([[(pose.x_m, pose.y_m, pose.yaw_rad) for pose in phase.base] for phase in phases])
     bases = ends[numbers, 0] + shares[:, None] * (ends[numbers, 1] - ends[numbers, 0])
     ways = [_positions_and_rotations(phases, stretches, arm, numbers, shares) for arm in range(len(phases[0].hands))]
-    paces = np.concatenate([np.diff(stretch.shares, prepend=0.0) for stretch in stretches])
+    paces = np.concatenate([_paces(stretch.shares) for stretch in stretches])
     is_turning = np.repeat([stretch.turned is not None for stretch in stretches], lengths)
     return Moments(
         numbers,
@@ -96,6 +96,13 @@ def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = Fa
         np.array([phase.duration_s for phase in phases])[numbers] * paces,
         np.array([phase.motion is None for phase in phases])[numbers] & ~is_turning,
     )
+
+
+def _paces(shares: FloatArray) -> FloatArray:
+    """Return the fraction of its phase that is done since the moment before, shape (n,)."""
+    paces = shares.copy()
+    paces[1:] -= shares[:-1]
+    return paces
 
 
 def _positions_and_rotations(
@@ -109,6 +116,8 @@ def _positions_and_rotations(
 
     The axes are of shape (n, 3, 3); both are nan while the hand is empty.
     """
+    if all(phase.hands[arm] is None for phase in phases):
+        return np.full((len(shares), 3), np.nan), np.full((len(shares), 3, 3), np.nan)
     more = {stretch.number: stretch.rolls[arm] for stretch in stretches}
     corners: list[tuple[float, ...]] = []
     firsts, lasts, axes = [], [], np.full((len(phases), 3, 3), np.nan)

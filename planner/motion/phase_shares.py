@@ -30,17 +30,21 @@ def shares_of(phase: Phase) -> FloatArray:
     wanted = np.full(pieces, (drive - LENGTH_M) / pieces / STEP_M)
     for hand in hands:
         if len(hand.points) > 1:
-            _need(wanted, (np.sqrt((np.diff(hand.points, axis=0) ** 2).sum(axis=1)) - LENGTH_M) / STEP_M)
+            points = np.array(hand.points)
+            _need(wanted, (np.sqrt(((points[1:] - points[:-1]) ** 2).sum(axis=1)) - LENGTH_M) / STEP_M)
         if len(hand.rolls_rad) > 1:
-            _need(wanted, (np.abs(np.diff(hand.rolls_rad)) - EDGE_RAD) / STEP_RAD)
+            rolls = np.array(hand.rolls_rad)
+            _need(wanted, (np.abs(rolls[1:] - rolls[:-1]) - EDGE_RAD) / STEP_RAD)
     steps = np.maximum(np.ceil(wanted), 1.0).astype(np.int64)
-    ends = np.cumsum(steps)
-    within = (np.arange(ends[-1]) - np.repeat(ends - steps, steps) + 1) / np.repeat(steps, steps)
-    return np.append(0.0, (np.repeat(np.arange(pieces), steps) + within) / pieces)
+    ends = steps.cumsum()
+    each, whole = steps.repeat(steps), np.arange(pieces).repeat(steps)
+    shares = np.zeros(int(ends[-1]) + 1)
+    shares[1:] = (whole + (np.arange(1, len(shares)) - (ends - steps).repeat(steps)) / each) / pieces
+    return shares
 
 
 def _need(wanted: FloatArray, steps: FloatArray) -> None:
     """Raise the steps wanted in each piece of a phase to those that a hand needs in each piece of its path."""
     shared, rest = divmod(len(wanted), len(steps))
-    each = np.repeat(steps, shared) / shared if rest == 0 else np.full(len(wanted), steps.max())
+    each = (steps if shared == 1 else steps.repeat(shared) / shared) if rest == 0 else steps.max()
     np.maximum(wanted, each, out=wanted)

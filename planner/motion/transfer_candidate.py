@@ -18,12 +18,14 @@ class Candidate:
 
     Attributes:
         steps: the primitives, none but the last of which lets go.
+        motion: their key, see `motion_of`.
         carrying: the phases in which cloth is held, each with its primitive's number.
         moments: the same phases, moment by moment.
         cloths: the cloth on the table before and after.
     """
 
     steps: tuple[Step, ...]
+    motion: tuple[object, ...]
     carrying: tuple[tuple[int, Phase], ...]
     moments: Moments
     cloths: Cloths

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -38,6 +39,21 @@ Lines = tuple[FloatArray | None, FloatArray | None]
 """The lines away from grips and to grips that a path connects, each of shape (n, joints); None at home."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class KnownTransfers:
+    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
+
+    Attributes:
+        can_be_there: whether the arms have free postures where the steps begin and end.
+        candidates: the candidates that steps make.
+        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
+    """
+
+    can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
+    candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
+    made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
+
+
 class TransferPlanner:
     """Plans the transfers of one task.
 
@@ -49,20 +65,26 @@ class TransferPlanner:
         tries: how often joint paths were requested, cached answers counted.
     """
 
-    def __init__(self, context: Context, machine: RobotPort) -> None:
-        """Set up the planner for one context and robot; nothing is planned yet."""
+    def __init__(self, context: Context, machine: RobotPort, known: KnownTransfers | None = None) -> None:
+        """Set up the planner for one context and robot.
+
+        Args:
+            context: the planning context.
+            machine: the robot.
+            known: what is known of the transfers of a task that differs in nothing that they depend on: it allows other
+                ways to do the steps; None: nothing is known.
+        """
         scene = context.scene
-        paths, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
+        paths, self.transits, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
         self._context = context
         self._paths = paths
         self._blocked = BlockedMoments()
-        self._can_be_there: dict[tuple[object, ...], bool] = {}
+        self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
         self.glances = self.tries = 0
         self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
-        self.transits = TransitPaths(machine, collisions, scene.torso_m)
         self._cloths = LyingCloths(context, collisions)
         self.collisions = collisions
 
@@ -108,42 +130,58 @@ class TransferPlanner:
         """Return whether the arms have free postures when each step takes hold and when its motions end."""
         self.glances += 1
         key = motion_of(steps)
-        if key not in self._can_be_there:
+        known = self.known.can_be_there
+        if key not in known:
             phases = [phase for step in steps for phase in step.extremes()]
             moments = moments_of(phases, self._context.scene.table.height_m, only_ends=True)
             ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-            self._can_be_there[key] = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
-        return self._can_be_there[key]
+            known[key] = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
+        return known[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         """Return the candidate that some steps make, whether or not it is valid. Cached."""
         key = motion_of(steps)
         if key not in self._candidates:
-            self._candidates[key] = self._candidate(steps)
+            known = self.known.candidates
+            if key not in known:
+                known[key] = self._candidate(steps, key)
+            self._candidates[key] = replace(known[key], steps=steps)
         return self._candidates[key]
 
-    def _candidate(self, steps: tuple[Step, ...]) -> "Candidate":
+    def _candidate(self, steps: tuple[Step, ...], key: tuple[object, ...]) -> "Candidate":
         phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
         before = None if steps[0].before.held else self._cloths.of(steps[0].before)
         cloths = (before, self._cloths.of(steps[-1].after))
-        return Candidate(steps, carrying, self._moments([phase for _, phase in carrying]), cloths)
+        return Candidate(steps, key, carrying, self._moments([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> Transfer | None:
         """Return the transfer of a candidate; None if it has no path. Cached."""
         self.tries += 1
         if candidate not in self._made:
-            self._made[candidate] = self._transfer(candidate, self._paths.carried(candidate.moments, candidate.cloths))
+            self._made[candidate] = self._made_or_known(candidate)
         return self._made[candidate]
+
+    def _made_or_known(self, candidate: "Candidate") -> Transfer | None:
+        known = self.known.made
+        if candidate.motion not in known:
+            found = self._paths.carried(candidate.moments, candidate.cloths)
+            known[candidate.motion] = (self._transfer(candidate, found), found if isinstance(found, NoPath) else None)
+        transfer, blocked = known[candidate.motion]
+        if blocked is not None:
+            self._blocked.note(candidate, blocked)
+        return None if transfer is None else replace(transfer, steps=candidate.steps)
 
     def made_like(self, candidate: "Candidate", like: Transfer) -> Transfer | None:
         """Return the transfer of a candidate, with joints near to those of another if possible; None without a path."""
         self.tries += 1
-        return self._transfer(candidate, self._paths.adapted(candidate.moments, candidate.cloths, like.carried))
+        carried = self._paths.adapted(candidate.moments, candidate.cloths, like.carried)
+        if isinstance(carried, NoPath):
+            self._blocked.note(candidate, carried)
+        return self._transfer(candidate, carried)
 
     def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
-            self._blocked.note(candidate, carried)
             return None
         least, first, last = self.transits.needed_s(carried.joints), carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
@@ -195,7 +233,8 @@ class TransferPlanner:
 
 
 @lru_cache(maxsize=4)
-def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[TransferPaths, Collisions]:
-    """Return the search for joint paths at a table and the collisions there; both are kept from plan to plan."""
+def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[TransferPaths, TransitPaths, Collisions]:
+    """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
     collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
-    return TransferPaths(machine, collisions, torso_m, table.height_m), collisions
+    transits = TransitPaths(machine, collisions, torso_m)
+    return TransferPaths(machine, collisions, torso_m, table.height_m), transits, collisions

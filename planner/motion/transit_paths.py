@@ -4,6 +4,8 @@ Empty arms are mostly well above the table, and a straight line between two conf
 arms go one after the other, or by way of raised configurations.
 """
 
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise, product
 
 import numpy as np
@@ -25,14 +27,34 @@ Spared = tuple[FloatArray, FloatArray]
 """Length of path on which each arm may be low over cloth: at the beginning, and at the end (m), shape (arms,) each."""
 
 
+_WAYS_KEPT = 1024
+"""Size of the cache of paths, some 1 kB each and the cloth on the table."""
+
+
+@dataclass(frozen=True, slots=True)
+class _WayKey:
+    """A path that is wanted, identified by all that it depends on."""
+
+    key: tuple[bytes, ...]
+    base: Pose2
+    cloth: LyingCloth
+    start: FloatArray = field(compare=False)
+    goal: FloatArray = field(compare=False)
+    spared: Spared = field(compare=False)
+
+
 class TransitPaths:
-    """Finds paths for empty hands."""
+    """Finds and caches paths for empty hands; most recur, in the same task and after a small change to the garment.
+
+    May be shared between threads.
+    """
 
     def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float) -> None:
         """Keep the robot, its collisions and the height of its lift (m)."""
         self._machine, self._torso_m = machine, torso_m
         self._collisions = collisions
         self.layout = JointLayout.of(machine.card)
+        self._searched = lru_cache(_WAYS_KEPT)(self._search)
 
     @property
     def home(self) -> FloatArray:
@@ -68,10 +90,15 @@ class TransitPaths:
 
         Returns:
             Configurations from start to goal, shape (n, joints), between which straight lines are free; None if no way
-            was found.
+            was found. It is cached and must not be changed.
         """
-        goal = self.unwound(goal, start)
-        straight, known = np.array([start, goal]), _Lines(base, self._collisions)
+        key = (start.tobytes(), goal.tobytes(), *(length.tobytes() for length in spared))
+        return self._searched(_WayKey(key, base, cloth, start, goal, spared))
+
+    def _search(self, wanted: _WayKey) -> FloatArray | None:
+        start, cloth, spared = wanted.start, wanted.cloth, wanted.spared
+        goal = self.unwound(wanted.goal, start)
+        straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
         if self._is_free(known, straight, cloth, spared):
             return straight
         return next((way for way in self._roundabout(start, goal) if self._is_free(known, way, cloth, spared)), None)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from planner.geometry.tolerance import TIME_S
 from planner.primitives.context import Context
@@ -13,6 +13,24 @@ from planner.search.a_star import DeferredEdges, Edge, Successors
 
 Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
 """Selects the steps that the search may follow from a state, each with its cost (s)."""
+
+
+class _Found(NamedTuple):
+    """What a primitive found: deferred steps, and steps."""
+
+    deferred: tuple[Deferred[Step], ...]
+    steps: tuple[Step, ...]
+
+    @staticmethod
+    def of(mixed: Iterable[Step | Deferred[Step]]) -> "_Found":
+        deferred: list[Deferred[Step]] = []
+        steps: list[Step] = []
+        for one in mixed:
+            if isinstance(one, Deferred):
+                deferred.append(one)
+            else:
+                steps.append(one)
+        return _Found(tuple(deferred), tuple(steps))
 
 
 class Edges:
@@ -31,10 +49,11 @@ class Edges:
         self._context = context
         self._possible = possible
         self._is_wanted = is_wanted
-        self._steps: dict[tuple[State, bool], tuple[Step | Deferred[Step], ...]] = {}
+        self._steps: dict[tuple[State, bool], _Found] = {}
         self._asked: set[State] = set()
         self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
-        self._worked_out: dict[Deferred[Step], tuple[Step | Deferred[Step], ...]] = {}
+        self._worked_out: dict[Deferred[Step], _Found] = {}
+        self._deferred: dict[Deferred[Step], DeferredEdges[State, Step]] = {}
 
     @property
     def expanded(self) -> int:
@@ -56,7 +75,7 @@ class Edges:
         key = (state, is_passed)
         if key not in self._steps:
             kinds = [kind for kind in self._primitives if not (is_passed and kind.begins_with_driving)]
-            self._steps[key] = tuple(one for kind in kinds for one in in_time(kind.successors(state)))
+            self._steps[key] = _Found.of(one for kind in kinds for one in in_time(kind.successors(state)))
         return self._of(state, self._steps[key])
 
     def _is_passed(self, state: State, cost_s: float) -> bool:
@@ -71,20 +90,27 @@ class Edges:
         left.append((state.standoff, cost_s))
         return False
 
-    def _of(self, state: State, found: Iterable[Step | Deferred[Step]]) -> Successors[State, Step]:
-        for later in (one for one in found if isinstance(one, Deferred)):
+    def _of(self, state: State, found: _Found) -> Successors[State, Step]:
+        for later in found.deferred:
             if later.is_spare and not self._is_wanted(later.towards):
                 continue
             if later in self._worked_out:
                 yield from self._of(state, self._worked_out[later])
             else:
-                towards = later.towards if later.is_there else _anywhere(later.towards)
-                yield DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
-        for step, cost_s in self._possible(state, (one for one in found if not isinstance(one, Deferred))):
-            yield Edge(step, cost_s, step.after)
+                yield self._edges_of(state, later)
+        if found.steps:
+            for step, cost_s in self._possible(state, found.steps):
+                yield Edge(step, cost_s, step.after)
+
+    def _edges_of(self, state: State, later: Deferred[Step]) -> DeferredEdges[State, Step]:
+        """Return the deferred edges of deferred steps that leave a state. Cached."""
+        if later not in self._deferred:
+            towards = later.towards if later.is_there else _anywhere(later.towards)
+            self._deferred[later] = DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
+        return self._deferred[later]
 
     def _computed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
-        self._worked_out[later] = tuple(later.steps())
+        self._worked_out[later] = _Found.of(later.steps())
         return self._of(state, self._worked_out[later])
 
 

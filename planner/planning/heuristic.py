@@ -21,11 +21,11 @@ def arm_time(context: Context, wanted: int = -1) -> Heuristic:
     motions = [2 if fold.is_red else 3 for fold in context.sequence.folds]
 
     @cache
-    def left(done: int) -> int:
-        return sum(m for i, m in enumerate(motions) if wanted & ~done & 1 << i)
+    def left_s(done: int, saved: int) -> float:
+        return motion * max(sum(m for i, m in enumerate(motions) if wanted & ~done & 1 << i) - saved, 0)
 
     def remaining(state: State) -> float:
-        return motion * max(left(state.done) - (1 if state.is_dragged else 0), 0)
+        return left_s(state.done, 1 if state.dragged > 0 else 0)
 
     return remaining
 

@@ -103,6 +103,17 @@ class Problem:
         fresh.adopt_rest(context)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
+    def tightened(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
+        """Return this problem with a narrower approach cone or a larger comfort radius.
+
+        There are fewer ways to do the steps. A narrower cone leaves each of them as it is, so that what is known of
+        their transfers is shared. With a larger comfort radius the base may have to drive elsewhere meanwhile.
+        """
+        changed = self.varied(scene=scene, comfort_m=comfort_m)
+        if comfort_m is not None:
+            return changed
+        return replace(changed, maker=TransferPlanner(changed.context, self.robot, self.maker.known))
+
     @property
     def may_let_go(self) -> bool:
         """Whether the hands may let go at no cost: something is held at the start that no red fold needs."""

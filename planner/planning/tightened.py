@@ -19,11 +19,11 @@ _CONES_RAD = (0.0, 0.5, 1.0)
 
 def with_more_comfort(problem: Problem) -> Iterator[Problem]:
     """Yield the problem with larger comfort radii, the smallest first."""
-    return (problem.varied(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)
+    return (problem.tightened(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)
 
 
 def with_narrower_cones(problem: Problem) -> Iterator[Problem]:
     """Yield the problem with narrower approach cones, the narrowest first, since it is the quickest to search."""
     scene = problem.context.scene
     narrower = (cone_rad for cone_rad in _CONES_RAD if cone_rad < scene.approach_cone_rad)
-    return (problem.varied(scene=replace(scene, approach_cone_rad=cone_rad)) for cone_rad in narrower)
+    return (problem.tightened(scene=replace(scene, approach_cone_rad=cone_rad)) for cone_rad in narrower)

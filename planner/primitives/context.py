@@ -87,6 +87,8 @@ class Context:
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
+    _placed: dict[Point2, Pose2] = field(default_factory=dict)
+    _bases: dict[tuple[int, int], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
     _met: set[str] = field(default_factory=set)
 
@@ -98,7 +100,7 @@ class Context:
 
     def forget(self) -> None:
         """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
-        for kept in (self._unrest, self._tables, self._extents, self._kept, self._met):
+        for kept in (self._unrest, self._tables, self._extents, self._placed, self._bases, self._kept, self._met):
             kept.clear()
         self.reach.forget()
 
@@ -108,6 +110,7 @@ class Context:
             self._unrest.update(other._unrest)
             self._tables.update(other._tables)
             self._extents.update(other._extents)
+            self._placed.update(other._placed)
 
     @property
     def _rests_on(self) -> tuple[object, ...]:
@@ -122,7 +125,9 @@ class Context:
 
     def placed(self, offset: Point2) -> Pose2:
         """Return the article's placement after drags by `offset`."""
-        return self.placement.moved(*offset)
+        if offset not in self._placed:
+            self._placed[offset] = self.placement.moved(*offset)
+        return self._placed[offset]
 
     def station_pose(self, station: int) -> Pose2:
         """Return a station's base pose, table frame."""
@@ -130,7 +135,10 @@ class Context:
 
     def base_pose(self, station: int, standoff: int) -> Pose2:
         """Return the base's pose at a station and a standoff (grid steps), table frame."""
-        return self.station_pose(station).ahead(-standoff / STANDOFFS_PER_M)
+        key = (station, standoff)
+        if key not in self._bases:
+            self._bases[key] = self.station_pose(station).ahead(-standoff / STANDOFFS_PER_M)
+        return self._bases[key]
 
     def base_stop(self, state: State) -> BaseStop:
         """Return where the base stands in a state; the stop of an unnamed station has no name."""

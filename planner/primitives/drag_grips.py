@@ -65,7 +65,30 @@ def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) ->
 
 
 def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
-    """Return the grips that Theorem 2 asks for on the part that lies on the table."""
+    """Return the grips that Theorem 2 asks for on the part that lies on the table.
+
+    Where that is all of it, they are the same wherever it lies, and kept.
+    """
+    if not context.is_all_on_table(done, offset):
+        return _drag_covers(context, done, offset, towards)
+    known = context.kept(_WholeCovers).known
+    if (done, towards) not in known:
+        known[done, towards] = _drag_covers(context, done, offset, towards)
+    return known[done, towards]
+
+
+class _WholeCovers:
+    """The grips for drags of cloth that lies on the table as a whole, by the folds done and the direction.
+
+    Attributes:
+        known: those asked for so far.
+    """
+
+    def __init__(self, _context: Context) -> None:
+        self.known: dict[tuple[int, Point2], GripCovers] = {}
+
+
+def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
     silhouette = context.sequence.cloth(done).silhouette
     lying = silhouette.intersection(context.table_in_article(offset).region)
     vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)

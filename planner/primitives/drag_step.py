@@ -114,7 +114,7 @@ class DragStep:
     def variants(self) -> Iterator["DragStep"]:
         """Yield this step, then the drag with every other choice of approaches, the best first."""
         yield self
-        chosen = tuple(int(approach) for approach in self.way.approaches[self.first_stand])
+        chosen = tuple(self.way.approaches[self.first_stand].tolist())
         able = [enumerate(approaches) for approaches in self._able()]
         for choice in sorted(product(*able), key=lambda c: sum(rank for rank, _ in c)):
             approaches = tuple(approach for _, approach in choice)
@@ -132,7 +132,7 @@ class DragStep:
     @cached_property
     def motion(self) -> tuple[object, ...]:
         """The key that identifies it: both states, the hands, and the standoff at which it begins."""
-        return (self.kind, self.before, self.after, self.first_stand, self.way.hands, self.approaches)
+        return (self.kind, self.before, self.after, self.first_stand, self.way.tracks, self._chosen)
 
     @cached_property
     def situation(self) -> tuple[object, ...]:
@@ -198,8 +198,12 @@ class DragStep:
         return tuple(hands)
 
     def _approach(self, grip: int) -> Approach:
-        chosen = self.way.approaches[self.first_stand] if self.approaches is None else self.approaches
-        return self.context.reach.approaches[int(chosen[grip])]
+        return self.context.reach.approaches[self._chosen[grip]]
+
+    @property
+    def _chosen(self) -> tuple[int, ...]:
+        """Each grip's approach."""
+        return self.approaches or tuple(self.way.approaches[self.first_stand].tolist())
 
     def _ends(self) -> FloatArray:
         dx = self.after.offset[0] - self.before.offset[0]

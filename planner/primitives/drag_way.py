@@ -13,7 +13,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
-from planner.primitives.grasping import approaches_from_outside, assignments, hand_key, nearest_pair_m
+from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
 from planner.primitives.state import State
 
 _STILL: Point2 = (0.0, 0.0)
@@ -43,7 +43,12 @@ class DragWay:
     @cached_property
     def hands(self) -> tuple[object, ...]:
         """The key that identifies it: arms, picks and approaches."""
-        return (self.arms, np.round(self.picks / LENGTH_M).tobytes(), self.approaches.tobytes())
+        return (*self.tracks, self.approaches.tobytes())
+
+    @cached_property
+    def tracks(self) -> tuple[object, ...]:
+        """The key of arms and picks, whatever the approaches."""
+        return (self.arms, np.round(self.picks / LENGTH_M).tobytes())
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
@@ -91,7 +96,7 @@ class DragWays:
             return
         for cover in drag_covers(context, state.done, state.offset, towards).covers:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
-            if cover and nearest_pair_m(points) >= context.grips_apart_m - LENGTH_M:
+            if cover and nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
                 picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
                 for arms in assignments(context, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]
@@ -100,8 +105,8 @@ class DragWays:
 
     def _order(self, state: State, arms: tuple[int, ...], picks: FloatArray) -> list[tuple[tuple[int, ...], int, int]]:
         """Return each hand's key, arm and number, sorted."""
-        hands = zip(arms, picks[:, None], strict=True)
-        return sorted((hand_key(self._context, state.station, arm, p), arm, n) for n, (arm, p) in enumerate(hands))
+        keys = hand_keys(self._context, state.station, arms, picks[:, None])
+        return sorted(zip(keys, arms, range(len(arms)), strict=True))
 
     def _way(
         self, state: State, cover: tuple[Point2, ...], arms: tuple[int, ...], picks: FloatArray, move: Point2

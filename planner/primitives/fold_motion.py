@@ -1,7 +1,7 @@
 """The motion of a fold: the hands follow the path of the cloth, and the base drives at some waypoints."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +48,7 @@ class FoldMotion:
         before: the state it starts in.
         first_stand: the standoff from which the path is begun.
         end: the standoff at its end.
+        driven: how many steps of the grid of standoffs the base drives once the path is begun.
     """
 
     context: Context
@@ -55,6 +56,7 @@ class FoldMotion:
     before: State
     first_stand: int
     end: int
+    driven: int
 
     def phases(self) -> tuple[Phase, ...]:
         """Return the phases: drive, reach, follow the path with the base's legs in between."""
@@ -85,10 +87,8 @@ class FoldMotion:
 
     def _pieces(self) -> Iterator[_Piece]:
         """Yield the pieces of even motion, split at the apex and where the base drives, and the base's drives."""
-        strip = self.way.strip(self.context, self.before.station)
-        stands = legs(strip, self.first_stand, self.end, self.context.standoffs)
         at, sweep = self.first_stand, 0.0
-        for waypoint, stand in zip(self.way.trial.sweeps.tolist(), stands, strict=True):
+        for waypoint, stand in zip(self.way.trial.sweeps.tolist(), self._stands(), strict=True):
             if stand != at or abs(waypoint - 1.0) <= ANGLE_RAD:
                 if waypoint > sweep:
                     yield _Piece((sweep, waypoint), (at, at))
@@ -98,6 +98,13 @@ class FoldMotion:
                 at = stand
         if sweep < 2.0:
             yield _Piece((sweep, 2.0), (at, at))
+
+    def _stands(self) -> Sequence[int]:
+        """Return the standoff of the base when the hands leave each waypoint."""
+        if self.driven == 0:
+            return (self.first_stand,) * len(self.way.trial.sweeps)
+        strip = self.way.strip(self.context, self.before.station)
+        return legs(strip, self.first_stand, self.end, self.context.standoffs)
 
     def _phase(self, piece: _Piece, points: "list[_Points]") -> Phase:
         (start, end), (stand, next_stand) = piece.sweeps, piece.stands

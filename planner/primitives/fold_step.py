@@ -88,7 +88,7 @@ class FoldStep:
 
     @property
     def _motion(self) -> FoldMotion:
-        return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.standoff)
+        return FoldMotion(self.context, self.way, self.before, self.first_stand, self.after.standoff, self.driven)
 
     def variants(self) -> Iterator["FoldStep"]:
         """Yield this step, then every other way between the same states, the quickest first."""
@@ -103,7 +103,7 @@ class FoldStep:
     @cached_property
     def motion(self) -> tuple[object, ...]:
         """The key that identifies it: both states, the hands, and the standoff at which it begins."""
-        return (self.kind, self.before, self.after, self.first_stand, self.way.trial.hands, self.way.approaches)
+        return (self.kind, self.before, self.after, self.first_stand, self.way.trial.tracks, self.way.approaches)
 
     @cached_property
     def situation(self) -> tuple[object, ...]:

@@ -1,8 +1,10 @@
 """Candidates for performing a fold, before the robot is queried: grips, arms, the path of the tools."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +21,7 @@ from planner.primitives.grasping import (
     all_approaches,
     approaches_from_outside,
     assignments,
-    hand_key,
+    hand_keys,
     nearest_pair_m,
 )
 from planner.primitives.held_covers import held_covers
@@ -28,6 +30,8 @@ from planner.primitives.reach import Following
 from planner.primitives.state import State
 from planner.primitives.surroundings import Surroundings
 from planner.task.reason import Code
+
+_UNDRAGGED: Point2 = (0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +61,12 @@ class FoldTrial:
     @cached_property
     def hands(self) -> tuple[object, ...]:
         """The key that identifies it: arms, tool paths and approaches."""
-        return (self.arms, np.round(self.tools / LENGTH_M).tobytes(), *(a.tobytes() for a in self.approaches))
+        return (*self.tracks, *(a.tobytes() for a in self.approaches))
+
+    @cached_property
+    def tracks(self) -> tuple[object, ...]:
+        """The key of arms and tool paths, whatever approaches are allowed."""
+        return (self.arms, np.round(self.tools / LENGTH_M).tobytes())
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
@@ -94,27 +103,69 @@ def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
     The order of the trials and of their hands depends on where things are and not on how they were drawn; a mirror
     image of the task has the same order.
     """
-    keyed = [(trial, _hand_keys(context, state, trial)) for trial in _trials(context, state, fold)]
-    return [trial for trial, _ in sorted(keyed, key=lambda pair: pair[1])]
+    keyed = sorted(_trials(context, state, fold), key=lambda pair: pair[0])
+    return [trial for _, trial in keyed]
 
 
-def _hand_keys(context: Context, state: State, trial: FoldTrial) -> list[tuple[int, ...]]:
-    hands = zip(trial.arms, trial.tools, strict=True)
-    return [hand_key(context, state.station, arm, tools) for arm, tools in hands]
-
-
-def _trials(context: Context, state: State, fold: int) -> Iterator[FoldTrial]:
-    path = _path(context, state, fold)
+def _trials(context: Context, state: State, fold: int) -> Iterator[tuple[list[tuple[int, ...]], FoldTrial]]:
+    """Yield the trials, their hands in order, each with the keys of its hands."""
+    path, on_table = _path(context, state, fold), context.kept(_OnTable)
     for cover, arms in _grips(context, state, fold):
-        points = context.placed(state.offset).to_outer(np.array(cover))
-        if not path.is_continuous(points):
-            continue
+        flat = None if state.is_dragged else on_table.of(fold, cover, state.offset)
+        if flat is None:
+            points = context.placed(state.offset).to_outer(np.array(cover))
+            if not path.is_continuous(points):
+                continue
+            sweeps = path.sweeps(points)
+            flat = _Flat(points, sweeps, path.tool_paths(points, sweeps))
+        approaches = tuple(_approaches(context, state, fold, *hand) for hand in zip(cover, arms, strict=True))
+        trial = FoldTrial(fold, cover, arms, path, *flat, approaches)
+        keys = hand_keys(context, state.station, arms, trial.tools)
+        order = sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand]))
+        yield [keys[hand] for hand in order], trial if order == list(range(len(arms))) else trial.in_order(order)
+
+
+class _Flat(NamedTuple):
+    """Grips and their paths.
+
+    Attributes:
+        points: the grips in the table frame's unrolled plane, shape (grips, 2), m.
+        sweeps: the waypoints, as sweeps, shape (waypoints,).
+        tools: each grip's tool path in the table frame, shape (grips, waypoints, 3), m.
+    """
+
+    points: FloatArray
+    sweeps: FloatArray
+    tools: FloatArray
+
+
+class _OnTable:
+    """The paths of folds whose grips stay above the table: wherever the article lies, they are the same but moved."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._top = TableTop.of(context.scene.table)
+        self._known: dict[tuple[int, Cover], tuple[_Flat, FloatArray]] = {}
+
+    def of(self, fold: int, cover: Cover, offset: Point2) -> _Flat | None:
+        """Return the paths after drags by an offset (m); None where a grip leaves the table on its way."""
+        if (fold, cover) not in self._known:
+            self._known[fold, cover] = self._undragged(fold, cover)
+        (points, sweeps, tools), corners = self._known[fold, cover]
+        if not self._top.covers(corners + offset):
+            return None
+        return _Flat(points + offset, sweeps, tools + np.array([*offset, 0.0]))
+
+    def _undragged(self, fold: int, cover: Cover) -> tuple[_Flat, FloatArray]:
+        """Return the paths over an endless table before any drag, and the corners of the rectangle that they cover."""
+        context = self._context
+        endless = TableTop((-math.inf, -math.inf), (math.inf, math.inf))
+        path = FoldPath(_line(context, _UNDRAGGED, fold), context.kept(Depths).of(fold)[1], endless, endless)
+        points = context.placement.to_outer(np.array(cover))
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
-        approaches = tuple(_approaches(context, state, fold, *hand) for hand in zip(cover, arms, strict=True))
-        trial = FoldTrial(fold, cover, arms, path, points, sweeps, tools, approaches)
-        keys = _hand_keys(context, state, trial)
-        yield trial.in_order(sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand])))
+        places = tools[..., :2].reshape(-1, 2)
+        return _Flat(points, sweeps, tools), np.array([places.min(axis=0), places.max(axis=0)])
 
 
 def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
@@ -126,22 +177,26 @@ def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
     if not covers.is_holdable:
         return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
-    apart = max(nearest_pair_m(np.array(cover)) for cover in covers.covers)
+    apart = max(nearest_pair_m(cover) for cover in covers.covers)
     if apart < context.grips_apart_m - LENGTH_M:
         return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, context.grips_apart_m - apart, state)
     return None
 
 
 def _path(context: Context, state: State, fold: int) -> FoldPath:
-    line = context.sequence.folds[fold].line
-    _, depth = context.kept(Depths).of(fold)
-    ends = context.placed(state.offset).to_outer(np.array([line.start, line.end]))
-    in_table = Segment(_plain(ends[0]), _plain(ends[1]))
+    in_table, (_, depth) = _line(context, state.offset, fold), context.kept(Depths).of(fold)
     top = TableTop.of(context.scene.table)
     if not state.is_dragged:
         return FoldPath(in_table, depth, top, top, context.scene.edge_clear_m)
     held = context.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
     return FoldPath(in_table, depth, top, top.open_towards(held), context.scene.edge_clear_m)
+
+
+def _line(context: Context, offset: Point2, fold: int) -> Segment:
+    """Return a fold's line after drags by an offset (m), table frame."""
+    line = context.sequence.folds[fold].line
+    ends = context.placed(offset).to_outer(np.array([line.start, line.end]))
+    return Segment(_plain(ends[0]), _plain(ends[1]))
 
 
 def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
@@ -156,7 +211,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, len(context.reach.arm_names))
     for cover in covers.covers:
         points = context.placed(state.offset).to_outer(np.array(cover))
-        if nearest_pair_m(points) >= context.grips_apart_m - LENGTH_M:
+        if nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
             for arms in assignments(context, state.station, points):
                 yield cover, arms
 

@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray, Point2, wrapped_angle
+from planner.geometry.pose import BoolArray, FloatArray, Point2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
 from planner.primitives.context import Context
 from planner.task.grip import Holding
@@ -20,10 +20,9 @@ _DISCOMFORT_DIGITS = 3
 """Decimals to which discomforts are compared (rad): the bisector at a corner is known no better."""
 
 
-def nearest_pair_m(points: FloatArray) -> float:
+def nearest_pair_m(points: Sequence[Point2] | FloatArray) -> float:
     """Return the distance of the two nearest points, shape (n, 2), m; infinite for fewer than two."""
-    pairs = combinations(points, 2)
-    return min((float(np.hypot(*(a - b))) for a, b in pairs), default=math.inf)
+    return min((math.dist(a, b) for a, b in combinations(points, 2)), default=math.inf)
 
 
 def assignments(context: Context, station: int, points: FloatArray) -> Iterator[tuple[int, ...]]:
@@ -49,24 +48,29 @@ def assignments(context: Context, station: int, points: FloatArray) -> Iterator[
             yield arms
 
 
-def hand_key(context: Context, station: int, arm: int, tools: FloatArray) -> tuple[int, ...]:
-    """Return the key that orders hands by where they begin and end, whatever the frame of the drawing.
+def hand_keys(context: Context, station: int, arms: Sequence[int], tools: FloatArray) -> list[tuple[int, ...]]:
+    """Return the keys that order hands by where they begin and end, whatever the frame of the drawing.
 
     Right arms are mirrored to the left, so a mirror image of the task tries its hands in the same order.
 
     Args:
         context: the planning context.
         station: where the robot stands.
-        arm: the hand's arm.
-        tools: its tool points in the table frame, shape (n, 3), m.
+        arms: the hands' arms.
+        tools: their tool points in the table frame, shape (hands, n, 3), m.
     """
-    ends = context.in_base(station, tools[[0, -1]]) * np.array([1.0, side_of(context, arm), 1.0])
-    return tuple(np.round(ends / SORTING_M).astype(np.int64).ravel().tolist())
+    ends = context.in_base(station, tools[:, [0, -1]].reshape(-1, 3)).reshape(-1, 2, 3)
+    ends[..., 1] *= np.array([side_of(context, arm) for arm in arms])[:, None]
+    return [tuple(key) for key in np.round(ends / SORTING_M).astype(np.int64).reshape(len(arms), -1).tolist()]
 
 
 def side_of(context: Context, arm: int) -> float:
     """Return the side of the robot that an arm is on: 1 left, -1 right."""
-    return math.copysign(1.0, context.reach.shoulders[arm][1])
+    return context.kept(_sides)[arm]
+
+
+def _sides(context: Context) -> tuple[float, ...]:
+    return tuple(math.copysign(1.0, y) for _, y, _ in context.reach.shoulders)
 
 
 def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names: Sequence[str]) -> tuple[Holding, ...]:
@@ -163,7 +167,7 @@ def _from_outside(context: Context, heading: float | None, side: float) -> NDArr
     Without a heading, only the vertical approaches count.
     """
     discomfort, off = _discomfort(context, heading)
-    cone, is_vertical = context.scene.approach_cone_rad, [approach.is_vertical for approach in context.reach.approaches]
+    cone, (_, _, is_vertical) = context.scene.approach_cone_rad, context.kept(_Directions).all
     is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
     if heading is not None:
         is_within |= off <= cone + EDGE_RAD
@@ -183,8 +187,9 @@ def _by_comfort(
     context: Context, discomfort: FloatArray, approaches: NDArray[np.int64], side: float
 ) -> NDArray[np.int64]:
     """Return approaches by rising discomfort; of equals first the flat ones, then those that point across the body."""
-    found = np.array([(a.pitch_rad, side * a.heading_rad) for a in context.reach.approaches])[approaches]
-    return np.asarray(approaches[np.lexsort((found[:, 1], found[:, 0], discomfort[approaches]))])
+    headings, pitches, _ = context.kept(_Directions).all
+    across = side * headings[approaches]
+    return np.asarray(approaches[np.lexsort((across, pitches[approaches], discomfort[approaches]))])
 
 
 def _discomfort(context: Context, heading: float | None) -> tuple[FloatArray, FloatArray]:
@@ -192,8 +197,23 @@ def _discomfort(context: Context, heading: float | None) -> tuple[FloatArray, Fl
 
     The natural approach points straight into the cloth, 30 degrees down.
     """
-    found = [(a.heading_rad, a.pitch_rad, 0.0 if a.is_vertical else 1.0) for a in context.reach.approaches]
-    headings, pitches, counts = np.array(found).T
+    headings, pitches, is_vertical = context.kept(_Directions).all
     off = np.abs(np.remainder(headings - (heading or 0.0) + math.pi, math.tau) - math.pi)
-    turn = np.zeros(len(off)) if heading is None else counts * off
+    turn = np.zeros(len(off)) if heading is None else np.where(is_vertical, 0.0, off)
     return np.round(turn + np.abs(pitches - _PREFERRED_PITCH_RAD), _DISCOMFORT_DIGITS), off
+
+
+class _Directions:
+    """The approaches' directions as arrays.
+
+    Attributes:
+        all: headings and pitches (rad), and whether each points straight down, shape (approaches,) each.
+    """
+
+    def __init__(self, context: Context) -> None:
+        found = context.reach.approaches
+        self.all: tuple[FloatArray, FloatArray, BoolArray] = (
+            np.array([approach.heading_rad for approach in found]),
+            np.array([approach.pitch_rad for approach in found]),
+            np.array([approach.is_vertical for approach in found]),
+        )

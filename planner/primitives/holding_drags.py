@@ -9,6 +9,7 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
@@ -31,13 +32,27 @@ class _Drag(NamedTuple):
         before: the state it starts in.
         way: grips and arms.
         driven: the steps of the grid of standoffs that the base drives with the cloth.
-        afters: the states it may lead to.
+        leads: where it leads.
     """
 
     before: State
     way: DragWay
     driven: int
+    leads: "_Leads"
+
+
+class _Leads(NamedTuple):
+    """Where a drag by given hands leads from all states that differ in their standoff alone.
+
+    Attributes:
+        afters: the states it may lead to.
+        ends: their standoffs, shape (n,).
+        folds: the folds that can then be done with the grips.
+    """
+
     afters: tuple[State, ...]
+    ends: NDArray[np.int64]
+    folds: tuple[int, ...]
 
 
 class HoldingDrags:
@@ -46,55 +61,60 @@ class HoldingDrags:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._questions = context.kept(FoldQuestions)
+        self._leads: dict[tuple[object, ...], _Leads] = {}
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
         """Yield the drags by `count` steps of the grid of drags that leave grips of use to some fold."""
         drag = self._drag(state, way, count, offset)
-        if self._served(drag):
-            yield from (self._step(drag, after) for after in drag.afters)
+        if drag.leads.folds:
+            yield from (self._step(drag, after) for after in drag.leads.afters)
 
     def successors(
         self, state: State, way: DragWay, count: int, offset: Point2
     ) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags of `every`, those first that are cheapest together with a fold; defer the rest as spare."""
         drag = self._drag(state, way, count, offset)
-        folds = self._served(drag)
+        folds, afters = drag.leads.folds, drag.leads.afters
         if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):
-            yield from (self._step(drag, after) for after in drag.afters)
+            yield from (self._step(drag, after) for after in afters)
         elif folds:
             for fold in folds:
                 yield from self._serving(drag, fold, drag.driven)
-            yield self._later(drag, drag.driven, lambda: (self._step(drag, a) for a in drag.afters), is_spare=True)
+            yield self._later(drag, drag.driven, lambda: (self._step(drag, a) for a in afters), is_spare=True)
 
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
+        key = (state.done, state.place, state.station, way, count)
+        if key not in self._leads:
+            self._leads[key] = self._leads_of(state, way, count, offset)
+        return _Drag(state, way, count * STEPS_PER_DRAG, self._leads[key])
+
+    def _leads_of(self, state: State, way: DragWay, count: int, offset: Point2) -> _Leads:
         held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
-        driven = count * STEPS_PER_DRAG
-        ends = (stand + driven for stand in way.stands if stand + driven < self._context.standoffs)
-        afters = tuple(State(state.done, offset, state.station, end, held, count) for end in ends)
-        return _Drag(state, way, driven, afters)
+        ends = np.array(way.stands, dtype=np.int64) + count * STEPS_PER_DRAG
+        ends = ends[ends < self._context.standoffs]
+        folds = self._served(state, held) if len(ends) else ()
+        # Nobody asks where a drag leads whose grips serve no fold.
+        to = ends.tolist() if folds else []
+        return _Leads(tuple(State(state.done, offset, state.station, end, held, count) for end in to), ends, folds)
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
         return DragStep(self._context, drag.way, drag.before, after, after.standoff - drag.driven)
 
-    def _served(self, drag: _Drag) -> list[int]:
+    def _served(self, state: State, held: tuple[Held, ...]) -> tuple[int, ...]:
         """Return the folds that can be done with the grips."""
-        if not drag.afters:
-            return []
-        held = drag.afters[0].held
         sequence = self._context.sequence
-        blue = (fold for fold in sequence.dag.available(drag.before.done) if not sequence.folds[fold].is_red)
-        return [fold for fold in blue if held_covers(self._context, fold, held)]
+        blue = (fold for fold in sequence.dag.available(state.done) if not sequence.folds[fold].is_red)
+        return tuple(fold for fold in blue if held_covers(self._context, fold, held))
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags that serve a fold best, where drag and fold take at least `least` steps of driving in all."""
         begun = np.full(self._context.standoffs, IMPOSSIBLE)
-        for after in drag.afters:
-            stand = after.standoff - drag.driven
-            begun[after.standoff] = abs(drag.before.standoff - stand) + drag.driven
+        afters, at, _ = drag.leads
+        begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
-        ends, more = self._questions.of(drag.afters[0], fold).ends(begun, least, most)
-        after_at = {after.standoff: after for after in drag.afters}
+        ends, more = self._questions.of(afters[0], fold).ends(begun, least, most)
+        after_at = {after.standoff: after for after in afters}
         for end in ends:
             step = self._step(drag, after_at[end.first])
             yield self._later(drag, end.steps, partial(iter, (step,)))
@@ -110,4 +130,4 @@ class HoldingDrags:
     ) -> Deferred[DragStep]:
         """Return deferred steps that drive `driven` steps in all: before, with and after the drag."""
         duration_s = self._context.scene.arm_motion_s + self._context.drive_s(driven)
-        return Deferred(duration_s, drag.afters[0], steps, is_spare)
+        return Deferred(duration_s, drag.leads.afters[0], steps, is_spare)

@@ -1,0 +1,45 @@
+"""The cache of transit paths: it is kept from plan to plan, and a path is searched for once."""
+
+import numpy as np
+import pytest
+
+from planner import Task, load_garment
+from planner.motion.transit_paths import TransitPaths
+from planner.planning.problem import Problem
+from planner.primitives.g_fold import GFold
+
+
+def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch):
+    asked: list[object] = []
+    free = TransitPaths._is_free
+    monkeypatch.setattr(TransitPaths, "_is_free", lambda self, *about: asked.append(about) or free(self, *about))
+
+    def led() -> object:
+        problem = Problem.of(Task.of(load_garment("hand-towel")))
+        fold = next(step for step in GFold(problem.context).successors(problem.start))
+        made = problem.maker.validated((fold,))
+        assert made is not None
+        return made.reach
+
+    first = led()
+    count = len(asked)
+    assert led() == first and len(asked) == count
+
+
+def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
+    start = transits.home
+    goal = start + np.linspace(0.0, 0.2, len(start))
+    bare, covered = (problem.maker._cloths.of(state) for state in (problem.start, _far(problem)))
+    near = transits.at_grips
+    way = transits.way(base, start, goal, bare, near)
+    assert transits.way(base, start.copy(), goal.copy(), bare, near) is way
+    none = (np.zeros(len(near[0])), near[1])
+    assert transits.way(base, start, goal, bare, none) is not way
+    assert transits.way(base, start, goal, covered, near) is not way
+
+
+def _far(problem: Problem):
+    state = problem.start
+    return type(state)(state.done, (0.1, 0.0), state.station, state.standoff)
