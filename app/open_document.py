@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 from app.document import Document
 from app.jobs.job_pool import JobPool
+from app.jobs.limits import CLIENT
 from app.player import Player
 from app.replanner import Replanner
 from app.shared_texts import SharedTexts
@@ -22,6 +23,7 @@ class OpenDocument:
     Attributes:
         id: the document's id.
         document: the document.
+        opened_by: the client that had it opened, as `CLIENT` says.
         texts: what its pages are sent.
     """
 
@@ -29,6 +31,7 @@ class OpenDocument:
         """Open a document and start planning it."""
         self.id = document_id
         self.document = document
+        self.opened_by = CLIENT.get()
         self.texts = SharedTexts()
         self._replanner = Replanner(document, pool, plans)
         self._lock = threading.Lock()

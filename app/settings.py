@@ -20,6 +20,8 @@ class Settings(BaseSettings):
         new_token: whether to make a new token, after which the old one does not hold.
         log_json: whether the log's lines are JSON objects.
         requests_per_s: how many requests another machine may send in the long run (1/s).
+        open_documents: how many documents another machine may have open at once; one that nobody uses makes room.
+        connections: how many websockets another machine may have open at once; a page has two.
         port: the port; 0 lets the system pick a free one, which replaces it before serving starts.
         data: the folder for everything that is kept.
         database: the URL of a PostgreSQL database; None: SQLite in the data folder.
@@ -35,6 +37,8 @@ class Settings(BaseSettings):
     new_token: bool = False
     log_json: bool = False
     requests_per_s: float = Field(default=100.0, gt=0.0)
+    open_documents: int = Field(default=32, gt=0)
+    connections: int = Field(default=128, gt=0)
     port: int = Field(default=8000, ge=0, le=65535)
     data: Path = Field(default_factory=lambda: user_data_path("pleat"))
     database: str | None = None

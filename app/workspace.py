@@ -13,6 +13,7 @@ from app.jobs.apart import start_template, template_problem
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
+from app.jobs.limits import CLIENT, TooManyError
 from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
@@ -40,6 +41,12 @@ from document to document and wait for each plan.
 
 _LOOK_EVERY_S = 10.0
 """Period of the check for unused documents (s)."""
+
+_AT_REST_S = 1.0
+"""Time after its last use in which a document makes no room for another of the same client (s)."""
+
+_ROOM_AFTER_S = 5
+"""Time after which a client with too many open documents may try again (s)."""
 
 _log = logging.getLogger(__name__)
 
@@ -72,6 +79,7 @@ class Workspace:
         self.lanes = Lanes()
         stores = Stores(self.garments, self.plans, self.folder.studies)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
+        self._of_client_max = settings.open_documents
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
         self._closing = threading.Event()
@@ -107,13 +115,16 @@ class Workspace:
             for document_id in self.documents.recent():
                 try:
                     return self.opened(document_id).id
+                except TooManyError:
+                    raise
                 except FoldingError as error:
                     _log.warning("%s", error)
             return self.create(drawing_of(self.garments.garment(FIRST_GARMENT))).id
 
     def create(self, drawing: Drawing) -> OpenDocument:
-        """Return a new document, open and saved."""
+        """Return a new document, open and saved; raises `TooManyError` as `opened` does."""
         with self._lock:
+            self._make_room()
             document_id = self.documents.new_id()
             draft = draft_of(drawing)
             keeper = self.documents.keeper(document_id)
@@ -128,9 +139,11 @@ class Workspace:
             NewerDocumentError: a newer version of Pleat wrote it.
             BrokenDocumentError: it cannot be read.
             StorageError: the database refuses.
+            TooManyError: the client has too many open documents, all of them in use.
         """
         with self._lock:
             if document_id not in self._open:
+                self._make_room()
                 self._open_as(document_id, self.documents.kept(document_id))
             opened = self._open[document_id]
             opened.touch()
@@ -187,6 +200,18 @@ class Workspace:
         for opened in open_documents:
             opened.close()
         self.database.close()
+
+    def _make_room(self) -> None:
+        """Close the client's document that was unused for longest, if it has as many open as it may."""
+        client = CLIENT.get()
+        own = [opened for opened in self._open.values() if client and opened.opened_by == client]
+        if len(own) < self._of_client_max:
+            return
+        oldest = max(own, key=lambda opened: opened.unused_s)
+        if oldest.unused_s < _AT_REST_S:
+            raise TooManyError(f"there are {len(own)} open documents of yours already", _ROOM_AFTER_S)
+        del self._open[oldest.id]
+        threading.Thread(target=oldest.close, name="closing", daemon=True).start()  # it may take a second
 
     def _open_as(self, document_id: str, kept: KeptDocument) -> OpenDocument:
         document = Document(

@@ -99,7 +99,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     if token is not None:
         app.add_middleware(TokenOnly, token=token, port=settings.port)
     app.add_middleware(Shared, shares=workspace.shares)
-    app.add_middleware(ClientLimits, requests_per_s=settings.requests_per_s)
+    app.add_middleware(ClientLimits, requests_per_s=settings.requests_per_s, connections=settings.connections)
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)
     app.add_middleware(BelowPrefix, prefix=settings.root_path)

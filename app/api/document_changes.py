@@ -31,7 +31,10 @@ GarmentRequestBody = Annotated[GarmentRequest, Depends(JsonBody(GarmentRequest, 
 TravelRequestBody = Annotated[TravelRequest, Depends(JsonBody(TravelRequest, {"base_version": 1}, may_be_empty=True))]
 RobotRequestBody = Annotated[RobotRequest, Depends(JsonBody(RobotRequest, {"robot": "ur5e-pair"}))]
 
-_CHANGED: dict[int | str, dict[str, Any]] = {200: {"model": DocumentAnswer}, **problems(403, 404, 409, 413, 422, 507)}
+_CHANGED: dict[int | str, dict[str, Any]] = {
+    200: {"model": DocumentAnswer},
+    **problems(403, 404, 409, 413, 422, 429, 507),
+}
 
 
 @router.put("/{document_id}/drawing", responses=_CHANGED)

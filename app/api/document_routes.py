@@ -71,7 +71,7 @@ async def list_documents(
 @router.post(
     "",
     status_code=201,
-    responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 507)},
+    responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)},
 )
 async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
     """Create a document; its address is in `Location`."""
@@ -81,7 +81,7 @@ async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResp
     return JSONResponse(message, status_code=201, headers={"location": location})
 
 
-@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422)})
+@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422, 429)})
 async def read_document(request: Request, document_id: str) -> JSONResponse:
     """Return the drawing of a document, its solution and its problems."""
     opened = await opened_document(request, document_id)
@@ -97,7 +97,7 @@ async def remove_document(request: Request, document_id: str) -> Response:
 
 @router.post(
     "/{document_id}/playback",
-    responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422)},
+    responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)},
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
@@ -109,7 +109,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
 
 @router.post(
     "/{document_id}/crease",
-    responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 503)},
+    responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)},
 )
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Return the fold that takes a point of the cloth to another place, or that runs along a line."""
@@ -118,7 +118,7 @@ async def post_crease(request: Request, document_id: str, wanted: CreaseRequestB
     return JSONResponse(placed.to_dict())
 
 
-@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 503)})
+@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 429, 503)})
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
     """Return the layers before each legal fold and after the last, bottom to top."""
     opened = await opened_document(request, document_id)
@@ -134,7 +134,7 @@ async def read_versions(request: Request, document_id: str) -> JSONResponse:
 
 
 @router.get(
-    "/{document_id}/quick-fixes", responses={200: {"model": QuickFixesAnswer}, **problems(403, 404, 409, 422, 503)}
+    "/{document_id}/quick-fixes", responses={200: {"model": QuickFixesAnswer}, **problems(403, 404, 409, 422, 429, 503)}
 )
 async def read_quick_fixes(request: Request, document_id: str) -> JSONResponse:
     """Return the quick fixes of the drawing's first problem, best first; none if it has no problems."""

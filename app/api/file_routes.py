@@ -127,7 +127,7 @@ async def post_import(
         return ProblemResponse(422, str(error), [field], None, {"sizes": error.sizes})
 
 
-@router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422)})
+@router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422, 429)})
 async def list_files(request: Request, document_id: str) -> JSONResponse:
     """Return all kinds of files that a document can be exported as, and whether each is available now."""
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)
@@ -138,7 +138,7 @@ async def list_files(request: Request, document_id: str) -> JSONResponse:
 @router.get(
     "/documents/{document_id}/files/{what}",
     response_class=Response,
-    responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422, 503)},
+    responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422, 429, 503)},
 )
 async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
     """Return a document as a file to save; `rate_hz` is the frame rate of a recording.

@@ -19,13 +19,14 @@ from app.api.live_messages import problem_message
 from app.api.shared import require_look, until_revoked
 from app.api.told import Telling
 from app.api.waiting import waking
+from app.jobs.limits import TooManyError
 from app.open_document import OpenDocument
 from app.workspace import Workspace
 from planner.errors import FoldingError
 
 router = APIRouter()
 
-NOT_FOUND = 4404
+NOT_FOUND, TRY_AGAIN_LATER = 4404, 1013
 _TICK_S = 0.1
 
 
@@ -35,6 +36,9 @@ async def live(websocket: WebSocket, document_id: str) -> None:
     workspace: Workspace = websocket.app.state.workspace
     try:
         opened = await run_in_threadpool(workspace.opened, document_id)
+    except TooManyError:
+        await websocket.close(TRY_AGAIN_LATER)  # not accepted, so that the page waits longer each time
+        return
     except FoldingError:
         await websocket.accept()
         await websocket.close(NOT_FOUND)

@@ -37,7 +37,7 @@ BackOff = Annotated[float, Query(allow_inf_nan=False)]
 Shown = Annotated[str | None, Query(description=f"some of {', '.join(OVERLAYS)}, separated by commas; all by default")]
 
 
-@router.get("", responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422, 503)})
+@router.get("", responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422, 429, 503)})
 async def read_overlays(
     request: Request,
     document_id: str,
@@ -64,7 +64,7 @@ async def read_overlays(
 
 @router.post(
     "/places",
-    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 503)},
+    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 429, 503)},
 )
 async def post_places(request: Request, document_id: str, wanted: PlacesRequestBody) -> Response:
     """Plan the document's garment wherever it could be laid, not turned, and return the costs."""

@@ -1,8 +1,12 @@
 """Limits for one client, so that nobody takes the whole server."""
 
+from contextvars import ContextVar
 from dataclasses import dataclass
 
 from planner.errors import FoldingError
+
+CLIENT: ContextVar[str] = ContextVar("CLIENT", default="")
+"""The address of the client whose request is being answered, if limits hold for it; empty for this machine."""
 
 
 @dataclass

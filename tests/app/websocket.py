@@ -13,14 +13,17 @@ from tests.app.conftest import OWN_URL
 class Listener:
     """A listener that keeps the last message of each kind; all of them once `keep_all` is set."""
 
-    def __init__(self, app: ASGIApp, path: str) -> None:
+    def __init__(
+        self, app: ASGIApp, path: str, client: str | None = None, extensions: dict[str, Any] | None = None
+    ) -> None:
         self.last: dict[str, dict[str, Any]] = {}
         self.heard: list[dict[str, Any]] = []
         self.keep_all = False
         self.closed_with: int | None = None
+        self.answered: Message | None = None
         self._inbox: asyncio.Queue[Message] = asyncio.Queue()
         self._inbox.put_nowait({"type": "websocket.connect"})
-        scope = {
+        scope: dict[str, Any] = {
             "type": "websocket",
             "asgi": {"version": "3.0"},
             "http_version": "1.1",
@@ -32,8 +35,10 @@ class Listener:
             "headers": [(b"host", OWN_URL.removeprefix("http://").encode())],
             "subprotocols": [],
             "state": {},
-            "extensions": {},
+            "extensions": extensions or {},
         }
+        if client is not None:
+            scope["client"] = (client, 1)
         self._task = asyncio.ensure_future(app(scope, self._inbox.get, self._send))
 
     def say(self, command: object) -> None:
@@ -60,9 +65,15 @@ class Listener:
         with contextlib.suppress(asyncio.CancelledError):
             await asyncio.wait_for(self._task, 10.0)
 
+    async def has_ended(self) -> None:
+        """Wait until the server has closed the connection, or has refused it."""
+        await asyncio.wait_for(self._task, 60.0)
+
     async def _send(self, message: Message) -> None:
         if message["type"] == "websocket.close":
             self.closed_with = message["code"]
+        elif message["type"] == "websocket.http.response.start":
+            self.answered = message
         elif message["type"] == "websocket.send":
             said = json.loads(message["text"])
             self.last[said["kind"]] = said
