@@ -27,6 +27,7 @@ from bench.report import Report
 from bench.robot_plans import robot_plans
 from bench.studies import studies
 from bench.vision import vision
+from bench.whole_plans import whole_plans
 from bench.yes_and_no import PAIRS, yes_and_no
 
 Benchmark = Callable[[Sequence[str], int], Report]
@@ -36,6 +37,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "table-2": table_2,
     "heuristics": heuristics,
     "yes-and-no": yes_and_no,
+    "whole-plans": whole_plans,
     "first-plan": first_plan,
     "re-plan": re_plan,
     "reach": reach,

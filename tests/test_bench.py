@@ -39,6 +39,7 @@ from bench.rehearsal import Rehearsed, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.served import served
+from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
 from planner.robots.approaches import APPROACHES
@@ -150,6 +151,14 @@ def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFix
     times = {"import_s", "first_plan_s", "first_plan_cpu_s", "second_plan_s"}
     assert set(row) == {"article", "plan_time_ratio", *times}
     assert "hand-towel" in capsys.readouterr().out
+
+
+def test_whole_plans_cost_the_same_whatever_is_known_and_are_added_up():
+    *rows, total = (row.data for row in whole_plans(["hand-towel", "vest"], 1).rows)
+    assert [(row["article"], round(row["cost_s"], 3)) for row in rows] == [("vest", 18.0), ("hand-towel", 27.0)]
+    for name in ("anew_cpu_ms", "paths_known_cpu_ms", "all_known_cpu_ms"):
+        assert total[name] == sum(row[name] for row in rows) > 0.0
+    assert total["anew_cpu_ms"] > total["all_known_cpu_ms"], "what is known saves work"
 
 
 def test_a_name_that_is_no_table_and_no_garment_is_refused(capsys: pytest.CaptureFixture[str]):

@@ -238,3 +238,8 @@ def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[T
     collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
     transits = TransitPaths(machine, collisions, torso_m)
     return TransferPaths(machine, collisions, torso_m, table.height_m), transits, collisions
+
+
+def forget_paths() -> None:
+    """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
+    _transfer_paths.cache_clear()
