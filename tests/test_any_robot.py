@@ -23,6 +23,7 @@ DOOR = (
     "planner.robots.joint_layout",
     "planner.robots.known_robots",
     "planner.robots.load_robot",
+    "planner.robots.mesh_file",
     "planner.robots.own_robots",
     "planner.robots.varied_card",
     "planner.robots.table_reach",

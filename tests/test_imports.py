@@ -44,7 +44,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "coal": ("planner.robots",),
     "numba": ("planner.robots", "planner.primitives"),
     "yourdfpy": ("app.ui",),
-    "trimesh": ("app.ui",),
+    "trimesh": ("planner.robots", "app.ui"),
     "viser": ("app.ui",),
     "svgpathtools": ("app.files",),
     "rosbags": ("app.files",),

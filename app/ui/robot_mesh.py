@@ -11,6 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from planner.geometry.pose import FloatArray, Point3
+from planner.robots.mesh_file import read_mesh_file
 
 MOST_TRIANGLES = 4_000
 """The most triangles of one mesh; makers' meshes have up to some 100,000, which nobody sees from across a table."""
@@ -28,7 +29,7 @@ def read_mesh(path: str, scale: Point3) -> trimesh.Trimesh:
 
 @functools.lru_cache(maxsize=256)
 def _read(path: str, scale: Point3, _: int) -> trimesh.Trimesh:
-    mesh = trimesh.load_mesh(path)
+    mesh = read_mesh_file(Path(path))
     mesh.merge_vertices(merge_tex=True, merge_norm=True)  # else each triangle of many a file stands alone
     if len(mesh.faces) > MOST_TRIANGLES:
         mesh = mesh.simplify_quadric_decimation(face_count=MOST_TRIANGLES)

@@ -81,10 +81,18 @@ def arm_paths(searches: Mapping[int, ArmSearch], together: Together) -> FloatArr
         are none.
     """
     stride = min(search.stride for search in searches.values())  # chains are searched in pairs, link by link
-    alone = {arm: search.found(stride) for arm, search in searches.items()}
-    joints = {arm: found for arm, found in alone.items() if not isinstance(found, NoPath)}
-    if len(joints) < len(alone):
-        return min((found for found in alone.values() if isinstance(found, NoPath)), key=lambda none: len(none.blocked))
+    joints: dict[int, FloatArray] = {}
+    none: NoPath | None = None
+    for arm, search in searches.items():
+        found = search.found(stride)
+        if not isinstance(found, NoPath):
+            joints[arm] = found
+        elif none is None or len(found.blocked) < len(none.blocked):
+            none = found
+        if none is not None and not len(none.blocked):
+            return none  # no other arm's answer could say less
+    if none is not None:
+        return none
     for pair in combinations(searches, 2):
         if not together.arms_apart(pair, np.hstack([joints[arm] for arm in pair])).all():
             first, second = (searches[arm] for arm in pair)

@@ -24,6 +24,9 @@ VERSION = 1
 ARMS_MAX, JOINTS_MAX = 8, 12
 """Cards with more arms, or with arms of more joints, are refused."""
 
+NAME_MAX, TITLE_MAX = 64, 200
+"""Most characters of an arm's name, and of a title."""
+
 
 @dataclass(frozen=True, slots=True)
 class ArmFile:
@@ -40,7 +43,7 @@ class ArmFile:
         lifting: the joints that raise its elbow and hand.
     """
 
-    name: str
+    name: Annotated[str, Field(min_length=1, max_length=NAME_MAX)]
     joints: tuple[str, ...]
     tool: ToolFile
     home: tuple[float, ...]
@@ -129,7 +132,7 @@ class CardFile:
 
     pleat_robot: int
     name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9-]{0,63}$")]
-    title: str
+    title: Annotated[str, Field(min_length=1, max_length=TITLE_MAX)]
     urdf: UrdfFile
     arms: tuple[ArmFile, ...]
     base: BaseFile

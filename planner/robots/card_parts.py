@@ -1,5 +1,6 @@
 """The parts of a robot's card: URDFs with their mounts, grippers and tools."""
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -15,6 +16,9 @@ Length = Annotated[float, Interval(ge=0.0, le=10.0)]
 
 _Place = Annotated[float, Interval(ge=-10.0, le=10.0)]
 _Angle = Annotated[float, Interval(ge=-7.0, le=7.0)]
+
+TOOL_MAX_M = 2.0
+"""A tool farther from its link is a mistake (m)."""
 
 Rate = Annotated[float, Interval(gt=0.0, le=1e3)]
 """A top speed or acceleration."""
@@ -147,7 +151,13 @@ class GripperFile:
     speed: Rate | None = None
 
     def __post_init__(self) -> None:
+        """Refuse sizes out of bounds, and fingers that would open further than their links are long."""
         require_intervals(self, RobotError)
+        if isinstance(self.drive, ParallelogramDrive):
+            length_m = math.hypot(self.drive.link_x_m, self.drive.link_y_m)
+            if not 0.5 * self.opening_max_m + self.drive.link_y_m < length_m:
+                said = f"links of {length_m:g} m do not open fingers by {self.opening_max_m:g} m"
+                raise RobotError("drive.link_x_m", said)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,3 +175,7 @@ class ToolFile:
     approach: Point3
     closing: Point3
     offset_m: Point3 = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if max(map(abs, self.offset_m)) > TOOL_MAX_M:
+            raise RobotError("offset_m", f"{list(self.offset_m)} is more than {TOOL_MAX_M:g} m away")

@@ -12,16 +12,21 @@ import pinocchio as pin
 from planner.errors import FieldError, RobotError, UnknownRobotError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card_file import ArmFile, CardFile
+from planner.robots.card_joints import check_joints, mimicking, moving_joint
 from planner.robots.card_parts import ToolFile
-from planner.robots.chain import Chain
+from planner.robots.chain import Chain, length_of
 from planner.robots.chain_reader import read_chain
 from planner.robots.own_robots import own_card, own_robots
 from planner.robots.urdf_composing import composed_urdf
+from planner.robots.urdf_reader import parsed
 
 _CARDS = Path(__file__).parent / "cards"
 
 CARD_BYTES_MAX = 1_000_000
 """A larger file is no card."""
+
+REACH_MAX_M = 10.0
+"""Arms that are longer, sliding joints included, are refused: their maps would be coarse."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,14 +79,19 @@ class DescribedRobot:
         except (ValueError, RuntimeError) as error:
             raise RobotError("urdf", f"is no tree of links and joints: {error}") from None
         for number, (name, _) in enumerate(card.resting):
-            _joint(model, name, f"resting.{name}" if name else f"resting[{number}]")
+            moving_joint(model, name, f"resting.{name}" if name else f"resting[{number}]")
         arms = []
         for number, arm in enumerate(card.arms):
             try:
                 arms.append(_arm(model, card, arm))
             except FieldError as error:
                 raise RobotError(f"arms[{number}].{error.field}", error.says or error.message) from None
-        return DescribedRobot(card, urdf, tuple(arms), lift_limits(model, card))
+        limits = lift_limits(model, card)
+        check_joints(model, card, mimicking(parsed(urdf.encode())))
+        if not limits[0] <= card.scene.torso_m <= limits[1]:
+            said = "without a lift" if card.lift is None else f"the lift goes from {limits[0]:g} to {limits[1]:g}"
+            raise RobotError("scene.torso_m", f"is {card.scene.torso_m}, {said}")
+        return DescribedRobot(card, urdf, tuple(arms), limits)
 
 
 @cache
@@ -159,19 +169,9 @@ def read_card(path: Path) -> CardFile:
     return CardFile.from_dict(data)
 
 
-def _joint(model: pin.Model, name: str, field: str) -> pin.JointModel:
-    """Return a joint that moves, by name."""
-    if not model.existJointName(name):
-        raise RobotError(field, f"the URDF has no moving joint {name!r}")
-    joint = model.joints[model.getJointId(name)]
-    if joint.nv != 1:
-        raise RobotError(field, f"joint {name!r} has {joint.nv} degrees of freedom, not one")
-    return joint
-
-
 def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
     for number, (name, q) in enumerate(zip(arm.joints, arm.home, strict=True)):
-        joint = _joint(model, name, f"joints[{number}]")
+        joint = moving_joint(model, name, f"joints[{number}]")
         if joint.nq > 1:
             continue
         low, high = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
@@ -181,7 +181,7 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
             raise RobotError(f"home[{number}]", f"{q} is outside of the limits {low:g} and {high:g} of {name!r}")
         if arm.speeds is None and not 0.0 < model.velocityLimit[joint.idx_v] < np.inf:
             raise RobotError("speeds", f"the URDF gives joint {name!r} no speed, so the card must")
-    _joint(model, arm.gripper.drive.joint, "gripper.drive.joint")
+    moving_joint(model, arm.gripper.drive.joint, "gripper.drive.joint")
     named = [frame for frame in model.frames if frame.name == arm.tool.link]
     if not named:
         raise RobotError("tool.link", f"the URDF has no link or frame {arm.tool.link!r}")
@@ -191,6 +191,10 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
         carrier = model.names[frame.parentJoint]
         raise RobotError("tool.link", f"{arm.tool.link!r} is carried by {carrier!r}, not by {arm.joints[-1]!r}")
     chain, root = read_chain(model, arm.joints, frame.placement * _tool(arm.tool), dict(card.resting))
+    if not length_of(chain) <= REACH_MAX_M:
+        raise RobotError(
+            "joints", f"the arm is {length_of(chain):.3g} m long, at most {REACH_MAX_M:g} m can be planned for"
+        )
     is_endless = np.array([model.joints[model.getJointId(name)].nq > 1 for name in arm.joints])
     return DescribedArm(arm, chain, root, is_endless)
 
@@ -198,12 +202,14 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
 def _tool(tool: ToolFile) -> pin.SE3:
     """Return the tool in the frame it is fixed to: x along the approach axis, y along the closing axis."""
     approach, closing = np.array(tool.approach), np.array(tool.closing)
-    if not np.linalg.norm(approach) > 0.0:
-        raise RobotError("tool.approach", "has no direction")
+    for name, axis in (("approach", approach), ("closing", closing)):
+        if not 1e-6 < np.abs(axis).max() < 1e6:
+            raise RobotError(f"tool.{name}", "has no direction")
+    closing = closing / np.linalg.norm(closing)
     x = approach / np.linalg.norm(approach)
     across = closing - (closing @ x) * x
     if not np.linalg.norm(across) > 1e-3:
-        raise RobotError("tool.closing", "is along the approach axis, or has no direction")
+        raise RobotError("tool.closing", "is along the approach axis")
     y = across / np.linalg.norm(across)
     return pin.SE3(np.column_stack([x, y, np.cross(x, y)]), np.array(tool.offset_m))
 
@@ -216,7 +222,7 @@ def lift_limits(model: pin.Model, card: CardFile) -> tuple[float, float]:
     """
     if card.lift is None:
         return 0.0, 0.0
-    joint = _joint(model, card.lift, "lift")
+    joint = moving_joint(model, card.lift, "lift")
     data, q = model.createData(), pin.neutral(model)
     pin.computeJointJacobians(model, data, q)
     axis = pin.getJointJacobian(model, data, model.getJointId(card.lift), pin.LOCAL_WORLD_ALIGNED)[:, joint.idx_v]

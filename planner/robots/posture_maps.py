@@ -17,10 +17,13 @@ from planner.robots.posture_growth import APART, FRINGE, Growth, finished, grow,
 from planner.robots.posture_map import Grid, PostureMap
 
 CELL_M = 0.075
-"""The largest edge of a cell (m)."""
+"""The largest edge of a cell (m), but for arms that are longer than any person's."""
 
 CELLS_ACROSS = 26
 """Cells across the reach of a small arm, whose cells are smaller."""
+
+CELLS_ACROSS_MAX = 60
+"""Cells across the reach of a long arm, whose cells are larger: the map's size and the time for it stay bounded."""
 
 SEEDS = 200_000
 """Random postures from which a map is begun; a family that none of them is in is not found."""
@@ -97,7 +100,7 @@ def grid_of(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float
     """Return the cells and approaches of an arm's map; see `posture_map`."""
     reach = float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset))
     reach += float(np.abs(np.concatenate([chain.low, chain.high])[np.tile(chain.is_prismatic, 2)]).sum())
-    cell = min(CELL_M, 2.0 * reach / CELLS_ACROSS)
+    cell = min(max(CELL_M, 2.0 * reach / CELLS_ACROSS_MAX), 2.0 * reach / CELLS_ACROSS)
     low = np.array([-reach, -reach, max(heights_m[0], -reach)])
     high = np.array([reach, reach, max(min(heights_m[1], reach), low[2] + cell)])
     rotations = np.array([approach.rotation for approach in approaches])

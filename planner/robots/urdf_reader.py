@@ -1,7 +1,6 @@
 """Read URDFs safely: nothing outside of one folder is read, entities and what is too large are refused."""
 
 import math
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -9,25 +8,17 @@ from xml.parsers import expat
 
 from planner.errors import RobotError
 from planner.robots.card_parts import UrdfFile
+from planner.robots.urdf_shapes import Source, make_shapes, shortened
+from planner.robots.urdf_tree import make_tree
 
-URDF_BYTES_MAX, MESH_BYTES_MAX = 10_000_000, 25_000_000
-"""Largest URDF and largest mesh (bytes); a mesh of a million triangles has more in every common format."""
+URDF_BYTES_MAX = 10_000_000
+"""Largest URDF (bytes)."""
+
+FAR_M = 100.0
+"""A part of a robot that is farther from the one before it is a mistake (m)."""
 
 ELEMENTS_MAX, DEPTH_MAX = 50_000, 50
 """Largest number of elements in a URDF, and their largest nesting depth."""
-
-
-@dataclass(frozen=True, slots=True)
-class Source:
-    """A URDF on the disk.
-
-    Attributes:
-        path: the file.
-        root: the folder outside of which nothing is read for it.
-    """
-
-    path: Path
-    root: Path
 
 
 def locate(urdf: UrdfFile, folder: Path, field: str) -> Source:
@@ -51,20 +42,24 @@ def locate(urdf: UrdfFile, folder: Path, field: str) -> Source:
             raise RobotError(f"{field}.path", f"{urdf.path!r} leads out of its package")
         first, folder = Path(urdf.path).parts[:1], top
         root = top / "cmeel.prefix" / "share" if first == ("cmeel.prefix",) else top.joinpath(*first)
-    path = (folder / urdf.path).resolve()
+    try:
+        path = (folder / urdf.path).resolve()
+        is_there = path.is_file()
+    except (OSError, ValueError):  # a name that no file can have
+        raise RobotError(f"{field}.path", f"there is no file {shortened(urdf.path)!r}") from None
     if not path.is_relative_to(root.resolve()):
         raise RobotError(f"{field}.path", f"{urdf.path!r} leads out of its folder")
-    if not path.is_file():
+    if not is_there:
         raise RobotError(f"{field}.path", f"there is no file {urdf.path!r}")
     return Source(path, root.resolve())
 
 
 def read_urdf(source: Source, field: str) -> Element:
-    """Return a URDF's root element, its numbers checked and the paths of its meshes absolute.
+    """Return a URDF's root element: numbers checked, links and shapes in a common form, the paths of meshes absolute.
 
     Raises:
-        RobotError: it is no URDF, declares entities or a document type, has numbers that are none, or a mesh that is
-            missing, too large or outside of its folder.
+        RobotError: it is no URDF, declares entities or a document type, has numbers that are none, joints that make no
+            tree, or a mesh that is missing, too large or outside of its folder.
     """
     if source.path.stat().st_size > URDF_BYTES_MAX:
         raise RobotError(field, f"the URDF is larger than {URDF_BYTES_MAX // 1_000_000} MB")
@@ -78,8 +73,9 @@ def read_urdf(source: Source, field: str) -> Element:
         raise RobotError(field, f"{source.path.name} is no URDF: its root is <{robot.tag}>")
     for part in (*robot.iter("link"), *robot.iter("joint")):
         _check_numbers(part, field)
-    for link in robot.iter("link"):
-        _set_meshes(link, source, field)
+    make_tree(robot, field)
+    for link in robot.findall("link"):
+        make_shapes(link, source, field)
     return robot
 
 
@@ -115,13 +111,17 @@ def parsed(data: bytes) -> Element:
 
 
 def _check_numbers(part: Element, field: str) -> None:
-    """Refuse limits, origins and axes that are no numbers."""
+    """Refuse limits, origins and axes that are no numbers, and origins that are too far."""
     for element in part.iter():
         if element.tag not in ("origin", "axis", "limit"):
             continue
         for name, text in element.attrib.items():
-            if not all(_is_finite(number) for number in text.split()):
-                raise RobotError(field, f"{part.tag} {part.get('name')!r}: {element.tag} has {name} {text!r}")
+            numbers = text.split()
+            is_wrong = not numbers or not all(_is_finite(number) for number in numbers)
+            is_far = element.tag == "origin" and name == "xyz" and not is_wrong
+            if is_wrong or (is_far and max(abs(float(number)) for number in numbers) > FAR_M):
+                said = f"{element.tag} has {name} {shortened(text)!r}"
+                raise RobotError(field, f"{part.tag} {part.get('name')!r}: {said}")
 
 
 def _is_finite(text: str) -> bool:
@@ -129,39 +129,3 @@ def _is_finite(text: str) -> bool:
         return math.isfinite(float(text))
     except ValueError:
         return False
-
-
-def _set_meshes(link: Element, source: Source, field: str) -> None:
-    """Make the paths of a link's meshes absolute.
-
-    A shape for collisions whose mesh is missing is left out where the link is seen all the same.
-    """
-    for kind in ("visual", "collision"):
-        for shape in list(link.findall(kind)):
-            for mesh in shape.iter("mesh"):
-                named = mesh.get("filename", "")
-                found = _mesh(named, source, f"link {link.get('name')!r}", field)
-                if found is not None:
-                    mesh.set("filename", str(found))
-                elif kind == "collision" and link.find("visual") is not None:
-                    link.remove(shape)
-                else:
-                    raise RobotError(field, f"link {link.get('name')!r}: there is no mesh {named!r}")
-
-
-def _mesh(named: str, source: Source, owner: str, field: str) -> Path | None:
-    """Return the file of a mesh; None where it is missing."""
-    scheme, _, rest = named.rpartition("://")
-    if scheme not in ("", "package") or Path(rest).is_absolute():
-        raise RobotError(field, f"{owner}: the mesh {named!r} is not given by a path within the robot's folder")
-    inner = Path(rest)
-    tries = (
-        [source.path.parent / inner] if not scheme else [source.root / inner, source.root.joinpath(*inner.parts[1:])]
-    )
-    resolved = [one.resolve() for one in tries]
-    if not all(one.is_relative_to(source.root) for one in resolved):
-        raise RobotError(field, f"{owner}: the mesh {named!r} leads out of the robot's folder")
-    found = next((one for one in resolved if one.is_file()), None)
-    if found is not None and found.stat().st_size > MESH_BYTES_MAX:
-        raise RobotError(field, f"{owner}: the mesh {named!r} is larger than {MESH_BYTES_MAX // 1_000_000} MB")
-    return found

@@ -81,6 +81,14 @@ def test_the_card_of_the_pr2_says_what_its_planner_takes():
         (("mounts",), [], "mounts"),
         (("scene", "table", "height_m"), 1e300, "scene.table.height_m"),
         (("scene", "stations"), {}, "scene.stations"),
+        (("arms", 0, "name"), "", "arms[0].name"),
+        (("title",), "x" * 10_000, "title"),
+        (("arms", 0, "tool", "offset_m"), [1e9, 0.0, 0.0], "arms[0].tool.offset_m"),
+        (
+            ("arms", 0, "gripper", "drive"),
+            {"kind": "parallelogram", "joint": "grip", "link_x_m": 0.001, "link_y_m": 0.0},
+            "arms[0].gripper.drive.link_x_m",
+        ),
     ],
 )
 def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field):
@@ -119,6 +127,31 @@ def test_a_fixed_base_has_one_station():
         ),
         (lambda d: d.__setitem__("lift", "left_panda_joint1"), "lift", "straight up"),
         (lambda d: d["resting"].__setitem__("neck", 0.0), "resting.neck", "neck"),
+        (lambda d: d["resting"].__setitem__("left_panda_joint1", 0.0), "resting.left_panda_joint1", "does not rest"),
+        (
+            lambda d: d["resting"].__setitem__("left_panda_finger_joint2", 9.0),
+            "resting.left_panda_finger_joint2",
+            "limits",
+        ),
+        (lambda d: d["arms"].__setitem__(1, d["arms"][0] | {"name": "right"}), "arms[1].joints[0]", "already"),
+        (
+            lambda d: d["arms"][0]["gripper"]["drive"].__setitem__("joint", "left_panda_joint7"),
+            "arms[0].gripper.drive.joint",
+            "arms[0].joints[6] already",
+        ),
+        (
+            lambda d: d["arms"][0]["gripper"]["drive"].__setitem__("opened", 5.0),
+            "arms[0].gripper.drive.opened",
+            "limits",
+        ),
+        (
+            lambda d: d["arms"][0]["tool"].__setitem__("approach", [1e300, 0.0, 0.0]),
+            "arms[0].tool.approach",
+            "direction",
+        ),
+        (lambda d: d["scene"].__setitem__("torso_m", 0.3), "scene.torso_m", "without a lift"),
+        (lambda d: d["urdf"].__setitem__("path", "a\0b"), "urdf.path", "no file"),
+        (lambda d: d["urdf"].__setitem__("path", "a" * 5000), "urdf.path", "no file"),
         (lambda d: d["mounts"].pop(), "arms[1].joints[0]", "right_panda_joint1"),
         (lambda d: d["urdf"].__setitem__("path", "../../../etc/passwd"), "urdf.path", "leads out"),
         (lambda d: d["urdf"].__setitem__("package", "no-such-package"), "urdf.package", "not installed"),

@@ -4,7 +4,8 @@ import pytest
 
 from planner.errors import RobotError
 from planner.robots.card_parts import UrdfFile
-from planner.robots.urdf_reader import MESH_BYTES_MAX, locate, read_urdf
+from planner.robots.urdf_reader import locate, read_urdf
+from planner.robots.urdf_shapes import MESH_BYTES_MAX
 
 ARM = """<robot name="arm">
   <link name="body"><visual><geometry><mesh filename="{mesh}"/></geometry></visual></link>

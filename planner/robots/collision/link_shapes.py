@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -10,10 +11,12 @@ from xml.etree.ElementTree import Element
 import coal
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
 from planner.robots.collision.rounded_hull import hull_corners
+from planner.robots.mesh_file import MeshError, read_mesh_file
 from planner.robots.urdf_reader import parsed
 
 TRIANGLES_MAX = 1_000_000
@@ -52,8 +55,7 @@ def link_shapes(model: pin.Model, urdf: str) -> tuple[LinkShape, ...]:
     Raises:
         RobotError: a mesh cannot be read or has more than `TRIANGLES_MAX` triangles, or a number is none.
     """
-    loader = coal.CachedMeshLoader(coal.NODE_TYPE.BV_OBBRSS)
-    return tuple(shape for link in parsed(urdf.encode()).iterfind("link") for shape in _shapes(model, link, loader))
+    return tuple(shape for link in parsed(urdf.encode()).iterfind("link") for shape in _shapes(model, link))
 
 
 def mesh_paths(urdf: str) -> tuple[Path, ...]:
@@ -61,7 +63,7 @@ def mesh_paths(urdf: str) -> tuple[Path, ...]:
     return tuple(sorted({Path(mesh.get("filename", "")) for mesh in parsed(urdf.encode()).iter("mesh")}))
 
 
-def _shapes(model: pin.Model, link: Element, loader: coal.MeshLoader) -> Iterator[LinkShape]:
+def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
     name = link.get("name", "")
     frame = model.frames[model.getFrameId(name, pin.FrameType.BODY)]
     for element in link.findall("collision") or link.findall("visual"):
@@ -70,7 +72,7 @@ def _shapes(model: pin.Model, link: Element, loader: coal.MeshLoader) -> Iterato
             continue
         placement = frame.placement * _origin(element.find("origin"))
         try:
-            shape, points = _read(geometry[0], loader)
+            shape, points = _read(geometry[0])
             corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
         except RobotError as error:
             raise RobotError("urdf", f"link {name!r}: {error.message}") from None
@@ -94,23 +96,20 @@ def _numbers(text: str) -> FloatArray:
     return numbers
 
 
-def _read(element: Element, loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
+def _read(element: Element) -> tuple[coal.CollisionGeometry, FloatArray]:
     """Return a shape, and points whose hull contains it; raise `ValueError` or `TypeError` where numbers are wrong."""
     if element.tag == "mesh":
         scale = _numbers(element.get("scale", "1 1 1"))
-        return _mesh(Path(element.get("filename", "")), scale, loader)
+        return _mesh(Path(element.get("filename", "")), scale)
     if element.tag == "box":
         size = _numbers(element.get("size", ""))
         return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size
-    if element.tag not in ("sphere", "capsule", "cylinder"):
+    if element.tag not in ("sphere", "cylinder"):
         raise RobotError("urdf", f"a {element.tag} is no shape that is known")
     (radius,) = _numbers(element.get("radius", ""))
     if element.tag == "sphere":
         return coal.Sphere(radius), radius * _ball()
     (length,) = _numbers(element.get("length", ""))
-    if element.tag == "capsule":
-        ends = [radius * _ball() + [0.0, 0.0, side * length / 2] for side in (-1, 1)]
-        return coal.Capsule(radius, length), np.vstack(ends)
     ring = radius * _circle()
     ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
     return coal.Cylinder(radius, length), np.vstack(ends)
@@ -129,15 +128,28 @@ def _ball() -> FloatArray:
     return np.unique(np.vstack(rings) / math.cos(math.pi / _ROUND), axis=0)
 
 
-def _mesh(path: Path, scale: FloatArray, loader: coal.MeshLoader) -> tuple[coal.CollisionGeometry, FloatArray]:
+def _mesh(path: Path, scale: FloatArray) -> tuple[coal.CollisionGeometry, FloatArray]:
     """Return a mesh and its vertices."""
     try:
-        mesh = loader.load(str(path), scale)
-    except (ValueError, RuntimeError) as error:
-        raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {error}") from None
-    if mesh.num_tris > TRIANGLES_MAX:
-        raise RobotError("urdf", f"the mesh {path.name!r} has {mesh.num_tris} triangles, at most {TRIANGLES_MAX}")
-    vertices: FloatArray = np.array(mesh.vertices())
-    if not (len(vertices) and np.isfinite(vertices).all()):
-        raise RobotError("urdf", f"the mesh {path.name!r} has no vertices, or some that are no numbers")
+        read = _read_once(path, path.stat().st_mtime_ns)
+    except (MeshError, OSError) as error:
+        said = error.strerror if isinstance(error, OSError) else error
+        raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {said}") from None
+    corners, triangles = read
+    if len(triangles) > TRIANGLES_MAX:
+        raise RobotError("urdf", f"the mesh {path.name!r} has {len(triangles)} triangles, at most {TRIANGLES_MAX}")
+    vertices: FloatArray = corners * scale
+    if not np.isfinite(vertices).all():
+        raise RobotError("urdf", f"the mesh {path.name!r} has corners that are no numbers")
+    mesh = coal.BVHModelOBBRSS()
+    mesh.beginModel(len(triangles), len(vertices))
+    mesh.addVertices(vertices)
+    mesh.addTriangles(triangles)
+    mesh.endModel()
     return mesh, vertices
+
+
+@lru_cache(maxsize=64)
+def _read_once(path: Path, _: int) -> tuple[FloatArray, NDArray[np.int64]]:
+    mesh = read_mesh_file(path)
+    return np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
