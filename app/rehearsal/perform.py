@@ -77,7 +77,9 @@ class Performer:
                     continue
             else:
                 answer = self.world.perform(corrected(motion, carried))
-            self._judge(motion, step, answer, Isometry() if motion.is_drag else carried)
+            if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
+                carried = Isometry()
+            self._judge(motion, step, answer, carried)
             number += 1
             self._made += 1
             self.progress(number / len(motions))

@@ -5,6 +5,9 @@ boundary nearest to the centre of the smallest circle round each two and each th
 covers the best is the one whose largest distance from a vertex to its grip is smallest, then the second
 largest, and so on; covers that tie are all kept, otherwise a mirrored garment would be planned differently.
 
+A grip near the end of its reach lets corners fold under. Where more grips hold every vertex firmly, within `FIRM` of
+the radius, such covers are kept too, and preferred among ways that take equally long.
+
 A round cloth has thousands of candidates, too many to rank all their pairs. But the largest distance decides nearly
 always, and its best value can be found alone: the smallest radius with which some pair covers all vertices. Only the
 pairs that cover all with that radius are ranked.
@@ -23,6 +26,12 @@ from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
+
+FIRM = 0.875
+"""The fraction of the radius within which a grip holds firmly: of .127 m, 11.1 cm.
+
+In simulated folds (docs/rehearsal.md) corners up to 10.5 cm from a grip came along, from 12.4 cm on they folded under.
+"""
 
 _RANKED_AT_ONCE = 64
 """Up to this many candidates, all pairs are ranked directly."""
@@ -43,11 +52,18 @@ class GripCovers:
 
     Attributes:
         vertices: the vertices that must be held, frame of the cloth (m).
-        covers: equally good sets of grips; empty when `at_most` grips do not suffice.
+        covers: equally good sets of the fewest grips; empty when `at_most` grips do not suffice.
+        firmer: equally good sets of more grips that hold firmly what those do not; empty where there is none.
     """
 
     vertices: tuple[Point2, ...]
     covers: tuple[Cover, ...]
+    firmer: tuple[Cover, ...] = ()
+
+    @property
+    def every(self) -> tuple[Cover, ...]:
+        """All sets of grips, the firmer first."""
+        return (*self.firmer, *self.covers)
 
     @property
     def is_holdable(self) -> bool:
@@ -78,7 +94,26 @@ def grip_covers(
     if _needs_more(vertices, radius_m, at_most):
         return GripCovers(points, ())
     candidates = grip_candidates(piece, vertices, baseline)
-    return GripCovers(points, best_covers(candidates, vertices, radius_m, at_most))
+    covers = best_covers(candidates, vertices, radius_m, at_most)
+    return GripCovers(points, covers, firmer_covers(candidates, vertices, radius_m, at_most, covers))
+
+
+def firmer_covers(
+    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, covers: tuple[Cover, ...]
+) -> tuple[Cover, ...]:
+    """Return the best covers that hold firmly, of more grips than the given ones; empty where those do or none does.
+
+    Args:
+        candidates: points of the cloth, shape (m, 2), m.
+        vertices: the vertices that must be held, shape (n, 2), m.
+        radius_m: the radius within which one grip holds (m).
+        at_most: the number of grippers.
+        covers: the best covers of the fewest grips.
+    """
+    if not covers or not len(vertices) or len(covers[0]) == at_most:
+        return ()
+    found = best_covers(candidates, vertices, FIRM * radius_m, at_most)
+    return found if found and len(found[0]) > len(covers[0]) else ()
 
 
 def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:

@@ -181,10 +181,11 @@ class DragStep:
 
     def _turned_alike(self, other: "DragStep") -> Iterator["DragStep"]:
         """Yield another drag, first with its hands turned as here if they can be and it prefers another turn."""
-        if self.approaches is not None and other.first_stand == self.first_stand:
-            turned = dict(zip(self.way.arms, self.approaches, strict=True))
+        if other.first_stand == self.first_stand:
+            turned = dict(zip(self.way.arms, self._chosen, strict=True))
             same = tuple(turned.get(arm, -1) for arm in other.way.arms)
-            if all(approach in able for approach, able in zip(same, other._able(), strict=True)):
+            is_preferred = same == other._chosen
+            if not is_preferred and all(turn in able for turn, able in zip(same, other._able(), strict=True)):
                 yield replace(other, approaches=same)
         yield other
 

@@ -85,7 +85,8 @@ class DragWays:
         key = (state.done, x, y, station, grid_key(move[0]), grid_key(move[1]))
         if key not in self._found:
             ways = ((self._order(state, way.arms, way.picks), way) for way in self._search(state, move) if way.stands)
-            self._found[key] = tuple(way for _, way in sorted(ways, key=lambda pair: pair[0]))
+            firmest_first = sorted(ways, key=lambda pair: (-len(pair[1].arms), pair[0]))
+            self._found[key] = tuple(way for _, way in firmest_first)
         return self._found[key]
 
     def _search(self, state: State, move: Point2) -> Iterator[DragWay]:
@@ -94,7 +95,7 @@ class DragWays:
         towards = towards_robot(context, state.station) if move == _STILL else along(context, move)
         if hangs_ahead(context, state.done, state.offset, towards):
             return
-        for cover in drag_covers(context, state.done, state.offset, towards).covers:
+        for cover in drag_covers(context, state.done, state.offset, towards).every:
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
                 picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])

@@ -100,10 +100,10 @@ class FoldTrial:
 def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
     """Return the grips and arms that may perform a fold in a state, with the grips held or with empty hands.
 
-    The order of the trials and of their hands depends on where things are and not on how they were drawn; a mirror
-    image of the task has the same order.
+    Those with more hands come first: they hold the cloth more firmly. Beyond that the order of the trials and of their
+    hands depends on where things are and not on how they were drawn; a mirror image of the task has the same order.
     """
-    keyed = sorted(_trials(context, state, fold), key=lambda pair: pair[0])
+    keyed = sorted(_trials(context, state, fold), key=lambda pair: (-len(pair[1].arms), pair[0]))
     return [trial for _, trial in keyed]
 
 
@@ -209,7 +209,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
         context.obstacles.note(obstacle)
         return
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, len(context.reach.arm_names))
-    for cover in covers.covers:
+    for cover in covers.every:
         points = context.placed(state.offset).to_outer(np.array(cover))
         if nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
             for arms in assignments(context, state.station, points):
@@ -217,7 +217,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
 
 
 def _held_grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
-    """Yield the smallest sets of held grips that hold all that must be held."""
+    """Yield the smallest sets of held grips that hold all that must be held, and those that hold it more firmly."""
     covers = held_covers(context, fold, state.held)
     if not covers and not state.is_dragged:
         context.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))

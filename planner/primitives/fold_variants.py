@@ -50,7 +50,7 @@ class Variant:
 
 
 def fold_variants(context: Context, state: State, fold: int, end: int) -> Iterator[Variant]:
-    """Yield the ways to do a fold in a state and end at a standoff: by rising travel, then the most natural first."""
+    """Yield the ways to do a fold in a state and end at a standoff: by rising travel, then more hands first."""
     found = (
         sorted(trial_variants(context, state, trial, end), key=_rank) for trial in fold_trials(context, state, fold)
     )
@@ -69,8 +69,8 @@ def fold_spread(context: Context, state: State, fold: int, count: int) -> Iterat
     yield from (*found[:best], *found[best::step])
 
 
-def _rank(variant: Variant) -> tuple[int, int]:
-    return variant.steps, variant.rank
+def _rank(variant: Variant) -> tuple[int, int, int]:
+    return variant.steps, -len(variant.way.approaches), variant.rank
 
 
 def trial_variants(

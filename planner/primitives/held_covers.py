@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planner.cloth.grips import Cover, best_covers
+from planner.cloth.grips import Cover, best_covers, firmer_covers
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -12,7 +12,7 @@ from planner.primitives.state import Held
 
 
 def held_covers(context: Context, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
-    """Return the smallest sets of grips already held that hold all that a fold needs; empty if none does.
+    """Return the sets of grips already held that hold all that a fold needs, the firmer first; empty if none does.
 
     Only hands on the moving part count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
@@ -44,7 +44,9 @@ class _HeldCovers:
         vertices = context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices
         points = lifted_points(context, fold, held)
         radius = context.sequence.folds[fold].grip_radius_m
-        return best_covers(np.array(points).reshape(-1, 2), np.array(vertices), radius, len(held))
+        candidates, must = np.array(points).reshape(-1, 2), np.array(vertices)
+        covers = best_covers(candidates, must, radius, len(held))
+        return (*firmer_covers(candidates, must, radius, len(held), covers), *covers)
 
 
 def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:

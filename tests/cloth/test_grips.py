@@ -136,3 +136,19 @@ def test_three_grips_that_hold_a_round_edge_are_found_among_hundreds_of_candidat
     for cover in found.covers:
         gaps = np.hypot(*(np.array(cover)[:, None] - vertices[None]).transpose(2, 0, 1)).min(axis=0)
         assert gaps.max() <= 0.127 + 1e-5
+
+
+def test_a_hand_more_is_offered_where_it_holds_corners_that_are_far_from_the_fewest_grips():
+    piece, vertices = top(0.254)
+    found = grip_covers(piece, vertices, 0.127, 2)
+    assert found.firmer == (((0.0, 0.3), (0.254, 0.3)),)
+    assert found.every == (*found.firmer, *found.covers)
+    assert grip_covers(piece, vertices, 0.127, 1).firmer == ()
+
+
+def test_corners_held_firmly_need_no_hand_more():
+    piece, vertices = top(2.0 * grips.FIRM * 0.127)
+    found = grip_covers(piece, vertices, 0.127, 2)
+    assert found.count == 1 and found.firmer == ()
+    piece, vertices = top(2.0 * grips.FIRM * 0.127 + 0.001)
+    assert grip_covers(piece, vertices, 0.127, 2).firmer

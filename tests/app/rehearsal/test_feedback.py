@@ -12,7 +12,7 @@ from app.rehearsal.noisy_world import NoisyWorld
 from app.rehearsal.perform import FAILURES_MAX, Performer
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import Observation, Performed, StepMotion
-from planner import Plan, Task
+from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.ring import evenly_along
@@ -57,6 +57,22 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away():
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         for now, then in zip(grip.points, former.points, strict=True):
             assert np.subtract(now, then) == pytest.approx([0.012, -0.016, 0.0], abs=1e-3)
+
+
+def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
+    # Cloth 2 cm aside is taken there and dragged to where it should be: the fold after it is the planned one.
+    plan = make_plan(Task.of(load_garment("skirt")))
+    lies = plan.task.start.placement
+    moved = Pose2(lies.x_m + 0.012, lies.y_m - 0.016, lies.yaw_rad)
+    world = NotedWorld(evenly_along(moved.to_outer(plan.garment.pattern.ring), 0.01))
+    Performer(plan, world, Gate(), lambda _: plan).performed()
+    asked, planned = world.asked, step_motions(plan)
+    assert [motion.kind for motion in planned[:2]] == ["drag", "fold"] and not planned[0].grips[0].opens
+    for grip, former in zip(asked[0].grips, planned[0].grips, strict=True):
+        assert math.dist(grip.points[0], former.points[0]) == pytest.approx(0.02, abs=2e-3)
+        assert grip.points[-1] == pytest.approx(former.points[-1], abs=1e-9)
+    for grip, former in zip(asked[1].grips, planned[1].grips, strict=True):
+        assert np.array(grip.points) == pytest.approx(np.array(former.points), abs=1e-9)
 
 
 def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
