@@ -1,8 +1,8 @@
-"""A study against a plain loop: cells a second in two processes, CPU time a cell, and memory as cells go by.
+"""Studies against plain loops: cells a second with one worker and with two, CPU time a cell, memory as cells go by.
 
-Both plan the same small tasks in two processes, starting with no process and no kernel loaded; the study also makes its
+All plan the same small tasks, starting with no kernel loaded, processes with no process either; a study also makes its
 cells, keeps each answer on the disk, and writes table and report. They take turns. CPU time is that of all
-processes of either, since a busy machine delays the one that happens to run.
+processes of each, since a busy machine delays the one that happens to run.
 """
 
 import multiprocessing
@@ -10,12 +10,14 @@ import os
 import tempfile
 from collections.abc import Callable, Generator, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 
 from app.studies.answer import Answer
 from app.studies.cell import Cell
+from app.studies.executor_workers import cluster
 from app.studies.garment_entries import Sources
 from app.studies.process_pool import ProcessPool
 from app.studies.results import Results
@@ -27,7 +29,16 @@ from bench.processes import cpu_s, family, memory_mb
 from bench.report import Report, Row
 from planner.task.task import Task
 
-PROCESSES = 2
+WORKERS = (1, 2)
+COLUMNS = (
+    "workers",
+    "cells",
+    "cells/s",
+    "CPU ms a cell",
+    "beyond the loop",
+    "memory after 10 % [MB]",
+    "at the end",
+)
 CELLS, CELLS_QUICK = 1000, 40
 _context = multiprocessing.get_context("forkserver")
 
@@ -61,12 +72,18 @@ class Watched:
 
 
 def studies(_articles: Sequence[str], repetitions: int) -> Report:
-    """Measure a study and a plain loop in turns."""
+    """Measure plain loops and studies, with one worker and with two, in turns."""
     asked = small_study(CELLS if repetitions > 1 else CELLS_QUICK)
-    turns = [(plain_loop(asked), whole_study(asked, ProcessPool(PROCESSES))) for _ in range(min(repetitions, 3))]
-    rows = [_row(name, asked.count, [turn[n] for turn in turns]) for n, name in enumerate(("plain loop", "study"))]
-    columns = ("in two processes", "cells", "cells/s", "CPU ms a cell", "memory after 10 % [MB]", "at the end")
-    return Report("studies", "A study, and a plain loop", columns, tuple(rows), len(turns))
+    ways: dict[str, Callable[[], Run]] = {
+        f"{name}, {workers}": partial(way, asked, workers)
+        for workers in WORKERS
+        for name, way in (("plain loop", plain_loop), ("processes", in_processes), ("local cluster", on_a_cluster))
+    }
+    turns = [{name: way() for name, way in ways.items()} for _ in range(min(repetitions, 3))]
+    loops = {str(workers): median(turn[f"plain loop, {workers}"].cpu_s for turn in turns) for workers in WORKERS}
+    rows = [study_row(name, asked.count, [turn[name] for turn in turns], loops[name.split(", ")[1]]) for name in ways]
+    title = "Studies in processes and on a local cluster, and plain loops, with so many workers"
+    return Report("studies", title, COLUMNS, tuple(rows), len(turns))
 
 
 def small_study(cells: int) -> Study:
@@ -82,14 +99,30 @@ def small_study(cells: int) -> Study:
     )
 
 
-def plain_loop(asked: Study) -> Run:
-    """Plan a study's tasks in two processes, half each, and keep nothing."""
+def in_processes(asked: Study, workers: int) -> Run:
+    """Run a study in processes of its own."""
+    return whole_study(asked, ProcessPool(workers))
+
+
+def on_a_cluster(asked: Study, workers: int) -> Run:
+    """Run a study on a Dask cluster of this machine, which stands already."""
+    from distributed import LocalCluster  # here, because it takes a second and only this needs it
+
+    with (
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as local,
+        cluster(local.scheduler_address) as executor,
+    ):
+        return whole_study(asked, executor)
+
+
+def plain_loop(asked: Study, workers: int) -> Run:
+    """Plan a study's tasks in processes, each a part, and keep nothing."""
     tasks = [cell.task for cell in asked.cells(asked.indices()) if cell.task is not None]
     began_s = perf_counter()
     pipes, processes = [], []
-    for part in range(PROCESSES):
+    for part in range(workers):
         ours, theirs = _context.Pipe(duplex=False)
-        process = _context.Process(target=_plan_all, args=(theirs.send, tasks[part::PROCESSES]))
+        process = _context.Process(target=_plan_all, args=(theirs.send, tasks[part::workers]))
         process.start()
         theirs.close()
         pipes.append(ours)
@@ -118,10 +151,19 @@ def _plan_all(tell: Callable[[float], None], tasks: Sequence[Task]) -> None:
     tell(cpu_s(os.getpid()))
 
 
-def _row(name: str, cells: int, runs: Sequence[Run]) -> Row:
+def study_row(name: str, cells: int, runs: Sequence[Run], loop_cpu_s: float) -> Row:
+    """Return the row of one way to plan all cells, beside the CPU time of the plain loop with as many workers (s)."""
     wall_s, cpu_s = median(run.wall_s for run in runs), median(run.cpu_s for run in runs)
+    beyond_ms = 1000 * (cpu_s - loop_cpu_s) / cells
     memory = max((run.memory_mb for run in runs), default=())
     shown = [f"{memory[0]:.0f}", f"{memory[-1]:.0f}"] if memory else ["-", "-"]
-    line = (name, str(cells), f"{cells / wall_s:.1f}", f"{1000 * cpu_s / cells:.1f}", *shown)
-    data = {"name": name, "cells": cells, "wall_s": wall_s, "cpu_s": cpu_s, "memory_mb": list(memory)}
+    line = (name, str(cells), f"{cells / wall_s:.1f}", f"{1000 * cpu_s / cells:.1f}", f"{beyond_ms:.1f}", *shown)
+    data = {
+        "name": name,
+        "cells": cells,
+        "wall_s": wall_s,
+        "cpu_s": cpu_s,
+        "beyond_loop_ms": beyond_ms,
+        "memory_mb": list(memory),
+    }
     return Row((line,), data)

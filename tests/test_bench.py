@@ -39,6 +39,8 @@ from bench.rehearsal import Rehearsed, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.served import served
+from bench.studies import Run as StudyRun
+from bench.studies import study_row
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment
@@ -387,3 +389,11 @@ def test_a_load_tells_what_was_refused_what_grew_and_what_stayed_open(
     # All have left, and nobody has waited until the server closes what is not used any more.
     assert row["left_open"]["sockets"] == 0 < row["left_open"]["documents"] <= 3
     assert load(["scarf-halved"], 1).rows == ()
+
+
+def test_a_study_is_told_with_what_it_takes_beyond_the_plain_loop() -> None:
+    runs = [StudyRun(4.0, 3.0, (100.0, 120.0)), StudyRun(2.0, 2.0), StudyRun(3.0, 2.5)]
+    row = study_row("processes, 2", 10, runs, 2.0)
+    # The medians are 3 s by the clock and 2.5 s of CPU: 50 ms a cell beyond the loop's 200.
+    assert row.lines == (("processes, 2", "10", "3.3", "250.0", "50.0", "100", "120"),)
+    assert row.data["beyond_loop_ms"] == pytest.approx(50.0)
