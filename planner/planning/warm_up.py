@@ -15,7 +15,8 @@ from planner.planning.driving_bound import DrivingBound
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
 from planner.planning.robot_task import default_scene, task_for
-from planner.primitives.base_legs import travel
+from planner.primitives.base_legs import legs, travel
+from planner.robots.load_robot import compile_samples
 from planner.robots.tool_path import ToolPath
 from planner.task.task import DEFAULT_ROBOT
 
@@ -66,12 +67,16 @@ def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
         reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
         reach.shortfall_together(0, point[None, None], np.array([0]))
         reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
-    travel(np.ones((1, 2), dtype=np.uint32), 2)
+    reach.standoffs(0, np.array([_FAR, _EDGE]), np.array([0]), 2, 0.05)
+    strips = np.ones((1, 2), dtype=np.uint32)
+    travel(strips, 2)
+    legs(strips[0], 0, 0, 1)
     if name == DEFAULT_ROBOT:
         DrivingBound(problem.context, problem.start)
     else:  # the bound itself took 17 s for an arm that reaches the napkin in hundreds of ways
         begun = np.zeros(2, dtype=np.int64)
         reach.following((0,), np.array([[_FAR, _EDGE]]), (np.array([0]),), 0.05).least_driving(begun)
+    compile_samples(name)
     robot, torso_m = problem.robot, problem.context.scene.torso_m
     beside = {arm: _staying(place) for arm, place in zip(range(len(robot.card.arms)), _BESIDE_M, strict=False)}
     robot.arm_paths(beside, torso_m, 0.0, dict.fromkeys(beside, _anywhere), _InTheWay())

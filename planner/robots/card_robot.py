@@ -51,6 +51,10 @@ class CardRobot(ArmedRobot):
         for arm in self._arms:
             arm.forget_samples()
 
+    def compile_samples(self) -> None:
+        """Compile what samples the joints of any mapped arm."""
+        self._arms[0].compile_samples()
+
     def prepare(self, progress: Progress | None = None) -> tuple[MappedArm, ...]:
         """Return the arms with their maps of postures, which are read or built at the first call.
 

@@ -87,3 +87,10 @@ def _found(name_or_path: str) -> tuple[Path, _Stamp]:
     except (OSError, ValueError):
         pass
     raise RequestError("robot", f"there is no robot {name_or_path[:80]!r}, only {', '.join(robot_names())}")
+
+
+def compile_samples(name: str) -> None:
+    """Compile what samples the joints of any robot that has maps of postures, with the arms of one of them."""
+    robot = load_robot(name)
+    if isinstance(robot, CardRobot):
+        robot.compile_samples()

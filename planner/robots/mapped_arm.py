@@ -8,6 +8,7 @@ import numpy as np
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robots.chain import PITCH, WHOLE, Chain, length_of, tool_poses
 from planner.robots.described_robot import DescribedArm, DescribedRobot
+from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve_from
 from planner.robots.posture_following import followed
 from planner.robots.posture_map import PostureMap, reachable_poses
@@ -139,6 +140,14 @@ class MappedArm:
         of_axes = self._memory.samples(points, unrolled(axes), floor)
         found: tuple[FloatArray, FloatArray] = rolled_samples(self._chain, self.periods, axes, *of_axes)
         return found
+
+    def compile_samples(self) -> None:
+        """Compile what samples the joints of any mapped arm, whether or not its last joint gives the roll alone."""
+        gives_roll(self._chain)
+        points, axes = np.zeros((1, 3)), np.eye(3)[None]
+        posture_samples(self._chain, self._known, self.periods, points, axes, 0.0)
+        of_axes = axis_samples(self._chain, self._known, self.periods, points, unrolled(axes), 0.0)
+        rolled_samples(self._chain, self.periods, axes, *of_axes)
 
     def forget_samples(self) -> None:
         """Drop the samples that searches have left, so that benchmarks measure their computation."""

@@ -35,6 +35,22 @@ def test_no_garment_has_to_wait_for_the_compiler():
     assert done.stdout.startswith("['solved', 'solved', 'solved', 'solved', 'infeasible']")
 
 
+SAMPLING = """
+from planner.planning.warm_up import compile_kernels
+from planner.robots.posture_samples import axis_samples, posture_samples
+from planner.robots.rolled_samples import rolled_samples, unrolled
+
+compile_kernels("so101-pair")
+print([one.__name__ for one in (axis_samples, posture_samples, rolled_samples, unrolled) if not one.signatures])
+"""
+
+
+def test_a_small_robot_compiles_what_arms_of_other_joints_need():
+    # Its own arms have five joints, and need no samples for all rolls.
+    done = subprocess.run([sys.executable, "-c", SAMPLING], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
 def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first():
     for robot in shipped_robots():
         table, (xs, ys) = default_scene(robot).table, zip(*napkin(robot).outline, strict=True)
