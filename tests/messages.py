@@ -136,6 +136,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "merge_two"},
     {"code": "merge_near", "nearer_m": 0.001},
     {"code": "exchange_two"},
+    {"code": "smaller", "by": 0.35, "size_m": [0.6, 0.4]},
     {"code": "straighten"},
     {"code": "uncross"},
     {"code": "delete_corner"},

@@ -45,6 +45,7 @@ Kind = Literal[
     "flip",
     "order",
     "station",
+    "size",
     "friction",
     "grip_radius",
     "comfort_radius",

@@ -16,7 +16,7 @@ class Suggestion:
     """A change that gives a plan, or a quicker one.
 
     Attributes:
-        kind: "placement", "fold_line", "split", "halve", "flip", "order", "station", "friction",
+        kind: "placement", "fold_line", "split", "halve", "flip", "order", "station", "size", "friction",
             "grip_radius", "comfort_radius" or "together", several of the last three.
         says: what to do, with the numbers; directions as seen by the robot at the near edge of the table.
         change: fields that replace those of the plan request.

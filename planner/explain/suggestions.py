@@ -17,6 +17,7 @@ from planner.explain.suggestion_flip import flips
 from planner.explain.suggestion_fold_line import fold_lines
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_placement import placements
+from planner.explain.suggestion_size import sizes
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_together import together
 from planner.explain.suggestion_trial import Search, Trial
@@ -37,6 +38,9 @@ _FIRST_PLAN_SHARE = 0.5
 
 _CHANGES_SHARE = 0.6
 """Share of the work after which assumptions get their turns."""
+
+_SIZES_SHARES = (0.3, 0.5)
+"""Shares of the work after which, where nothing has helped by then, smaller sizes are tried, and up to which."""
 
 _FOLDS_MAX = 3
 """Folds to blame that changes are tried for."""
@@ -91,6 +95,12 @@ def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[
             stations(task),
         )
         assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
+    if not known.is_solved:
+        begin, end = _SIZES_SHARES
+        yield from _by_turns(changes, budget, on_trial, begin)
+        if not any(lane.has_found for lane in changes):
+            changes += _lanes(sizes(task))
+            yield from _by_turns(changes[-1:], budget, on_trial, end)
     yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else 1.0)
     yield from _by_turns(assumptions, budget, on_trial, 1.0)
     if assumptions and not any(lane.has_found for lane in assumptions):

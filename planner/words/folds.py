@@ -39,6 +39,11 @@ def _place(values: Values, _folds: Folds) -> str:
     return f"Turn the garment {turn}" + (f" and move it {way}" if way else "")
 
 
+def _smaller(values: Values, _folds: Folds) -> str:
+    width, height = (in_cm(length_m) for length_m in values["size_m"])
+    return f"Make the garment {100.0 * values['by']:.0f} % smaller, {width} by {height}"
+
+
 def _shift_fold(values: Values, folds: Folds) -> str:
     return f"Shift {called(folds, values['fold'])} {in_cm(values['by_m'])} {direction(*values['towards'])}"
 
@@ -97,6 +102,7 @@ FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "waits_for": _waits_for,
     "not_with_the_others": _not_with_the_others,
     "place": _place,
+    "smaller": _smaller,
     "shift_fold": _shift_fold,
     "shift_folds": _shift_folds,
     "flip_fold": _flip_fold,

@@ -235,3 +235,31 @@ def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> 
         slack = SNAP_PX["grid"] / scale if there and there["kind"] == "edge" else 1e-9
         assert there is None or math.dist(there["at"], here) <= slack
     assert kinds == {"vertex", "fraction", "edge", None}
+
+
+def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_stay_tied(page: Page) -> None:
+    tie = {"kind": "vertex", "vertex": "v0"}
+    drawing = {
+        "outline": [
+            {"id": "v0", "point": [0, 0]},
+            {"id": "v1", "point": [0.8, 0], "curve": {"along": 0.0, "across": -0.5}},
+            {"id": "v2", "point": [0.8, 0.4]},
+        ],
+        "folds": [{"start": {"point": [0, 0], "on": tie}, "end": {"point": [0.8, 0.2], "on": None}}],
+        "grip_radius_m": 0.127,
+    }
+    made = page.evaluate(
+        """async (drawing) => {
+          const { applyChange } = await import("/static/js/dock/suggestion_change.js");
+          const { ringOf } = await import("/static/js/board/curves.js");
+          const outline = ringOf(drawing).map(([x, y]) => [x / 2, y / 2]);
+          const folds = [{ start: [0, 0], end: [0.4, 0.1], grip_radius_m: 0.127 }];
+          applyChange(drawing, { garment: { outline, folds, grip_radius_m: 0.127 } });
+          return drawing;
+        }""",
+        drawing,
+    )
+    assert [corner["point"] for corner in made["outline"]] == [[0, 0], [0.4, 0], [0.4, 0.2]]
+    assert made["outline"][1]["curve"] == {"along": 0.0, "across": -0.5}
+    assert made["folds"][0]["start"] == {"point": [0, 0], "on": tie}
+    assert made["folds"][0]["end"]["point"] == [0.4, 0.1]

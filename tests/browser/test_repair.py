@@ -86,7 +86,7 @@ def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     cards = page.get_by_role("group", name="Suggestions").get_by_role("button")
     expect(cards).to_have_count(3)
     kinds = [card.get_attribute("data-title") for card in cards.all()]
-    assert kinds == ["Move the cloth", "Change a fold", "Assume"]
+    assert kinds == ["Move or size the cloth", "Change a fold", "Assume"]
     page.get_by_role("button", name="1 more").click()
     expect(cards).to_have_count(4)
     assert "RUBBISH" not in page.locator("body").inner_text()

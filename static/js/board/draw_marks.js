@@ -9,6 +9,7 @@ import { middleOf } from "./edits.js";
 import { axisOfGarment } from "./mirror.js";
 import { length } from "./units.js";
 
+/** @import { Point } from "pleat" */
 /** @import { Items } from "./sheet.js" */
 
 /** @param {import("./board.js").Board} board */
@@ -74,19 +75,21 @@ export function drawPreview({ store, view, drawing }) {
   const { placement, garment } = store.preview ?? {};
   /** @type {Items} */
   const items = [];
+  /** @param {Point} point of the garment that would lie elsewhere */
+  const placed = (point) => (placement ? toInner(drawing.placement, toOuter(placement, point)) : point);
   if (placement) {
-    const ring = ringOf(drawing).map((point) => view.toPx(toInner(drawing.placement, toOuter(placement, point))));
-    const middle = middleOf(drawing);
-    const wanted = toInner(drawing.placement, toOuter(placement, middle));
+    const ring = (garment?.outline ?? ringOf(drawing)).map((point) => view.toPx(placed(point)));
     items.push({ key: "placed", tag: "path", class: "preview", d: path(ring) });
-    items.push(...dimension("moved", view.toPx(middle), view.toPx(wanted), length(distance(middle, wanted))));
+    const middle = middleOf(drawing);
+    const moved = () => dimension("moved", view.toPx(middle), view.toPx(placed(middle)), length(distance(middle, placed(middle))));
+    if (!garment) items.push(...moved()); // of a smaller garment every point moves by another length
   }
   for (const [index, fold] of (garment?.folds ?? []).entries()) {
     items.push(
       ...foldItems({
         key: `p${index}`,
         kind: fold.kind,
-        ends: [view.toPx(fold.start), view.toPx(fold.end)],
+        ends: [view.toPx(placed(fold.start)), view.toPx(placed(fold.end))],
         state: " is-preview",
         number: null,
       }),

@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { showCompare } from "../compare/compare.js";
 import { BestPlace } from "./best_place.js";
 import { NoPlan } from "./no_plan.js";
 import { numbers, quicker } from "./numbers.js";
@@ -31,6 +32,8 @@ export class Outcome {
     this.numbers = element("section", "numbers");
     this.numbers.setAttribute("aria-label", say("numbers.label"));
     this.place = new BestPlace(store);
+    this.compare = button("chip", () => showCompare(store), say("compare.do"));
+    this.compare.title = say("compare.hint");
     this.rehearsing = new Rehearsing(store);
     this.rehearsing.addEventListener("change", () => this.list.judge(this.rehearsing.verdicts));
     this.none = new NoPlan();
@@ -43,7 +46,7 @@ export class Outcome {
     this.refining = new Refining(store);
     for (const waiting of [this.planning, this.refining]) waiting.addEventListener("change", () => this.offerStop());
     this.offerStop();
-    const head = element("header", "dock-head", this.title, this.rehearsing.button, this.place.button, this.stop);
+    const head = element("header", "dock-head", this.title, this.compare, this.rehearsing.button, this.place.button, this.stop);
     const plan = element("div", "plan-scroll", this.place.root, this.rehearsing.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
     this.title.tabIndex = -1;
@@ -89,7 +92,7 @@ export class Outcome {
     this.numbers.replaceChildren();
     this.empty.hidden = false;
     this.empty.textContent = say("plan.working");
-    this.place.button.hidden = true;
+    this.place.button.hidden = this.compare.hidden = true;
   }
 
   /** @param {PlanMessage} message @param {DocumentState} state */
@@ -97,7 +100,7 @@ export class Outcome {
     this.turn(true);
     this.list.show(null, []);
     this.none.show(message, state);
-    this.place.button.hidden = true;
+    this.place.button.hidden = this.compare.hidden = true;
   }
 
   /** @param {Plan} plan @param {PlanBefore|null} before */
@@ -108,6 +111,7 @@ export class Outcome {
     const { length } = this.shown.folds;
     this.empty.textContent = length ? say("plan.nothing_left") : say("plan.nothing_to_do");
     this.place.button.hidden = plan.primitives.length === 0 || this.shown.start !== null;
+    this.compare.hidden = plan.primitives.length === 0;
     this.numbers.hidden = plan.primitives.length === 0;
     const [cost, ...rest] = numbers(plan, before);
     this.numbers.replaceChildren(cost, this.refined, this.longer, ...rest);

@@ -1,6 +1,8 @@
 /** What a suggestion changes, made to a drawing. */
 
+import { ringOf } from "../board/curves.js";
 import { insertFold } from "../board/edits.js";
+import { times } from "../board/geometry.js";
 import { freshId } from "../board/ids.js";
 
 /** @import { Drawing, Fold, FoldEnd, GarmentFold, Point } from "pleat" */
@@ -18,6 +20,7 @@ const SAME_M = 1e-9;
  */
 export function applyChange(drawing, change, added = null) {
   if (change.drawing) return structuredClone(change.drawing);
+  if (change.garment) resize(drawing, change.garment.outline);
   drawing.placement = change.placement ?? drawing.placement;
   drawing.scene = change.scene ?? drawing.scene;
   drawing.start_station = change.start_station ?? drawing.start_station;
@@ -28,6 +31,20 @@ export function applyChange(drawing, change, added = null) {
     if (added) insertFold(drawing, added.index, newFold(drawing, added.name));
     drawing.folds = changedFolds(drawing, change.garment.folds, before);
   }
+}
+
+/**
+ * Make the drawing as large as a garment of the same shape; folds stay where they are tied.
+ * @param {Drawing} drawing
+ * @param {Point[]} outline
+ */
+function resize(drawing, outline) {
+  const ring = ringOf(drawing);
+  const farthest = ring.reduce((best, point, index) => (Math.hypot(...point) > Math.hypot(...ring[best]) ? index : best), 0);
+  if (ring.length !== outline.length || is(ring[farthest], outline[farthest])) return;
+  const share = Math.hypot(...outline[farthest]) / Math.hypot(...ring[farthest]);
+  for (const corner of drawing.outline) corner.point = times(corner.point, share);
+  for (const end of drawing.folds.flatMap((fold) => [fold.start, fold.end])) end.point = times(end.point, share);
 }
 
 /**

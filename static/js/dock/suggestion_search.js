@@ -113,7 +113,7 @@ const SAME_M = 0.01;
 const WORTH_S = 1;
 
 /** What is easily done, and leaves the cloth folded as it is drawn, comes first. */
-const CHANGED = ["placement", "order", "split", "fold_line", "flip", "halve", "station"];
+const CHANGED = ["placement", "order", "split", "fold_line", "flip", "halve", "station", "size"];
 const EASE = [...CHANGED, "friction", "grip_radius", "comfort_radius", "together"];
 
 /**

@@ -3,7 +3,7 @@
 import { inEnglish, say, translated } from "../language/say.js";
 import { numeral, shortest } from "../language/numeral.js";
 import { direction, moved } from "./directions.js";
-import { length, listed } from "./lengths.js";
+import { length, listed, percent } from "./lengths.js";
 import { called, place } from "./names.js";
 
 /** @import { Says } from "pleat" */
@@ -21,6 +21,8 @@ export const CHANGES = {
     const turn = say(`message.place.${TURNS[quarters - 1]}`);
     return way ? say("message.place.and_move", { turn, way }) : turn;
   },
+  smaller: ({ by, size_m: [width, height] }) =>
+    say("message.smaller", { share: percent(by), width: length(width), height: length(height) }),
   shift_fold: shiftFold,
   shift_folds: ({ shifts }, folds) => listed(shifts.map((/** @type {Shift} */ one) => shiftFold(one, folds))),
   split_fold: ({ fold, depth_m: depth }, folds) =>

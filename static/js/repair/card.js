@@ -16,6 +16,7 @@ export const GROUPS = /** @type {const} */ (["place", "fold", "assume"]);
 /** @type {Record<string, typeof GROUPS[number]>} */
 const GROUP_OF = {
   placement: "place",
+  size: "place",
   station: "assume",
   friction: "assume",
   grip_radius: "assume",
