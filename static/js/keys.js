@@ -43,3 +43,11 @@ function named(event) {
   if (key === "/") return "gallery";
   return target.tagName === "SELECT" ? "" : key;
 }
+
+/** Whether a key pressed there may be the board's. @param {KeyboardEvent} event */
+export function isBoards(event) {
+  const target = /** @type {HTMLElement} */ (event.target);
+  return (
+    !["INPUT", "TEXTAREA", "SELECT", "BUTTON", "A"].includes(target.tagName) && !document.querySelector("dialog[open]")
+  );
+}

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.conftest import STAGE_PATIENCE_MS, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 
 
@@ -32,7 +32,7 @@ def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: P
     page.get_by_role("button", name="Compare", exact=True).click()
     dialog = page.get_by_role("dialog", name="Two plans side by side")
     left, right = dialog.locator(".compare-cost").all()
-    expect(left).to_contain_text(" s")
+    expect(left).to_contain_text(" s", timeout=STAGE_PATIENCE_MS)  # its plan is searched for in a process of its own
     expect(right).to_contain_text(" s")
     expect(left).not_to_have_text(right.inner_text())
     rows = dialog.locator("tbody tr")

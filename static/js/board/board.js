@@ -14,7 +14,7 @@ import { Numbers } from "./numbers.js";
 import { Overlays } from "./overlays.js";
 import { Photo } from "./photo.js";
 import { PointerInput } from "./pointer.js";
-import { drawingArea, sheetsOf } from "./drawing_area.js";
+import { drawingArea, REDRAWN_AT, sheetsOf } from "./drawing_area.js";
 import { hatches } from "./hatches.js";
 import { svg } from "./sheet.js";
 import { Shown } from "./shown.js";
@@ -61,8 +61,6 @@ export class Board extends Shown {
     this.blank = null;
     /** @type {number|undefined} the frame that is to be drawn */
     this.frame = undefined;
-    /** @type {import("../step_pictures.js").StepPictures|null} */
-    this.pictures = null;
     /** @type {{height: number}|null} what lies over the board's upper edge */
     this.over = null;
     this.framing = new Framing(this);
@@ -104,18 +102,7 @@ export class Board extends Shown {
   }
 
   listen() {
-    for (const name of [
-      "document",
-      "plan",
-      "playback",
-      "selection",
-      "step",
-      "overlays",
-      "preview",
-      "hover-time",
-      "connection",
-      "held",
-    ])
+    for (const name of REDRAWN_AT)
       this.store.addEventListener(name, () => this.render());
     new ResizeObserver(() => this.framing.resize()).observe(this.svg);
   }
@@ -135,26 +122,6 @@ export class Board extends Shown {
   cover(over) {
     this.over = over;
     over.addEventListener("change", () => this.framing.uncover());
-  }
-
-  /**
-   * While the plan is played the board shows the cloth as it is then.
-   * @param {import("../step_pictures.js").StepPictures} pictures
-   */
-  play(pictures) {
-    this.pictures = pictures;
-    pictures.addEventListener("change", () => this.render());
-  }
-
-  /** The cloth and where it lies at the time that is shown; null while nothing is played. */
-  get played() {
-    const index = this.pictures?.current ?? null;
-    return index === null ? null : (this.pictures?.all[index] ?? null);
-  }
-
-  /** Whether time runs: the board shows the film, and nothing to edit. */
-  get isPlaying() {
-    return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;
   }
 
   /** How much of the board's upper edge is covered (px). */
@@ -224,15 +191,6 @@ export class Board extends Shown {
   /** @param {Point} at */
   whereText([x, y]) {
     return `${length(x)}, ${length(y)}${this.snapped?.name ? `, ${this.snapped.name}` : ""}`;
-  }
-
-  /** Whether a key pressed there may be the board's. @param {KeyboardEvent} event */
-  isOurs(event) {
-    const target = /** @type {HTMLElement} */ (event.target);
-    return (
-      !["INPUT", "TEXTAREA", "SELECT", "BUTTON", "A"].includes(target.tagName) &&
-      !document.querySelector("dialog[open]")
-    );
   }
 
   /** @param {ToolName} name */

@@ -6,6 +6,20 @@ import { Sheet, svg } from "./sheet.js";
 
 /** @import { LayerName } from "./draw_all.js" */
 
+/** The events of the store after which the board is drawn anew. */
+export const REDRAWN_AT = [
+  "document",
+  "plan",
+  "playback",
+  "selection",
+  "step",
+  "overlays",
+  "preview",
+  "hover-time",
+  "connection",
+  "held",
+];
+
 /** The element that is drawn on. */
 export function drawingArea() {
   return svg("svg", {

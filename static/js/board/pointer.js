@@ -3,6 +3,7 @@
  * the cursor, two fingers pan and zoom and drop what the first had begun.
  */
 
+import { isBoards } from "../keys.js";
 import { between, distance, minus } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
@@ -191,7 +192,7 @@ export class PointerInput {
    * @param {boolean} isDown
    */
   space(event, isDown) {
-    if (event.key !== " " || (isDown && (!this.isOver || !this.board.isOurs(event)))) return;
+    if (event.key !== " " || (isDown && (!this.isOver || !isBoards(event)))) return;
     if (isDown) {
       event.preventDefault();
       if (!event.repeat) this.hasPanned = false;

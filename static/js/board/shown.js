@@ -49,6 +49,28 @@ export class Shown {
     this.draft = null;
     /** @type {Change|null} what makes it of the drawing that the server knows */
     this.change = null;
+    /** @type {import("../step_pictures.js").StepPictures|null} */
+    this.pictures = null;
+  }
+
+  /**
+   * While the plan is played the board shows the cloth as it is then.
+   * @param {import("../step_pictures.js").StepPictures} pictures
+   */
+  play(pictures) {
+    this.pictures = pictures;
+    pictures.addEventListener("change", () => this.render());
+  }
+
+  /** The cloth and where it lies at the time that is shown; null while nothing is played. */
+  get played() {
+    const index = this.pictures?.current ?? null;
+    return index === null ? null : (this.pictures?.all[index] ?? null);
+  }
+
+  /** Whether time runs: the board shows the film, and nothing to edit. */
+  get isPlaying() {
+    return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;
   }
 
   /** The tool in hand; none while the board is being built. @returns {Tool|null} */

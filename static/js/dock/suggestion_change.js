@@ -20,7 +20,7 @@ const SAME_M = 1e-9;
  */
 export function applyChange(drawing, change, added = null) {
   if (change.drawing) return structuredClone(change.drawing);
-  if (change.garment) resize(drawing, change.garment.outline);
+  if (change.garment?.outline) resize(drawing, change.garment.outline);
   drawing.placement = change.placement ?? drawing.placement;
   drawing.scene = change.scene ?? drawing.scene;
   drawing.start_station = change.start_station ?? drawing.start_station;
