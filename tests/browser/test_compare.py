@@ -31,7 +31,7 @@ def pictures(dialog: Locator) -> list[str]:
 def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: Page, moved: Sheet) -> None:
     page.get_by_role("button", name="Compare", exact=True).click()
     dialog = page.get_by_role("dialog", name="Two plans side by side")
-    left, right = dialog.locator(".compare-cost").all()
+    left, right = (dialog.locator(".compare-cost").nth(side) for side in (0, 1))
     expect(left).to_contain_text(" s", timeout=STAGE_PATIENCE_MS)  # its plan is searched for in a process of its own
     expect(right).to_contain_text(" s")
     expect(left).not_to_have_text(right.inner_text())
