@@ -12,7 +12,7 @@ from tests.app.conftest import REST, Served
 from tests.app.conftest import served as served
 from tests.browser.status_pill import expect_planned
 
-PATIENCE_MS = 20_000
+PATIENCE_MS = 60_000
 STAGE_PATIENCE_MS = 60_000
 QUIET = [
     "--no-sandbox",
