@@ -52,7 +52,7 @@ Limit = Annotated[int, Query(ge=1, le=PAGE_MAX, description="documents on the pa
 After = Annotated[str, Query(max_length=100, description="where the page before ended, as its `Link` has it")]
 
 
-@router.get("", response_model=list[DocumentEntryAnswer])
+@router.get("", response_model=list[DocumentEntryAnswer], responses=problems(422))
 async def list_documents(
     request: Request, response: Response, limit: Limit = PAGE, after: After | None = None
 ) -> list[dict[str, Any]]:

@@ -76,3 +76,10 @@ async def test_every_body_in_json_is_described_with_its_fields_and_an_example(cl
                 or "vnd.pleat.plan" in str(content)
                 or all("example" in kind for kind in content.values())
             ), (method, path)
+
+
+async def test_the_list_of_documents_is_described_with_the_problem_of_a_bad_query(client: httpx.AsyncClient) -> None:
+    refused = await client.get("/api/documents", params={"limit": 0})
+    described = (await client.get("/openapi.json")).json()["paths"]["/api/documents"]["get"]["responses"]["422"]
+    assert refused.status_code == 422
+    assert refused.headers["content-type"] in described["content"]
