@@ -35,8 +35,8 @@ def phone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> Iterator[
     with windows(chromium, viewport=PHONE, has_touch=True, is_mobile=True) as context:
         page = context.new_page()
         page.goto(new_sheet(napkin()).page_url)
+        expect_planned(page)  # before that nothing may hear the tap
         page.locator("#sheet").tap()
-        expect_planned(page)
         yield page
 
 

@@ -63,7 +63,7 @@ def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Pa
     before = sheet.drawing
     opening = still_camera(page)
     stage.get_by_text("Table").locator("visible=true").click()
-    stage.get_by_role("button", name="Top").click()
+    page.get_by_role("toolbar", name="Look from").get_by_role("button", name="Top").click()
     until(lambda: page.evaluate(CAMERA) != opening)
     above = still_camera(page)
     choose(stage, "Move points")

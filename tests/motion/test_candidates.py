@@ -54,10 +54,10 @@ class UnderCeiling(Pr2):
 
 
 def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
-    # The vest's last fold lifts its hem 0.3 m and more; it begins and ends on the table.
-    found = planned("vest").found
+    # The skirt's last fold lifts its cloth higher than that on its way; it begins and ends on the table.
+    found = planned("skirt").found
     steps = found.acts[-1].steps
-    maker = TransferPlanner(found.problem.context, UnderCeiling(0.25))
+    maker = TransferPlanner(found.problem.context, UnderCeiling(0.2))
     assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
     assert maker.validated(steps, replace(QUICK, ways=1)) is None
     assert list(maker.candidates([steps])) == []
