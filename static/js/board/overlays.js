@@ -89,7 +89,9 @@ export class Overlays {
     this.look();
   }
 
+  /** What is switched on later is asked for anew, also where it is what was asked for last. */
   forget() {
+    this.asked = "";
     this.found = null;
     this.known = [];
   }

@@ -44,6 +44,16 @@ def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page,
     expect(legend).to_have_count(0)
 
 
+def test_what_is_switched_off_and_on_again_is_drawn_again(page: Page, legend: Locator) -> None:
+    slip = chip(page, "Slip limit")
+    for _ in range(2):
+        slip.click()
+        expect(legend.get_by_role("listitem")).to_have_count(1)
+        expect(slip).to_have_attribute("aria-busy", "false")
+        slip.click()
+        expect(legend).to_have_count(0)
+
+
 def test_the_shades_of_reach_are_named_with_their_comfort_and_hands(page: Page, legend: Locator) -> None:
     chip(page, "Reach").click()
     # 3 cm of comfort are asked for where nobody says otherwise.
