@@ -1,6 +1,6 @@
 """A hand on the drafting board that works in the article frame."""
 
-from playwright.sync_api import Locator, Page
+from playwright.sync_api import Locator, Page, expect
 
 Point = tuple[float, float]
 
@@ -16,7 +16,8 @@ class Hand:
         self.board: Locator = page.get_by_role("application", name="Drafting board")
 
     def px(self, point: Point) -> Point:
-        """Return the position in the window of a point of the article frame (px)."""
+        """Return the position in the window of a point of the article frame (px), once the board shows a document."""
+        expect(self.board).to_have_attribute("aria-busy", "false")
         box = self.board.bounding_box()
         assert box is not None
         x0, y0 = (float(part) for part in str(self.board.get_attribute("data-origin-px")).split(","))

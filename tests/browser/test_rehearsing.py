@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
@@ -32,6 +32,11 @@ class Rehearsals:
         page.route("**/api/jobs/7", lambda route: route.fulfill(json=self.job))
         page.route("**/api/jobs/7/cancel", self._cancel)
 
+    def begun_by(self, button: Locator) -> None:
+        """Press a button and wait for the rehearsal that it begins."""
+        with button.page.expect_response("**/api/rehearsals"):
+            button.click()
+
     def end(self, *runs: dict[str, Any]) -> None:
         self.job = JOB | {"status": "done", "result": summary(*runs)}
 
@@ -56,7 +61,7 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(said).to_be_hidden()
     assert server.cancelled == 1
 
-    begin.click()
+    server.begun_by(begin)
     server.end(run(slid_mm=12.3))
     expect(said).to_contain_text(
         "Every step holds in simulated physics, at most 4 mm off on average, one grasp tried again."
@@ -64,13 +69,13 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(mark).to_have_text("slid 12 mm")
     expect(page.get_by_role("button", name="slid 12 mm")).to_be_visible()
 
-    said.get_by_role("button", name="10 times with errors").click()
+    server.begun_by(said.get_by_role("button", name="10 times with errors"))
     expect(mark).to_have_count(0)
     server.end(*[run()] * 8, *[run(held=False)] * 2)
     expect(said).to_contain_text("Held in 8 of 10 runs: 49 to 94 % of all, with 95 % confidence.")
     assert [(one["runs"], one["noise"]) for one in server.asked] == [(1, "none"), (1, "none"), (10, "real")]
 
-    begin.click()
+    server.begun_by(begin)
     server.end(run(held=False, mean_mm=31.0))
     expect(said).to_contain_text("Lost at step 1: the cloth is 31 mm off on average.")
     expect(mark).to_have_text("lost")

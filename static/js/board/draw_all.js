@@ -67,6 +67,7 @@ export function drawAll(board) {
   svg.dataset.originPx = `${x},${y}`;
   svg.dataset.pxPerM = String(view.scale);
   svg.dataset.version = String(board.state.version);
+  svg.setAttribute("aria-busy", "false"); // there is something to work on
   svg.style.cursor = tool.cursor;
   svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);

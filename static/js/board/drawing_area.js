@@ -27,9 +27,8 @@ export function drawingArea() {
     id: "drafting-board",
     role: "application",
     "aria-label": say("board.label"),
+    "aria-busy": "true",
     tabindex: 0,
-    "data-px-per-m": 1,
-    "data-origin-px": "0,0",
   });
 }
 
