@@ -1,13 +1,16 @@
 """Routes of the page, `/d/{document}`, and its files; `/` redirects to the document opened last."""
 
+from collections.abc import Callable
+from hashlib import sha256
 from http import HTTPStatus
 
 from fastapi import APIRouter, FastAPI, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import FileResponse, RedirectResponse, Response
-from starlette.staticfiles import StaticFiles
+from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
 from app.api.asked import workspace_of
+from app.page_files import scripts, styles
 from app.resources import static_dir
 from app.workspace import Workspace
 from planner.errors import FoldingError
@@ -29,6 +32,27 @@ async def read_page(request: Request, document_id: str) -> Response:
     """Return the designer on a document; the page itself reports a missing one."""
     status = await run_in_threadpool(_remembered, workspace_of(request), document_id)
     return FileResponse(static_dir() / "index.html", status_code=status, headers=_FRESH)
+
+
+@router.get("/static/page.js")
+async def read_scripts(request: Request) -> Response:
+    """Return all of the page's modules."""
+    return await _told(request, scripts, "text/javascript")
+
+
+@router.get("/static/page.css")
+async def read_styles(request: Request) -> Response:
+    """Return all of the page's style sheets."""
+    return await _told(request, styles, "text/css")
+
+
+async def _told(request: Request, put_together: Callable[[], str], media_type: str) -> Response:
+    """Return a text that changes with the files it is made of, or that the browser has it already."""
+    response = Response(await run_in_threadpool(put_together), media_type=media_type)
+    response.headers.update({"etag": f'"{sha256(response.body).hexdigest()}"'} | _FRESH)
+    if response.headers["etag"] in request.headers.get("if-none-match", ""):
+        return NotModifiedResponse(response.headers)
+    return response
 
 
 def _remembered(workspace: Workspace, document_id: str) -> int:

@@ -44,8 +44,8 @@ def test_the_page_and_all_that_it_names_are_below_the_prefix(proxied: httpx.Clie
     first = proxied.get("/")
     assert first.headers["location"].startswith(f"{PREFIX}/d/")
     page = proxied.get(first.headers["location"].removeprefix(PREFIX))
-    assert page.status_code == 200 and 'src="../static/js/main.js"' in page.text
-    script = proxied.get(urljoin(first.headers["location"], "../static/js/main.js").removeprefix(PREFIX))
+    assert page.status_code == 200 and 'src="../static/page.js"' in page.text
+    script = proxied.get(urljoin(first.headers["location"], "../static/page.js").removeprefix(PREFIX))
     assert script.status_code == 200 and "javascript" in script.headers["content-type"]
     assert f"{PREFIX}/openapi.json" in proxied.get("/docs").text
     assert httpx.get(str(proxied.base_url).removesuffix(f"{PREFIX}/") + "/api/health").status_code == 404

@@ -34,7 +34,7 @@ async def test_the_page_leads_to_addresses_below_the_prefix(client: httpx.AsyncC
     assert first.headers["location"].startswith("/tools/pleat/d/")
     page = await client.get(first.headers["location"], headers=PREFIX)
     assert page.status_code == 200
-    assert 'src="../static/js/main.js"' in page.text
+    assert 'src="../static/page.js"' in page.text
     made = await client.post(f"{above}/api/documents", headers=PREFIX, json={"garment": towel()})
     assert made.headers["location"].startswith("/tools/pleat/d/")
     stage = await client.get(f"{above}/viser/{made.json()['id']}", headers=PREFIX)

@@ -1,7 +1,7 @@
 """Browsers and servers. Most tests do without a stage: the page then loads at once and leaves the processor free."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
@@ -59,11 +59,12 @@ BROWSERS = Browsers()
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Iterator[None]:
+def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> Generator[None, object, object]:
     """Close the browsers after a module, unless the next one begins with a test in one of them."""
-    yield
+    result = yield
     if nextitem is None or (nextitem.path != item.path and not {"chromium", "browser"} & set(_fixtures_of(nextitem))):
         BROWSERS.close()
+    return result
 
 
 def _fixtures_of(item: pytest.Item) -> list[str]:

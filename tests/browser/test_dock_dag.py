@@ -11,7 +11,7 @@ from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
 LAID = """async ([count, edges]) => {
-  const { columns, wayOf } = await import("/static/js/dock/dag_layout.js");
+  const { columns, wayOf } = await import("page/dock/dag_layout.js");
   const laid = columns(count, edges);
   const own = laid.map((column) => column.filter(({ to }) => to < 0).map(({ fold }) => fold));
   const ways = edges.map(([from, to]) => wayOf(laid, from, to).map(({ depth, row }) => [depth, row]));

@@ -146,7 +146,7 @@ def test_playing_at_a_speed_moves_the_time_until_paused(page: Page, starts_s: li
 def test_the_base_lane_shows_that_the_base_drives_within_a_fold(page: Page) -> None:
     blocks = page.evaluate(
         """async () => {
-          const { laneBlocks } = await import("/static/js/dock/lane_blocks.js");
+          const { laneBlocks } = await import("page/dock/lane_blocks.js");
           const fold = (start_s, back_off_m) =>
             ({ kind: "fold", fold: 0, start_s, duration_s: 5, grips: [], base: { station: "front", back_off_m } });
           const primitives = [fold(0, 0), fold(5, 0.3), fold(10, 0.1)];
@@ -161,8 +161,8 @@ def test_the_base_lane_shows_that_the_base_drives_within_a_fold(page: Page) -> N
 def test_each_arm_of_a_robot_has_a_lane_whatever_it_is_called(page: Page) -> None:
     lanes, letters, titles = page.evaluate(
         """async () => {
-          const { laneBlocks } = await import("/static/js/dock/lane_blocks.js");
-          const { armLetter, armTitle, tellArms } = await import("/static/js/messages/arms.js");
+          const { laneBlocks } = await import("page/dock/lane_blocks.js");
+          const { armLetter, armTitle, tellArms } = await import("page/messages/arms.js");
           const names = ["upper", "under", "back_arm"];
           const grips = [{ arm: "under" }, { arm: "back_arm" }];
           const base = { station: null, back_off_m: 0 };
@@ -182,7 +182,7 @@ def test_each_arm_of_a_robot_has_a_lane_whatever_it_is_called(page: Page) -> Non
 def test_an_axis_has_round_times_and_not_too_many(page: Page) -> None:
     ticks = page.evaluate(
         """async () => {
-          const { axisTicks } = await import("/static/js/dock/time_axis.js");
+          const { axisTicks } = await import("page/dock/time_axis.js");
           return [0, 6, 53.6, 700].map(axisTicks);
         }"""
     )
@@ -197,10 +197,10 @@ def test_lengths_are_told_in_the_unit_of_the_page(page: Page) -> None:
     told = drag.inner_text()
     assert re.fullmatch(r"Drag [\d.]+ cm", told)
     inches = round(float(told.split()[1]) / 2.54, 2)
-    page.evaluate("async () => { (await import('/static/js/board/units.js')).unit.name = 'in' }")
+    page.evaluate("async () => { (await import('page/board/units.js')).unit.name = 'in' }")
     expect(drag).to_have_text(f"Drag {inches:g} in")
     expect(page.locator(".transport .now")).to_contain_text(f"{inches:g} in towards the robot")
-    page.evaluate("async () => { (await import('/static/js/board/units.js')).unit.name = 'cm' }")
+    page.evaluate("async () => { (await import('page/board/units.js')).unit.name = 'cm' }")
     expect(drag).to_have_text(told)
 
 

@@ -58,7 +58,7 @@ def test_what_hangs_loose_is_said_in_the_unit_of_the_page(page: Page, new_sheet:
     page.goto(lying_at(new_sheet, -0.5, 0.3).page_url)
     told = page.evaluate(
         """async () => {
-          const { sentence } = await import("/static/js/dock/reasons.js");
+          const { sentence } = await import("page/dock/reasons.js");
           const what = { code: "hangs_loose", layer: 0, edge: "far", at: [0.61, 0.57], beyond_m: 0.177 };
           const reason = { fold: null, code: "not_a_g_state", says: { code: "at_start", what, is_too_large: false } };
           const later = { ...reason, fold: 0, says: { code: "afterwards", what } };

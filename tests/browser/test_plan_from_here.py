@@ -249,7 +249,7 @@ def test_the_line_says_from_what_is_planned(page: Page, changes: dict[str, Any],
         "start_station": "front",
     }
     told = page.evaluate(
-        "async ([start, drawing]) => (await import('/static/js/messages/starts.js')).startInWords(start, drawing)",
+        "async ([start, drawing]) => (await import('page/messages/starts.js')).startInWords(start, drawing)",
         [{**START, **changes}, drawing],
     )
     assert told == words

@@ -103,8 +103,8 @@ class Read(HTMLParser):
         ]
 
     def handle_data(self, data: str) -> None:
-        """Take the text between tags."""
-        self.words += [data.strip()] if data.strip() else []
+        """Take the text between tags that is no script."""
+        self.words += [data.strip()] if data.strip() and self.cdata_elem is None else []
 
 
 def test_the_page_itself_says_its_name_alone() -> None:

@@ -14,7 +14,7 @@ import { language } from "./language.js";
 
 /** @param {string} code @returns {Promise<Catalogue>} */
 async function catalogue(code) {
-  const answer = await fetch(new URL(`../../words/${code}.json`, import.meta.url));
+  const answer = await fetch(`../static/words/${code}.json`);
   return answer.json();
 }
 

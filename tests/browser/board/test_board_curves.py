@@ -170,7 +170,7 @@ def test_the_board_flattens_a_curve_as_the_server_does(
         {"id": "b", "point": [x, y]},
         {"id": "c", "point": [0.5, 0.9]},
     ]
-    made = page.evaluate("async (outline) => (await import('/static/js/board/curves.js')).ringOf({outline})", outline)
+    made = page.evaluate("async (outline) => (await import('page/board/curves.js')).ringOf({outline})", outline)
     ring = ring_of((Corner("a", (0.1, 0.2), Curve(along, across)), Corner("b", (x, y)), Corner("c", (0.5, 0.9))))
     assert len(made) == len(ring.points)
     for point, known in zip(made, ring.points, strict=True):
