@@ -9,6 +9,7 @@ from itertools import islice, zip_longest
 from planner.cloth.g_state import Unrest
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s
+from planner.motion.fewer_hands import with_fewer_hands
 from planner.motion.tries import QUICK, Tries
 from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
@@ -123,7 +124,8 @@ class PathSearch:
         self._reached.clear()
 
     def _keep(self, acts: tuple[Act, ...]) -> None:
-        """Keep acts that can be performed if they are quicker than those kept."""
+        """Keep acts that can be performed if they are quicker than those kept; fewer hands may make them so."""
+        acts = with_fewer_hands(acts, self._problem.maker, QUICK)
         if acts and (not self._found or duration_s(acts) < duration_s(self._found)):
             self._found = acts
 

@@ -80,6 +80,10 @@ class MoveStep:
         """Return this step alone: there is no other route."""
         return (self,)
 
+    def with_fewer_hands(self) -> Iterable["MoveStep"]:
+        """Return nothing: a move takes no hands."""
+        return ()
+
     @property
     def motion(self) -> tuple[object, ...]:
         """The key that identifies it: kind, state before and state after."""

@@ -1,5 +1,6 @@
 """A fold as a step of a plan: reach the grips, lift them over the fold line, lay them down."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -93,8 +94,15 @@ class FoldStep:
     def variants(self) -> Iterator["FoldStep"]:
         """Yield this step, then every other way between the same states, the quickest first."""
         yield self
+        yield from self._others(math.inf)
+
+    def with_fewer_hands(self) -> Iterator["FoldStep"]:
+        """Yield the ways between the same states by fewer hands, which hold less firmly, the quickest first."""
+        yield from self._others(len(self.way.trial.arms) - 1)
+
+    def _others(self, hands_max: float) -> Iterator["FoldStep"]:
         fold, end = self.way.trial.fold, self.after.standoff
-        for variant in fold_variants(self.context, self.before, fold, end):
+        for variant in fold_variants(self.context, self.before, fold, end, hands_max):
             if variant.first == self.first_stand and variant.way.is_like(self.way):
                 continue
             driven = variant.steps - abs(variant.first - self.before.standoff)

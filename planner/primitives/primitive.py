@@ -48,6 +48,10 @@ class Varied(Protocol):
         """Return this step, then every other way between the same two states, the quickest first."""
         ...
 
+    def with_fewer_hands(self) -> "Iterable[Step]":
+        """Return the ways between the same two states by fewer hands than this step's, the quickest first."""
+        ...
+
     def begun_in(self, state: State) -> "Step":
         """Return the step begun in another state of the same situation."""
         ...

@@ -1,0 +1,44 @@
+"""Hands are taken away from a plan where that makes it quicker, and only where it is worth it."""
+
+from itertools import pairwise
+
+import pytest
+
+from planner import Scene, Task, load_garment
+from planner.motion.act import Act, duration_s
+from planner.motion.fewer_hands import with_fewer_hands
+from planner.motion.tries import QUICK
+from planner.planning import path_search
+from planner.planning.found_plan import FoundPlan
+from planner.plans import find_plan
+
+
+@pytest.fixture(scope="module")
+def firm() -> FoundPlan:
+    """Return a plan of the vest with as many hands as hold it firmly, by arms whose paths take longer than a motion."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(path_search, "with_fewer_hands", lambda acts, *_: tuple(acts))
+        return find_plan(Task.of(load_garment("vest"), Scene(arm_motion_s=1.0)))
+
+
+def hands(acts: tuple[Act, ...]) -> int:
+    return sum(len(step.grips) for act in acts for step in act.steps)
+
+
+def test_a_second_hand_that_makes_a_plan_slower_is_taken_away(firm: FoundPlan):
+    fewer = with_fewer_hands(firm.acts, firm.problem.maker, QUICK, worth_s=0.0)
+    assert hands(fewer) == hands(firm.acts) - 1
+    assert duration_s(fewer) < duration_s(firm.acts) - 0.005
+    steps = [step for act in fewer for step in act.steps]
+    assert all(before.after.key == after.before.key for before, after in pairwise(steps))
+
+
+def test_a_second_hand_that_costs_next_to_nothing_stays(firm: FoundPlan):
+    assert with_fewer_hands(firm.acts, firm.problem.maker, QUICK) == firm.acts
+
+
+def test_a_plan_that_takes_as_long_as_its_motions_keeps_its_hands():
+    found = find_plan(Task.of(load_garment("vest"), Scene()))
+    tries = found.problem.maker.tries
+    assert with_fewer_hands(found.acts, found.problem.maker, QUICK, worth_s=0.0) == found.acts
+    assert found.problem.maker.tries == tries
