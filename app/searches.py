@@ -21,6 +21,7 @@ from planner.planning.plan_check import require_replay
 from planner.robots.card_file import CardFile
 from planner.robots.collision.part_source import make_parts
 from planner.robots.described_robot import DescribedRobot, read_card
+from planner.robots.known_robots import robot_names
 from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -65,7 +66,10 @@ def suggest(tell: Tell, task: Task, known: Plan | None) -> bool:
     """Send None once the request is valid, then each trial and suggestion; return whether all were tried to the end."""
     os.nice(_NICENESS)
     found = suggestions(
-        task, plan=known, on_trial=lambda trial: tell(Tried({"kind": trial.kind, "says": trial.says.to_dict()}))
+        task,
+        plan=known,
+        on_trial=lambda trial: tell(Tried({"kind": trial.kind, "says": trial.says.to_dict()})),
+        other_robots=robot_names(),
     )
     tell(None)
     while True:

@@ -119,6 +119,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "fold_before", "fold": 1, "before": 0},
     {"code": "fold_in_order", "folds": [1, 0]},
     {"code": "stand_also_at", "station": "middle_left", "at": [0.0, 400.0]},
+    {"code": "other_robot", "robot": "ur5e-pair", "title": "Two UR5e"},
     {"code": "assume_comfort", "comfort_m": 0.01, "now_m": 0.03},
     {"code": "assume_friction", "friction": 1.5, "now": 1.0},
     {"code": "assume_grip_radius", "grip_radius_m": 0.15, "folds": [0, 1]},

@@ -158,6 +158,7 @@ class Change(BaseModel):
     scene: Scene | None = None
     start_station: str | None = None
     comfort_radius_m: float | None = None
+    robot: str | None = None
 
 
 class ApproachAnswer(BaseModel):

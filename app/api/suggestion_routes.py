@@ -45,6 +45,7 @@ Kind = Literal[
     "flip",
     "order",
     "station",
+    "robot",
     "size",
     "friction",
     "grip_radius",
@@ -201,8 +202,9 @@ async def post_suggestions(
     """Find the smallest changes that give a plan, each with its plan, and return them as server-sent events.
 
     Each event `trying` names a change before it is planned, each event `suggestion` has one change as it is found;
-    `done` then says whether all changes were tried in the time. A change replaces fields of the request. If there is a
-    plan already, only a better placement is suggested.
+    `done` then says whether all changes were tried in the time. A change replaces fields of the request. Other robots
+    are tried at last, where fewer than three kinds of change help. If there is a plan already, only a better placement
+    is suggested.
     """
     async for event in search.events():
         yield event

@@ -29,6 +29,7 @@ from planner.cloth.garment import Garment
 from planner.cloth.garment_files import read_json
 from planner.errors import SceneError
 from planner.planning.robot_task import default_scene, scene_filled_up, task_for
+from planner.robots.known_robots import robot_names
 from planner.task.plan_files import read_plan, write_plan
 from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, TaskOptions
 from planner.words.catalogue import sentence
@@ -165,7 +166,7 @@ def _print_suggestions(answer: Plan) -> None:
     work_s = limits.work_limit_s or limits.time_limit_s
     time_s = min(_SLOWDOWN_MAX * work_s, TIME_LIMIT_S[1])
     task = replace(answer.task, limits=replace(limits, work_limit_s=work_s, time_limit_s=time_s))
-    found = list(suggestions(task, plan=answer))
+    found = list(suggestions(task, plan=answer, other_robots=robot_names()))
     if found:
         output.print(suggestion_table(answer.garment, found))
     else:

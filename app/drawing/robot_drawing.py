@@ -3,19 +3,14 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-import numpy as np
-
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
 from planner.cloth.garment import Garment, centred_placement
 from planner.geometry.pose import Pose2
-from planner.planning.robot_task import default_placement, default_scene
+from planner.planning.robot_task import default_placement, default_scene, near_placement
 from planner.robots.load_robot import robot_card_file
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
-
-INSIDE_M = 0.05
-"""The distance of the cloth from the table's near edge for the default robot (m)."""
 
 
 def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> Drawing:
@@ -62,7 +57,4 @@ def _placement(drawing: Drawing, garment: Garment | None, scene: Scene, robot: s
         return centred_placement(((0.0, 0.0),)) if robot == DEFAULT_ROBOT else suits
     if robot != DEFAULT_ROBOT:
         return default_placement(garment, robot)
-    turned = Pose2(0.0, 0.0, drawing.placement.yaw_rad)
-    corners = turned.to_outer(np.array(garment.outline))
-    (x0, y0), (_, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
-    return turned.moved(INSIDE_M - scene.table.depth_m / 2 - x0, -(y0 + y1) / 2)
+    return near_placement(garment, scene.table, drawing.placement.yaw_rad)

@@ -16,8 +16,8 @@ class Suggestion:
     """A change that gives a plan, or a quicker one.
 
     Attributes:
-        kind: "placement", "fold_line", "split", "halve", "flip", "order", "station", "size", "friction",
-            "grip_radius", "comfort_radius" or "together", several of the last three.
+        kind: "placement", "fold_line", "split", "halve", "flip", "order", "station", "robot", "size",
+            "friction", "grip_radius", "comfort_radius" or "together", several of the last three.
         says: what to do, with the numbers; directions as seen by the robot at the near edge of the table.
         change: fields that replace those of the plan request.
         size: the size of the change, for comparing within its kind: m, a count, or a coefficient.

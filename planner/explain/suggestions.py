@@ -17,6 +17,7 @@ from planner.explain.suggestion_flip import flips
 from planner.explain.suggestion_fold_line import fold_lines
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_placement import placements
+from planner.explain.suggestion_robot import robots
 from planner.explain.suggestion_size import sizes
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_together import together
@@ -30,6 +31,9 @@ from planner.task.task import Task
 TOLD_MAX = 3
 """Suggestions of one kind at most."""
 
+ENOUGH_KINDS = 3
+"""Kinds of help with which no other robot is looked for."""
+
 Suggestions: TypeAlias = Generator[Suggestion, None, bool]
 """Suggestions as they are found; returns whether of all changes it is known by then if they give a plan."""
 
@@ -39,8 +43,11 @@ _FIRST_PLAN_SHARE = 0.5
 _CHANGES_SHARE = 0.6
 """Share of the work after which assumptions get their turns."""
 
-_SIZES_SHARES = (0.3, 0.5)
-"""Shares of the work after which, where nothing has helped by then, smaller sizes are tried, and up to which."""
+_SIZES_SHARE = 0.7
+"""Share of the work up to which, where no change has helped by then, smaller sizes are tried before assumptions."""
+
+_OWN_SHARE = 0.75
+"""Share of the work that is for the task's own robot, where others may be tried."""
 
 _FOLDS_MAX = 3
 """Folds to blame that changes are tried for."""
@@ -52,6 +59,7 @@ def suggestions(
     should_stop: Callable[[], bool] | None = None,
     plan: Plan | None = None,
     on_trial: Callable[[Trial], None] | None = None,
+    other_robots: Sequence[str] = (),
 ) -> Suggestions:
     """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
 
@@ -63,6 +71,7 @@ def suggestions(
         should_stop: polled while searching; true ends the suggestions.
         plan: the answer to the task, where it is known.
         on_trial: called with each change before it is planned.
+        other_robots: the names of robots that may fold it, tried at last, and only where few kinds of change help.
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
@@ -76,10 +85,13 @@ def suggestions(
     whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     budget = TrialBudget(whole)
     known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
-    return _searched(task, known, budget, on_trial or _ignore)
+    names = () if known.is_solved else tuple(other_robots)
+    return _searched(task, known, budget, on_trial or _ignore, names)
 
 
-def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Suggestions:
+def _searched(
+    task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[Trial], None], names: Sequence[str]
+) -> Suggestions:
     """Give every kind of change its turns, and in the end its last word."""
     folds = () if known.is_solved else _blocking(known)
     if known.is_solved:
@@ -95,17 +107,20 @@ def _searched(task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[
             stations(task),
         )
         assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
-    if not known.is_solved:
-        begin, end = _SIZES_SHARES
-        yield from _by_turns(changes, budget, on_trial, begin)
-        if not any(lane.has_found for lane in changes):
-            changes += _lanes(sizes(task))
-            yield from _by_turns(changes[-1:], budget, on_trial, end)
-    yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else 1.0)
-    yield from _by_turns(assumptions, budget, on_trial, 1.0)
+    own = _OWN_SHARE if names else 1.0
+    yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else own)
+    if not known.is_solved and not any(lane.has_found for lane in changes):
+        changes += _lanes(sizes(task))
+        yield from _by_turns(changes[-1:], budget, on_trial, _SIZES_SHARE)
+    yield from _by_turns(assumptions, budget, on_trial, own)
     if assumptions and not any(lane.has_found for lane in assumptions):
         assumptions += _lanes(together(task, folds))
-        yield from _by_turns(assumptions, budget, on_trial, 1.0)
+        yield from _by_turns(assumptions, budget, on_trial, own)
+    yield from _by_turns(changes, budget, on_trial, own)
+    if sum(lane.has_found for lane in (*changes, *assumptions)) < ENOUGH_KINDS:
+        changes += _lanes(robots(task, names))
+        yield from _by_turns(changes[-1:], budget, on_trial, 1.0)
+    yield from _by_turns(assumptions, budget, on_trial, 1.0)
     yield from _by_turns(changes, budget, on_trial, 1.0)
     lanes = (*changes, *assumptions)
     is_complete = all(lane.is_done for lane in lanes) and not budget.has_unknown

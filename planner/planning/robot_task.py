@@ -10,11 +10,15 @@ import numpy as np
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table import Table
 from planner.robots.card_file import CardFile
 from planner.robots.load_robot import robot_card_file
 from planner.robots.varied_card import split_changes
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
+
+INSIDE_M = 0.05
+"""The distance of the cloth from the table's near edge, for a robot that has no placement of its own (m)."""
 
 _DECIMALS = 6
 """The resolution at which two overhangs beyond the table count as equal (decimals of a metre)."""
@@ -83,6 +87,14 @@ def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     x_m, y_m = (np.clip([suits.placement.x_m, suits.placement.y_m], -room, room) - middle).tolist()
     return turned.moved(x_m, y_m)
+
+
+def near_placement(garment: Garment, table: Table, yaw_rad: float) -> Pose2:
+    """Return the placement of an article turned by an angle whose near edge lies just inside the table's (m)."""
+    turned = Pose2(0.0, 0.0, yaw_rad)
+    corners = turned.to_outer(np.array(garment.outline))
+    (x0, y0), (_, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return turned.moved(INSIDE_M - table.depth_m / 2 - x0, -(y0 + y1) / 2)
 
 
 def _size(garment: Garment, turned: Pose2) -> FloatArray:

@@ -78,6 +78,10 @@ def _stand_also_at(values: Values, _folds: Folds) -> str:
     return f"{named}, {where} as seen from the table's middle" if where else named
 
 
+def _other_robot(values: Values, _folds: Folds) -> str:
+    return f"Let {values['title']} fold it, at its own table"
+
+
 def _assume_comfort(values: Values, _folds: Folds) -> str:
     return f"Assume that a comfort radius of {in_cm(values['comfort_m'])} is enough, not {in_cm(values['now_m'])}"
 
@@ -111,6 +115,7 @@ FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "split_fold": _split_fold,
     "halve_first": _halve_first,
     "stand_also_at": _stand_also_at,
+    "other_robot": _other_robot,
     "assume_comfort": _assume_comfort,
     "assume_friction": _assume_friction,
     "assume_grip_radius": _assume_grip_radius,

@@ -9,12 +9,12 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing_json import drawing_from_dict, drawing_to_dict
 from app.drawing.garment_drawing import drawing_of
-from app.drawing.robot_drawing import INSIDE_M, with_robot
+from app.drawing.robot_drawing import with_robot
 from app.drawing.solve import solve
 from planner import Scene, load_garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.planning.robot_task import task_for
+from planner.planning.robot_task import INSIDE_M, task_for
 from tests.app.document_requests import created, put
 from tests.app.drawing.drawings import outlined, towel_drawing
 from tests.app.test_garbage import assert_problem

@@ -1,11 +1,14 @@
-"""Two versions of a document side by side, played by one clock."""
+"""Two plans side by side, played by one clock: of a document's versions, of other documents, stored ones."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from planner import load_garment
+from tests.app.conftest import REST, Served
 from tests.browser.conftest import STAGE_PATIENCE_MS, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 
@@ -50,3 +53,58 @@ def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: P
     expect(left).to_have_text(right.inner_text())
     expect(dialog.locator(".is-missing")).to_have_count(0)
     expect(dialog.locator(".compare-sum td").last).to_have_text("=")
+
+
+def test_another_document_and_a_plan_by_its_id_or_its_file_are_compared_in_the_same_dialog(
+    page: Page, moved: Sheet, new_sheet: Callable[[Garment], Sheet], designer: Served, tmp_path: Path
+) -> None:
+    new_sheet({**load_garment("letter-towel").to_dict(), "title": "Elsewhere folded"})
+    wanted = {"garment": "hand-towel", "time_limit_s": 60.0}
+    stored = REST.post(f"{designer.url}/api/plans", json=wanted).raise_for_status().json()
+    file = tmp_path / "kept.plan.json"
+    file.write_bytes(REST.get(f"{designer.url}/api/plans/{stored['id']}/file").raise_for_status().content)
+    page.get_by_role("button", name="Compare", exact=True).click()
+    dialog = page.get_by_role("dialog", name="Two plans side by side")
+    left, right = dialog.get_by_label("Left"), dialog.get_by_label("Right")
+    costs = [dialog.locator(".compare-cost").nth(side) for side in (0, 1)]
+
+    other = left.locator("optgroup[label='Other documents'] option", has_text="Elsewhere folded").first
+    left.select_option(value=other.get_attribute("value"))
+    expect(costs[0]).to_contain_text("steps")
+
+    right.select_option(label="A plan by its file or id…")
+    dialog.get_by_label("Id of a plan").last.fill("nowhere")
+    dialog.get_by_role("button", name="Show").last.click()
+    expect(costs[1]).to_contain_text("nowhere")
+    dialog.get_by_label("Id of a plan").last.fill(stored["id"])
+    dialog.get_by_role("button", name="Show").last.click()
+    expect(costs[1]).to_have_text(f"{len(stored['primitives'])} steps, {stored['cost_s']:.1f} s")
+
+    left.select_option(label="A plan by its file or id…")
+    dialog.get_by_label("Choose a file").first.set_input_files(file)
+    expect(costs[0]).to_have_text(costs[1].inner_text())
+    expect(dialog.locator(".compare-sum td").last).to_have_text("=")
+    assert len(right.locator("optgroup[label='Plans'] option").all()) == 3  # both plans, and the way to another one
+
+
+def test_a_plan_file_dropped_on_a_side_is_shown_there_and_one_that_is_none_is_refused(
+    page: Page, moved: Sheet, designer: Served
+) -> None:
+    wanted = {"garment": "hand-towel", "time_limit_s": 60.0}
+    stored = REST.post(f"{designer.url}/api/plans", json=wanted).raise_for_status().json()
+    text = REST.get(f"{designer.url}/api/plans/{stored['id']}/file").raise_for_status().text
+    page.get_by_role("button", name="Compare", exact=True).click()
+    dialog = page.get_by_role("dialog", name="Two plans side by side")
+    cost = dialog.locator(".compare-cost").first
+    expect(cost).to_contain_text(" s", timeout=STAGE_PATIENCE_MS)
+    drop = """(side, text) => {
+      const data = new DataTransfer();
+      data.items.add(new File([text], "kept.plan.json"));
+      side.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+    }"""
+    side = dialog.locator(".compare-side").first
+    side.evaluate(drop, "{}")
+    expect(cost).to_contain_text("kept.plan.json is no plan")
+    expect(dialog).to_be_visible()
+    side.evaluate(drop, text)
+    expect(cost).to_have_text(f"{len(stored['primitives'])} steps, {stored['cost_s']:.1f} s")

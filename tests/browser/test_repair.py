@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page, Route, expect
 
+from tests.app.conftest import REST
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
@@ -90,3 +91,25 @@ def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     page.get_by_role("button", name="1 more").click()
     expect(cards).to_have_count(4)
     assert "RUBBISH" not in page.locator("body").inner_text()
+
+
+def test_another_robot_that_can_is_a_card_one_click_and_one_undo(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    folds = [{"name": "half", "kind": "blue", "start": [0.6, 0.45], "end": [0.0, 0.45]}]
+    sheet = new_sheet({"name": "towel", "outline": [[0, 0], [0.6, 0], [0.6, 0.9], [0, 0.9]], "folds": folds})
+    REST.put(f"{sheet.path}/robot", json={"robot": "so101-pair"}).raise_for_status()
+    before = sheet.drawing
+    page.goto(sheet.page_url)
+    other = page.locator(".card[data-kind=robot]")
+    expect(other).to_have_count(1, timeout=SEARCH_MS)
+    expect(other).to_contain_text(re.compile(r"Let .* fold it.*[\d.]+ s", re.DOTALL))
+    assert other.get_attribute("data-title") == "Change the robot"
+    other.click()
+    expect_planned(page)
+    assert sheet.drawing["robot"] != "so101-pair"
+    assert sheet.drawing["outline"] == before["outline"]
+    page.keyboard.press("Control+z")
+    expect(page.locator(".repair")).to_be_visible()
+    after = sheet.at_rest()["drawing"]
+    assert {**after, "folds": []} == {**before, "folds": []}

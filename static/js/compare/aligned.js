@@ -9,7 +9,7 @@ import { briefly } from "../dock/words.js";
 
 /** @param {Compared} compared @returns {{step: Primitive, what: string}[]} */
 const stepsOf = ({ plan, drawing }) =>
-  (plan?.primitives ?? []).map((step) => ({ step, what: `${step.kind} ${briefly(step, drawing.folds)}` }));
+  (plan?.primitives ?? []).map((step) => ({ step, what: `${step.kind} ${briefly(step, drawing?.folds ?? [])}` }));
 
 /**
  * The longest sequence of steps that both have stands in common rows, the others in rows of their own.

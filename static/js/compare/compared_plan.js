@@ -1,15 +1,17 @@
-/** One of two plans that are compared: how a version of the drawing is planned, and what is known of its steps. */
+/** One of two plans that are compared: how a drawing is planned, and what is known of a plan's steps. */
 
 import { ringOf } from "../board/curves.js";
 import { sentenceOf } from "../dialogs/dialog.js";
 import { say } from "../language/say.js";
 
-/** @import { Drawing, Plan, StepPicture } from "pleat" */
+/** @import { Drawing, Plan, Scene, StepPicture } from "pleat" */
+/** @import { Named } from "../messages/names.js" */
 
+/** @typedef {{folds: Named[], scene: Scene}} Folded what is folded, and where */
 /**
- * What there is to compare: the plan of a drawing, or why there is none.
+ * What there is to compare: a plan, or why there is none.
  * @typedef {object} Compared
- * @property {Drawing} drawing
+ * @property {Folded|null} drawing null where it could not be read
  * @property {Plan|null} plan
  * @property {StepPicture[]} pictures one more than the plan has steps
  * @property {string} problem
@@ -27,6 +29,16 @@ const TIME_LIMIT_S = 30;
 export async function comparedPlan(drawing, known, signal) {
   const plan = (known && (await told(`../api/plans/${known}`, signal))) || (await planned(drawing, signal));
   if (typeof plan === "string") return { drawing, plan: null, pictures: [], problem: plan };
+  return storedPlan(drawing, plan, signal);
+}
+
+/**
+ * @param {Folded} drawing
+ * @param {Plan} plan
+ * @param {AbortSignal} signal
+ * @returns {Promise<Compared>}
+ */
+export async function storedPlan(drawing, plan, signal) {
   if (plan.status !== "solved") return { drawing, plan: null, pictures: [], problem: say("compare.no_plan") };
   const pictures = (await told(`../api/plans/${plan.id}/pictures`, signal)) ?? [];
   return { drawing, plan, pictures, problem: "" };

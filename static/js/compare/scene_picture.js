@@ -14,16 +14,23 @@ const ROUND_M = 0.08;
 /** A point of the table's frame, whose y is up, in the picture. @param {Point} at @returns {Point} */
 const up = ([x, y]) => [x, -y];
 
-/** @param {SVGElement} root @param {Compared} compared @param {number} t_s */
-export function drawScene(root, { drawing, plan, pictures }, t_s) {
-  const { depth_m: deep, width_m: wide } = drawing.scene.table;
+/** Half the depth and half the width of what a picture has to show (m). @param {Compared} compared @returns {Point} */
+export function extentOf({ drawing, pictures }) {
+  const { depth_m: deep, width_m: wide } = drawing?.scene.table ?? { depth_m: 0, width_m: 0 };
   const bases = pictures.map(({ base: { x_m, y_m } }) => [Math.abs(x_m), Math.abs(y_m)]);
   /** @param {0|1} axis @param {number} edge */
   const half = (axis, edge) => Math.max(edge, ...bases.map((at) => at[axis] + BASE_M)) + ROUND_M;
-  const [x, y] = [half(0, deep / 2), half(1, wide / 2)];
+  return [half(0, deep / 2), half(1, wide / 2)];
+}
+
+/** @param {SVGElement} root @param {Compared} compared @param {number} t_s @param {Point} extent as of `extentOf` */
+export function drawScene(root, { drawing, plan, pictures }, t_s, [x, y]) {
+  root.replaceChildren();
+  if (!drawing) return;
+  const { depth_m: deep, width_m: wide } = drawing.scene.table;
   root.setAttribute("viewBox", `${-x} ${-y} ${2 * x} ${2 * y}`);
   const table = svg("rect", { class: "compare-table", x: -deep / 2, y: -wide / 2, width: deep, height: wide });
-  root.replaceChildren(table);
+  root.append(table);
   const index = plan ? primitiveAt(plan, t_s) : 0;
   const [now, next] = [pictures[index], pictures[index + 1]];
   const step = plan?.primitives[index];

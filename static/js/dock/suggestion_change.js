@@ -21,6 +21,7 @@ const SAME_M = 1e-9;
 export function applyChange(drawing, change, added = null) {
   if (change.drawing) return structuredClone(change.drawing);
   if (change.garment?.outline) resize(drawing, change.garment.outline);
+  drawing.robot = change.robot ?? drawing.robot;
   drawing.placement = change.placement ?? drawing.placement;
   drawing.scene = change.scene ?? drawing.scene;
   drawing.start_station = change.start_station ?? drawing.start_station;

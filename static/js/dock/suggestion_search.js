@@ -113,7 +113,7 @@ const SAME_M = 0.01;
 const WORTH_S = 1;
 
 /** What is easily done, and leaves the cloth folded as it is drawn, comes first. */
-const CHANGED = ["placement", "order", "split", "fold_line", "flip", "halve", "station", "size"];
+const CHANGED = ["placement", "order", "split", "fold_line", "flip", "halve", "station", "robot", "size"];
 const EASE = [...CHANGED, "friction", "grip_radius", "comfort_radius", "together"];
 
 /**
@@ -125,12 +125,18 @@ const EASE = [...CHANGED, "friction", "grip_radius", "comfort_radius", "together
 export function ranked(found) {
   const kinds = [...new Set(found.map((one) => one.kind))];
   kinds.sort((a, b) => EASE.indexOf(a) - EASE.indexOf(b));
-  const groups = kinds.map((kind) => cheaperAsTheyGrow(found.filter((one) => one.kind === kind)));
+  const groups = kinds.map((kind) => {
+    const group = found.filter((one) => one.kind === kind);
+    return kind === "robot" ? [quickest(group)] : cheaperAsTheyGrow(group);
+  });
   const isFirst = new Set(groups.map(([first]) => first));
   /** @param {SuggestionEvent} one */
   const rank = (one) => 2 * Number(one.is_assumption) + Number(!isFirst.has(one));
   return groups.flat().sort((a, b) => rank(a) - rank(b));
 }
+
+/** @param {SuggestionEvent[]} group */
+const quickest = (group) => group.reduce((best, one) => (one.cost_s < best.cost_s ? one : best));
 
 /**
  * Smallest first; a larger change only if its plan is cheaper than those of all smaller ones, and of two alike one.

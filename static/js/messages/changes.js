@@ -40,6 +40,7 @@ export const CHANGES = {
     if (!way) return say("message.stand_also_at", { station: place(station) });
     return say("message.stand_also_at.where", { station: place(station), way });
   },
+  other_robot: ({ title }) => say("message.other_robot", { title }),
   assume_comfort: ({ comfort_m: enough, now_m: now }) =>
     say("message.assume_comfort", { enough: length(enough), now: length(now) }),
   assume_friction: ({ friction, now }) =>
@@ -81,6 +82,7 @@ export const HELP = {
   place: say("repair_kind.place"),
   fold: say("repair_kind.fold"),
   assume: say("repair_kind.assume"),
+  robot: say("repair_kind.robot"),
 };
 
 /** The fold that a suggestion adds, and before which; null for none. @param {Says} says @param {Named[]} folds */

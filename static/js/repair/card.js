@@ -18,11 +18,15 @@ const GROUP_OF = {
   placement: "place",
   size: "place",
   station: "assume",
+  robot: "assume",
   friction: "assume",
   grip_radius: "assume",
   comfort_radius: "assume",
   together: "assume",
 };
+
+/** Kinds that take the place of an assumption, and are none. */
+const ABOUT_ROBOT = new Set(["station", "robot"]);
 
 /** @param {Suggestion} one */
 export const groupOf = ({ kind }) => GROUP_OF[kind] ?? "fold";
@@ -38,7 +42,7 @@ export function card(store, suggestion) {
   const made = button("card", () => {}, shown, element("span", "card-words", ...parts));
   made.dataset.kind = suggestion.kind;
   made.dataset.group = groupOf(suggestion);
-  made.dataset.title = HELP[groupOf(suggestion)];
+  made.dataset.title = ABOUT_ROBOT.has(suggestion.kind) ? HELP.robot : HELP[groupOf(suggestion)];
   made.setAttribute("aria-description", made.dataset.title);
   offer(store, suggestion, made);
   return made;

@@ -1,0 +1,88 @@
+"""Another robot is offered where few kinds of change help: the quickest that can, at its own table."""
+
+from contextlib import suppress
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from planner import Task, load_garment, make_plan
+from planner.explain import suggestions as searching
+from planner.explain.suggestion import Suggestion
+from planner.explain.suggestion_robot import robots
+from planner.explain.suggestion_trial import Trial
+from planner.explain.suggestions import suggestions
+from planner.geometry.pose import Pose2
+from planner.planning.robot_task import default_scene, task_for
+from planner.task.plan import Plan
+from tests.builders import fold, garment, rectangle_points
+
+SMALL = garment(rectangle_points(0.24, 0.2), fold((0.24, 0.1), (0.0, 0.1)))
+"""A napkin that a robot with short arms can fold."""
+
+LONG = garment(rectangle_points(0.6, 0.9), fold((0.6, 0.45), (0.0, 0.45)))
+"""A towel that is too long for short arms."""
+
+SHORT = "so101-pair"
+
+
+def first_trial(task: Task, names: tuple[str, ...]) -> Trial:
+    wish = next(robots(task, names))
+    assert isinstance(wish, Trial)
+    return wish
+
+
+def test_a_towel_too_long_for_short_arms_is_given_to_another_robot_with_its_plan() -> None:
+    task = task_for(LONG, robot=SHORT, work_limit_s=2.0, time_limit_s=60.0)
+    found = [one for one in suggestions(task, other_robots=(SHORT, "pr2")) if one.kind == "robot"]
+    assert found
+    change = found[-1].change
+    assert change["robot"] == "pr2" and "PR2" in found[-1].message and not found[-1].is_assumption
+    again = task_for(
+        LONG,
+        default_scene("pr2"),
+        placement=Pose2(**change["placement"]),
+        start_station=change["start_station"],
+        time_limit_s=60.0,
+    )
+    assert make_plan(again).cost_s == pytest.approx(found[-1].cost_s, abs=1e-9)
+
+
+def test_the_tasks_own_robot_and_one_that_is_not_there_are_left_out() -> None:
+    trial = first_trial(task_for(SMALL, robot=SHORT), (SHORT, "nobody", "pr2"))
+    assert trial.says.values["robot"] == "pr2"
+    with pytest.raises(StopIteration):
+        next(robots(task_for(SMALL, robot=SHORT), (SHORT, "nobody")))
+
+
+def test_cloth_that_is_folded_in_part_is_not_carried_to_another_table() -> None:
+    task = task_for(SMALL)
+    begun = replace(task, start=replace(task.start, folds_done=(0,)))
+    with pytest.raises(StopIteration):
+        next(robots(begun, (SHORT,)))
+
+
+@pytest.mark.parametrize(("second_s", "offered"), [(29.5, ["pr2"]), (20.0, ["pr2", SHORT])])
+def test_of_two_robots_the_later_is_offered_only_if_it_is_quicker_by_a_second(second_s: float, offered: list[str]):
+    search, kept = robots(task_for(SMALL, robot="ur5e-pair"), ("pr2", SHORT)), []
+    for cost_s in (30.0, second_s):
+        trial = next(search)
+        assert isinstance(trial, Trial)
+        with suppress(StopIteration):
+            kept.append(search.send(cast(Plan, SimpleNamespace(cost_s=cost_s))))
+    assert [one.change["robot"] for one in kept if isinstance(one, Suggestion)] == offered
+
+
+def test_no_robot_is_tried_where_three_kinds_of_change_help_or_there_is_a_plan(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def none_asked(*_: Any) -> Any:
+        raise AssertionError("a robot was looked for")
+
+    monkeypatch.setattr(searching, "ENOUGH_KINDS", 0)
+    monkeypatch.setattr(searching, "robots", none_asked)
+    task = task_for(LONG, robot=SHORT, work_limit_s=0.5, time_limit_s=60.0)
+    list(suggestions(task, other_robots=("pr2",)))
+    towel = task_for(load_garment("hand-towel"), work_limit_s=0.5, time_limit_s=60.0)
+    assert all(one.kind == "placement" for one in suggestions(towel, other_robots=(SHORT,)))
