@@ -4,16 +4,14 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from app.comfort_margin import STEPS, comfort_margin_m
 from planner.cloth.garment import Garment
 from planner.explain.suggestion import Suggestion
 from planner.explain.suggestions import suggestions
 from planner.planning.robot_task import task_for
 from planner.plans import make_plan
 from planner.task.plan import Plan
-from planner.task.task import COMFORT_MAX_M, Limits, Task
-
-_MARGIN_STEPS = 4
-"""Halvings with which the tightest margin is found: to some millimetres."""
+from planner.task.task import Limits, Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,12 +75,5 @@ def compared(
 
 
 def _margin_m(task: Task, should_stop: Callable[[], bool] | None) -> float:
-    """Return the largest comfort radius, at least the task's, for which there is a plan (m), rounded down."""
-    share = replace(task.limits, time_limit_s=max(task.limits.time_limit_s / _MARGIN_STEPS, 0.01))
-    had, lacking = task.limits.comfort_radius_m, COMFORT_MAX_M
-    for _ in range(_MARGIN_STEPS):
-        middle = 0.5 * (had + lacking)
-        tried = replace(task, limits=share).within(middle)
-        is_solved = make_plan(tried, should_stop=should_stop).is_solved
-        had, lacking = (middle, lacking) if is_solved else (had, middle)
-    return had
+    share = replace(task.limits, time_limit_s=max(task.limits.time_limit_s / STEPS, 0.01))
+    return comfort_margin_m(replace(task, limits=share), lambda tried: make_plan(tried, should_stop=should_stop))

@@ -24,6 +24,9 @@ from bench.crowd import EDITS_PER_S, PATIENCE_S, STROKE, circled
 PLAN_LIMIT_S = 5.0
 """Time limit of each plan that is asked for (s)."""
 
+_IDLE_S = 2.0
+"""Time after which an idle connection is given up (s): the server waits 5 s, and might close one just used again."""
+
 _CONFLICT = 409
 
 
@@ -50,7 +53,7 @@ class Heard:
 
 def client(url: str) -> httpx.AsyncClient:
     """Return a client that opens as many connections as it needs."""
-    limits = httpx.Limits(max_connections=None, max_keepalive_connections=64)
+    limits = httpx.Limits(max_connections=None, max_keepalive_connections=64, keepalive_expiry=_IDLE_S)
     return httpx.AsyncClient(base_url=url, timeout=PATIENCE_S, limits=limits, trust_env=False)
 
 

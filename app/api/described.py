@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from app.api.body import JsonBody
 from app.api.problems import MEDIA_TYPE
 
+_INVALID, _OF_FASTAPI = "422", "HTTPValidationError"
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
 
@@ -69,7 +70,11 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
 
 
 def describe(app: FastAPI, *models: type[BaseModel]) -> None:
-    """Add the schemas that no route's signature names to the description: problems and websocket messages."""
+    """Add the schemas that no route's signature names to the description, and say that all errors are problems.
+
+    Problems and websocket messages are in no signature. FastAPI describes its own answer to parameters that are not
+    valid, in place of which a problem is sent.
+    """
     plain = app.openapi
 
     def openapi() -> dict[str, Any]:
@@ -77,9 +82,20 @@ def describe(app: FastAPI, *models: type[BaseModel]) -> None:
         schemas = description.setdefault("components", {}).setdefault("schemas", {})
         for model in models:
             schemas.update(_schemas(model))
+        _tell_of_problems(description)
         return description
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _tell_of_problems(description: dict[str, Any]) -> None:
+    """Put problems in place of FastAPI's own description of parameters that are not valid."""
+    for operations in description["paths"].values():
+        for operation in operations.values():
+            if _OF_FASTAPI in str(operation["responses"].get(_INVALID)):
+                operation["responses"][_INVALID] = problems(int(_INVALID))[int(_INVALID)]
+    for name in (_OF_FASTAPI, "ValidationError"):
+        description["components"]["schemas"].pop(name, None)
 
 
 def _schemas(model: type[BaseModel]) -> dict[str, Any]:

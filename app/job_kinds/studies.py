@@ -42,6 +42,7 @@ class StudyRequest:
     placements: str | list[Any] | dict[str, Any] | None = None
     limits: dict[str, Any] | None = None
     sample: dict[str, Any] | None = None
+    comfort_margin: bool | None = None
     cells_max: int | None = None
 
 

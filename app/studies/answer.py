@@ -11,7 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from app.comfort_margin import comfort_margin_m
 from app.studies.cell import Cell
+from planner.planning.margins import margins_of
 from planner.task.plan import Plan
 from planner.task.task import Task
 
@@ -34,10 +36,18 @@ RESULT_COLUMNS: Mapping[str, type] = {
     "reason_folds": str,
     "short_by_m": float,
     "reachable_comfort_m": float,
+    "reach_margin_m": float,
+    "reach_margin_step": int,
+    "grips_margin_m": float,
+    "friction_margin": float,
+    "edge_margin_m": float,
     "plan_id": str,
     "error": str,
 }
 """The columns of a row after its axes: where the article lies, what came out, and why."""
+
+COMFORT_MARGIN = "comfort_margin_m"
+"""The column of the margin that takes further plans, there only where a study asks for it."""
 
 TIMING_COLUMNS = ("wall_s", "cpu_s", "search_s", "joint_s", "ik_queries")
 
@@ -68,6 +78,9 @@ def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Ans
         return failed(cell, cell.error or "")
     try:
         plan = make_plan(cell.task)
+        planned_s, margins = time.perf_counter() - began_s, _margins(plan)
+        if cell.has_comfort_margin and plan.is_solved:
+            margins[COMFORT_MARGIN] = comfort_margin_m(cell.task, make_plan)
     except Exception as error:
         return failed(cell, f"{type(error).__name__}: {error}")
     timing = {
@@ -78,7 +91,7 @@ def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Ans
         "ik_queries": float(plan.statistics.ik_queries),
     }
     kept = gzip.compress(json.dumps(plan.to_dict()).encode(), mtime=0) if keep_plan else None
-    return Answer(cell.index, _row(plan, timing["wall_s"]), timing, kept)
+    return Answer(cell.index, {**_row(plan, planned_s), **margins}, timing, kept)
 
 
 def failed(cell: Cell, error: str) -> Answer:
@@ -96,6 +109,20 @@ def _lying(task: Task | None) -> dict[str, float]:
     return {} if task is None else task.start.placement.to_dict()
 
 
+def _margins(plan: Plan) -> dict[str, Any]:
+    """Return the margins that can be read from a plan."""
+    found = margins_of(plan)
+    if found is None:
+        return {}
+    return {
+        "reach_margin_m": found.reach_m,
+        "reach_margin_step": found.reach_step,
+        "grips_margin_m": found.grips_m,
+        "friction_margin": found.friction,
+        "edge_margin_m": found.edge_m,
+    }
+
+
 def _row(plan: Plan, wall_s: float) -> dict[str, Any]:
     """Return the row of a plan; of all that is short, it tells the least, for that is what to mend first."""
     short = [reason.short_by_m for reason in plan.reasons if reason.short_by_m is not None]
@@ -104,6 +131,7 @@ def _row(plan: Plan, wall_s: float) -> dict[str, Any]:
     limit_s = plan.task.limits.time_limit_s
     is_late = plan.statistics.is_cut_short and wall_s >= limit_s
     return {
+        **dict.fromkeys(RESULT_COLUMNS),
         **_lying(plan.task),
         "status": plan.status,
         "cost_s": plan.cost_s,

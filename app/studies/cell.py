@@ -34,6 +34,7 @@ class Cell:
         values: its values on the other axes, by name.
         task: its task; None where the values make none.
         error: why there is none.
+        has_comfort_margin: whether its answer is to tell the comfort margin.
     """
 
     index: int
@@ -41,6 +42,7 @@ class Cell:
     values: Mapping[str, Value]
     task: Task | None
     error: str | None = None
+    has_comfort_margin: bool = False
 
 
 def cell_of(

@@ -35,6 +35,13 @@ def text(field: str, given: object) -> str:
     return given
 
 
+def truth(field: str, given: object) -> bool:
+    """Return true or false; raise `StudyError`."""
+    if not isinstance(given, bool):
+        raise StudyError(field, f"{given!r} is neither true nor false")
+    return given
+
+
 def whole(field: str, given: object, low: int, high: int) -> int:
     """Return a whole number within bounds; raise `StudyError`."""
     if isinstance(given, bool) or not isinstance(given, int) or not low <= given <= high:

@@ -120,4 +120,6 @@ def _difference(before: Study, now: Study) -> str:
         return "the sample"
     if before.scene != now.scene:
         return "the stations"
+    if before.has_comfort_margin != now.has_comfort_margin:
+        return "`comfort_margin`"
     return "a garment's drawing, or a placement"

@@ -5,7 +5,7 @@ import json
 import math
 import random
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.studies.axis import Axis, Value
@@ -44,6 +44,7 @@ class Study:
         has_stations: whether the scene's stations are the study's own; otherwise they keep their distance to the table.
         placements: the poses that the axis ``placement`` counts.
         sample: the sample; None for all cells.
+        has_comfort_margin: whether the answers tell the comfort margin, which takes further plans.
     """
 
     title: str
@@ -53,6 +54,7 @@ class Study:
     has_stations: bool = False
     placements: tuple[Pose2, ...] = ()
     sample: Sample | None = None
+    has_comfort_margin: bool = False
 
     @property
     def all_axes(self) -> tuple[Axis, ...]:
@@ -85,7 +87,8 @@ class Study:
         values: dict[str, Value] = {
             axis.name: axis.values[digit] for axis, digit in zip(self.axes, digits[1:], strict=True)
         }
-        return cell_of(index, self.garments[digits[0]], values, self.scene, self.placements, self.has_stations)
+        made = cell_of(index, self.garments[digits[0]], values, self.scene, self.placements, self.has_stations)
+        return replace(made, has_comfort_margin=self.has_comfort_margin)
 
     def digits(self, index: int) -> tuple[int, ...]:
         """Return which value of each axis a cell has, the garments' first."""
@@ -96,7 +99,8 @@ class Study:
         return (index, *reversed(digits))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as JSON, all files that it names read in."""
+        """Return the study as JSON, all files that it names read in; later options only where they are used."""
+        options = {"has_comfort_margin": True} if self.has_comfort_margin else {}
         return {
             "pleat_study": VERSION,
             "title": self.title,
@@ -106,6 +110,7 @@ class Study:
             "has_stations": self.has_stations,
             "placements": [pose.to_dict() for pose in self.placements],
             "sample": None if self.sample is None else {"cells": self.sample.cells, "seed": self.sample.seed},
+            **options,
         }
 
     @staticmethod
@@ -119,6 +124,7 @@ class Study:
             data["has_stations"],
             tuple(Pose2(**pose) for pose in data["placements"]),
             None if data["sample"] is None else Sample(**data["sample"]),
+            data.get("has_comfort_margin", False),
         )
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
-from app.studies.fields import require_known, table, text, whole
+from app.studies.fields import require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.study import Sample, Study
 from app.studies.study_error import StudyError
@@ -33,7 +33,7 @@ WORK_LIMIT_S = 10.0
 
 _FIELDS = (
     "title", "garments", "robots", "card", "start_stations", "table", "scene", "placements", "limits", "cells_max",
-    "sample",
+    "sample", "comfort_margin",
 )  # fmt: skip
 _STATIONS = "stations"
 _POSE = tuple(field.name for field in fields(Pose2))
@@ -105,6 +105,7 @@ def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CE
         _STATIONS in content.get("scene", {}),
         poses,
         _sample(content),
+        truth("comfort_margin", content.get("comfort_margin", False)),
     )
     most = whole("cells_max", content.get("cells_max", min(CELLS_MAX, cells_limit)), 1, cells_limit)
     if study.count > most:

@@ -7,7 +7,7 @@ from typing import Any
 import pyarrow as pa
 from pyarrow import parquet
 
-from app.studies.answer import RESULT_COLUMNS, TIMING_COLUMNS
+from app.studies.answer import COMFORT_MARGIN, RESULT_COLUMNS, TIMING_COLUMNS
 from app.studies.results import Results
 from app.studies.study import GARMENT, Study
 
@@ -24,7 +24,8 @@ def columns_of(study: Study) -> dict[str, type]:
     """Return the table's columns and their types, in order."""
     measures = {f"{_MEASURE}{name}": float for case in study.garments for name in case.measures}
     axes = {axis.name: type(axis.values[0]) for axis in study.axes}
-    return {"cell": int, GARMENT: str, _SEED: int, **measures, **axes, **RESULT_COLUMNS}
+    searched = {COMFORT_MARGIN: float} if study.has_comfort_margin else {}
+    return {"cell": int, GARMENT: str, _SEED: int, **measures, **axes, **RESULT_COLUMNS, **searched}
 
 
 def table_rows(study: Study, results: Results) -> Iterator[dict[str, Any]]:

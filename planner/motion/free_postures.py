@@ -23,7 +23,7 @@ The lower finger of a hand that points down less steeply would be pushed into th
 _LOOKED_AT = 5
 """The moments at which the arms' postures are tested together before a path is searched."""
 
-_PLACES_KEPT = 8192
+_PLACES_KEPT = 4096
 """Size of the caches of tool poses, some 2 kB each."""
 
 _Pose: TypeAlias = tuple[bytes, bytes, bytes]

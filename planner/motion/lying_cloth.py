@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -23,9 +23,15 @@ NEAR_GRIP_M = 0.07
 """The way from its grip within which a hand may be lower (m): 8 cm, less one step of at most 1 cm."""
 
 
-@dataclass(frozen=True)
+_CLEARANCES_KEPT = 64
+"""Size of the cache of clearances, some 45 kB each; a plan has about ten, each made in half a millisecond."""
+
+
+@dataclass(frozen=True, slots=True)
 class LyingCloth:
     """Cloth that lies on the table.
+
+    It is light, since caches hold it by the hundred: what arms are compared with is kept elsewhere, for a while.
 
     Attributes:
         key: identifies the cloth and its place.
@@ -46,11 +52,22 @@ class LyingCloth:
             joints: the arm's joints (rad), a row each.
             is_certain: whether only those count that certainly are, which is quicker to tell.
         """
-        return self._clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
+        clearance = _clearance(_Above(self.key, self._collisions, self._pieces))
+        return clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
 
-    @cached_property
-    def _clearance(self) -> Clearance:
-        return self._collisions.over_cloth(self._pieces, OVER_CLOTH_M)
+
+@dataclass(frozen=True, slots=True)
+class _Above:
+    """The space above cloth; the same cloth on another table or beside another robot is another one."""
+
+    key: bytes
+    collisions: Collisions
+    pieces: tuple[FloatArray, ...] = field(compare=False)
+
+
+@lru_cache(_CLEARANCES_KEPT)
+def _clearance(above: _Above) -> Clearance:
+    return above.collisions.over_cloth(above.pieces, OVER_CLOTH_M)
 
 
 class LyingCloths:

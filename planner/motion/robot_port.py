@@ -125,8 +125,11 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         """The robot's description."""
         ...
 
-    def reach(self, torso_m: float, comfort_m: float) -> Reach:
-        """Return the reach with the lift at a height, for a comfort radius (m)."""
+    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> Reach:
+        """Return the reach with the lift at a height, for a comfort radius (m).
+
+        Where it is passing, for a few queries only, it takes no memory from earlier plans and leaves none.
+        """
         ...
 
     def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:

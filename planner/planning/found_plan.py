@@ -24,12 +24,13 @@ class FoundPlan:
 
     Attributes:
         plan: the plan, which is data alone.
-        problem: the task, ready for planning.
+        context: the planning context, with the obstacles met. The problem's transfer planner, which has some megabytes
+            of joint paths, ends with the search.
         acts: the steps, grouped into acts with their transfers.
     """
 
     plan: Plan
-    problem: Problem
+    context: Context
     acts: tuple[Act, ...]
 
     @staticmethod
@@ -48,7 +49,7 @@ class FoundPlan:
         if plan.cost_s is not None:
             path = trajectory(problem.context, problem.robot.card, problem.maker, acts, plan.cost_s)
             plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
-        return FoundPlan(plan, problem, acts)
+        return FoundPlan(plan, problem.context, acts)
 
     def or_quicker(self, other: "FoundPlan") -> "FoundPlan":
         """Return the quicker of this plan and another for the same task; its bound is one that neither beats."""
@@ -63,7 +64,7 @@ class FoundPlan:
     def told_again(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
         """Return this plan as the answer to a task with other limits, with new statistics."""
         plan = replace(self.plan, task=task, statistics=statistics, is_exhaustive=is_exhaustive)
-        return FoundPlan(plan, self.problem, self.acts)
+        return FoundPlan(plan, self.context, self.acts)
 
 
 def _rank(found: FoundPlan) -> tuple[bool, float, bool]:

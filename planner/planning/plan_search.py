@@ -72,11 +72,13 @@ class PlanSearch(PathSearch):
         self._greedy_at_s = GREEDY_AFTER_S
         self._tried_s = 0.0
         self._has_tried_less = False
+        self._tightened: list[Problem] = []
 
     def plan(self) -> FoundPlan:
         """Return the quickest plan, or none with the reasons for it if there is an explainer."""
         found = self._plan()
-        self._context.forget()
+        for problem in (self._problem, *self._tightened):  # a plan's steps keep their contexts
+            problem.context.forget()
         return found
 
     def _plan(self) -> FoundPlan:
@@ -137,6 +139,7 @@ class PlanSearch(PathSearch):
         """
         if work_s <= 0.0 or not self._is_in_doubt:
             return 0.0
+        self._tightened.append(problem)
         budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
         search = PathSearch(problem, self._heuristic, budget, self._max_expanded, self._known)
         begun_s = budget.spent_s

@@ -28,14 +28,14 @@ class CardRobot(ArmedRobot):
         self._mapping = threading.Lock()
         self._mapped: tuple[MappedArm, ...] | None = None
 
-    def reach(self, torso_m: float, comfort_m: float) -> MappedReach:
-        """Return the reach with the lift raised by `torso_m`, for a comfort radius (m).
+    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> MappedReach:
+        """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
         Raises:
             SceneError: the lift does not go there.
             RequestError: the radius is negative or no number.
         """
-        memories = self._memories_of(torso_m, comfort_m)
+        memories = None if is_passing else self._memories_of(torso_m, comfort_m)
         names = tuple(arm.name for arm in self._card.arms)
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))

@@ -30,14 +30,14 @@ class Pr2(ArmedRobot):
         shape = read_arm(self._model)
         return SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True)
 
-    def reach(self, torso_m: float, comfort_m: float) -> Pr2Reach:
-        """Return the reach with the torso raised by `torso_m`, for a comfort radius (m).
+    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> Pr2Reach:
+        """Return the reach with the torso raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
         Raises:
             SceneError: the torso does not go there.
             RequestError: the radius is negative or no number.
         """
-        memories = self._memories_of(torso_m, comfort_m)
+        memories = None if is_passing else self._memories_of(torso_m, comfort_m)
         names = tuple(arm.name for arm in self._card.arms)
         return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)), memories)
 

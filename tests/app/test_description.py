@@ -78,6 +78,21 @@ async def test_every_body_in_json_is_described_with_its_fields_and_an_example(cl
             ), (method, path)
 
 
+async def test_every_error_is_described_as_a_problem(client: httpx.AsyncClient) -> None:
+    description = (await client.get("/openapi.json")).json()
+    kinds = {
+        (method, path, status): set(told.get("content", {}))
+        for path, operations in description["paths"].items()
+        for method, operation in operations.items()
+        for status, told in operation["responses"].items()
+        if status >= "400"
+    }
+    assert len(kinds) > 100
+    others = {of: found for of, found in kinds.items() if found != {"application/problem+json"}}
+    assert not others
+    assert "HTTPValidationError" not in description["components"]["schemas"]
+
+
 async def test_the_list_of_documents_is_described_with_the_problem_of_a_bad_query(client: httpx.AsyncClient) -> None:
     refused = await client.get("/api/documents", params={"limit": 0})
     described = (await client.get("/openapi.json")).json()["paths"]["/api/documents"]["get"]["responses"]["422"]

@@ -121,4 +121,4 @@ def _answer(name: str) -> FoundPlan:
 
 def _met(name: str) -> Context:
     """Return a problem with all reasons that were met before it was known to have no plan."""
-    return _answer(name).problem.context
+    return _answer(name).context

@@ -183,7 +183,7 @@ def _moved_station(cloth, reason: Reason, by_m: float):
 
 def test_a_reason_is_told_with_what_is_known_once_nobody_waits_any_more():
     """No move that would help is looked for then."""
-    context = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).problem.context
+    context = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).context
     shifts = []
     for is_over in (True, False):
         context.patience.is_over = lambda is_over=is_over: is_over

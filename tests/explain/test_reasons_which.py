@@ -69,7 +69,7 @@ def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first():
 def test_what_does_not_stand_alone_in_the_way_is_no_reason():
     # Dragged by 0.3 m the hammer's line is beside the table; but then its head would be loose too, or it would slip.
     answer = met(hammer(), HAMMER_SCENE)
-    assert set(answer.problem.context.obstacles.codes(0)) >= {Code.NOT_A_G_STATE, Code.SLIPS, Code.LINE_OFF_TABLE}
+    assert set(answer.context.obstacles.codes(0)) >= {Code.NOT_A_G_STATE, Code.SLIPS, Code.LINE_OFF_TABLE}
     assert [r.code for r in answer.plan.reasons if r.code is not Code.COLLISION] == [Code.NOT_A_G_STATE, Code.SLIPS]
 
 
@@ -105,7 +105,7 @@ def test_a_fold_that_waits_is_possible_once_the_other_is():
 
 def test_only_what_depends_on_a_blocked_fold_waits():
     # Of the T-shirt's folds 0 -> 2 -> 4 <- 3 <- 1 the left side and the last wait for the left sleeve.
-    context = found_plan(load_garment("t-shirt"), max_expanded=1).problem.context
+    context = found_plan(load_garment("t-shirt"), max_expanded=1).context
     found = reasons(context, (), [0])
     assert [(r.fold, r.code) for r in found if r.fold != 0] == [(2, Code.WAITS_FOR_FOLD), (4, Code.WAITS_FOR_FOLD)]
 
@@ -123,7 +123,7 @@ def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch):
 
 
 def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach():
-    context = met(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).problem.context
+    context = met(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).context
     context.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, None, 1.0, START))
     found = reasons(context, {situation(START)}, ())
     assert [r.code for r in found] == [Code.OUT_OF_REACH]
@@ -132,7 +132,7 @@ def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_r
 def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
     # Neither of two flaps waits for the other, and each was done, but never both.
     flaps = fold((0.1, 0.0), (0.1, 0.3), name="left"), fold((0.3, 0.3), (0.3, 0.0), name="right")
-    context = found_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).problem.context
+    context = found_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).context
     after = [State(done, (0.0, 0.0), 0, 0) for done in (0b01, 0b10)]
     for state, other in zip(after, (1, 0), strict=True):
         context.obstacles.note(Obstacle(other, Code.SLIPS, worded("slips", SLIPPING), 0.1, state))

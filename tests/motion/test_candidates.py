@@ -11,6 +11,7 @@ from planner.geometry.table import Table
 from planner.motion.moments import moments_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
+from planner.planning.problem import Problem
 from planner.robots.pr2 import Pr2
 from tests.replay.planned import planned
 
@@ -19,7 +20,7 @@ from tests.replay.planned import planned
 def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
     found = planned(name).found
     for act in (act for act in found.acts if act.transfer is not None):
-        whole = found.problem.maker.candidate(act.steps).moments
+        whole = Problem.of(found.plan.task).maker.candidate(act.steps).moments
         phases = [phase for step in act.steps for phase in step.extremes()]
         ends = moments_of(phases, found.plan.scene.table.height_m)
         for moment in (0, -1):
@@ -31,7 +32,7 @@ def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
 def test_what_was_made_real_is_a_candidate():
     found = planned("t-shirt").found
     transfers = [act.steps for act in found.acts if act.transfer is not None]
-    assert [candidate.steps for candidate in found.problem.maker.candidates(transfers)] == transfers
+    assert [candidate.steps for candidate in Problem.of(found.plan.task).maker.candidates(transfers)] == transfers
 
 
 class UnderCeiling(Pr2):
@@ -57,7 +58,7 @@ def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
     # The skirt's last fold lifts its cloth higher than that on its way; it begins and ends on the table.
     found = planned("skirt").found
     steps = found.acts[-1].steps
-    maker = TransferPlanner(found.problem.context, UnderCeiling(0.2))
+    maker = TransferPlanner(found.context, UnderCeiling(0.2))
     assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
     assert maker.validated(steps, replace(QUICK, ways=1)) is None
     assert list(maker.candidates([steps])) == []

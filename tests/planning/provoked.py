@@ -94,7 +94,7 @@ def is_gone(reason: Reason, answer: Plan) -> bool:
 def is_in_reach(answer: FoundPlan, number: int) -> bool:
     """Return whether a fold is possible at the start for arms without obstacles."""
     state = State(0, (0.0, 0.0), 0, 0)
-    return any(step.after.done >> number & 1 for step in GFold(answer.problem.context).successors(state))
+    return any(step.after.done >> number & 1 for step in GFold(answer.context).successors(state))
 
 
 def hammer() -> Garment:

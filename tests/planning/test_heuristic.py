@@ -31,7 +31,7 @@ def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dr
 @pytest.mark.parametrize("name", NINE)
 def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
     case = planned(name)
-    problem: Context = case.found.problem.context
+    problem: Context = case.found.context
     kinds = [GFold(problem), GDrag(problem), BaseMove(problem)]
     bound, goal = arm_time(problem), (1 << len(problem.sequence.folds)) - 1
     start = State(0, (0.0, 0.0), 0, 0)

@@ -20,6 +20,7 @@ from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
 from planner.planning import motion_validator as validator
 from planner.planning import path_search, plan_search, problem
+from planner.planning.problem import Problem
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -110,7 +111,7 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     found = found_plan(napkin(*folds), scene(arm_motion_s, back_off_max_m), time_limit_s=60.0)
     plan, seeming_s = found.plan, sum(step.duration_s for act in found.acts for step in act.steps)
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
-    assert plan.cost_s == pytest.approx(Eager(found.problem.context).cost_s(found.problem.start), abs=1e-6)
+    assert plan.cost_s == pytest.approx(Eager(found.context).cost_s(found.context.start), abs=1e-6)
 
 
 IsBarred = Callable[[int, Pose2], bool]
@@ -250,7 +251,8 @@ def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_i
 
 def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch):
     found = found_plan(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
-    maker, start, (step,) = found.problem.maker, found.problem.start, found.acts[0].steps
+    problem, (step,) = Problem.of(found.plan.task), found.acts[0].steps
+    maker, start = problem.maker, problem.start
     made = maker.made
     monkeypatch.setattr(maker, "made", lambda one: None if one.steps[-1].motion == step.motion else made(one))
     seen = validator.MotionValidator(maker, lambda: False, replace(QUICK, ways=1))

@@ -66,7 +66,7 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
 
 def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
     found = found_plan(load_garment("hand-towel"))
-    offsets = drag_offsets(found.problem.context, OFFSETS_MAX)
+    offsets = drag_offsets(found.context, OFFSETS_MAX)
     half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2
     placement = found.plan.garment.placement
     assert (offsets[0] == 0.0).all()

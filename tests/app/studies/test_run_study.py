@@ -64,6 +64,33 @@ def test_the_table_has_a_row_for_each_cell_in_order(tmp_path: Path):
         assert [line["status"] for line in csv.DictReader(text)] == [row["status"] for row in table]
 
 
+def test_a_row_tells_what_the_plan_has_to_spare(tmp_path: Path):
+    # The upper table is out of reach. Margins of a plan for a radius of 2 cm are at least that.
+    changes = {"table": {"height_m": [0.7, 1.9]}, "limits": {"work_limit_s": 1.0, "comfort_radius_m": 0.02}}
+    run(study(**changes), tmp_path / "read", InProcess())
+    solved, refused = rows(tmp_path / "read")
+    assert (solved["status"], refused["status"]) == ("solved", "infeasible")
+    assert 0.019 <= solved["reach_margin_m"] <= 0.1
+    assert solved["friction_margin"] == 1.0 and solved["edge_margin_m"] > 0.0
+    names = ("reach_margin_m", "reach_margin_step", "grips_margin_m", "friction_margin", "edge_margin_m")
+    assert [refused[name] for name in names] == [None] * 5
+    assert "comfort_margin_m" not in solved
+
+
+def test_the_margin_that_takes_further_plans_is_there_where_it_is_asked_for(tmp_path: Path):
+    changes = {"table": {"height_m": [0.7, 1.9]}, "limits": {"work_limit_s": 1.0, "comfort_radius_m": 0.02}}
+    asked = study(**changes, comfort_margin=True)
+    assert Study.from_dict(asked.to_dict()) == asked and asked.digest != study(**changes).digest
+    run(asked, tmp_path, InProcess())
+    solved, refused = rows(tmp_path)
+    assert solved["comfort_margin_m"] >= 0.02 and refused["comfort_margin_m"] is None
+    tighter = {"work_limit_s": 1.0, "comfort_radius_m": solved["comfort_margin_m"]}
+    run(study(table={"height_m": [0.7]}, limits=tighter), tmp_path / "again", InProcess())
+    assert rows(tmp_path / "again")[0]["status"] == "solved"
+    with pytest.raises(StudyFolderError, match="comfort_margin"):
+        run(study(**changes), tmp_path)
+
+
 def test_times_are_in_a_file_of_their_own(tmp_path: Path):
     run(study(), tmp_path)
     with (tmp_path / TIMING).open() as text:

@@ -216,6 +216,7 @@ def test_a_study_reads_back_from_its_json():
         ({"card": {"title": "x"}}, "card.title", "'x'"),
         ({"sample": {"cells": 0}}, "sample.cells", "0"),
         ({"cells_max": 3}, "cells_max", "4 cells (4 table.height_m)"),
+        ({"comfort_margin": 1}, "comfort_margin", "neither true nor false"),
     ],
 )
 def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], field: str, told: str):
